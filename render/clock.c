@@ -2,7 +2,17 @@
 /* The wall clock, for pacing and for durations. */
 #include "render/clock.h"
 
+#include <stdbool.h>
 #include <time.h>
+
+static bool held;
+static double held_at; /* seconds */
+
+void gm_clock_hold(double seconds)
+{
+    held = true;
+    held_at = seconds;
+}
 
 static double seconds_of(clockid_t clock)
 {
@@ -13,7 +23,7 @@ static double seconds_of(clockid_t clock)
 
 double gm_clock_seconds(void)
 {
-    return seconds_of(CLOCK_MONOTONIC);
+    return held ? held_at : seconds_of(CLOCK_MONOTONIC);
 }
 
 double gm_clock_processor_seconds(void)
@@ -23,7 +33,5 @@ double gm_clock_processor_seconds(void)
 
 int64_t gm_clock_milliseconds(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+    return (int64_t)(1000 * gm_clock_seconds());
 }

@@ -12,4 +12,7 @@ int64_t gm_clock_milliseconds(void);
 /* The CPU time of the calling thread, in seconds. */
 double gm_clock_processor_seconds(void);
 
+/* Stops the wall clock at a time in seconds, to which each further call moves it: a script has its own time. */
+void gm_clock_hold(double seconds);
+
 #endif

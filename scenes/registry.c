@@ -7,6 +7,7 @@
 #include "core/files/files.h"
 #include "core/model/equations.h"
 #include "scenes/common/scene.h"
+#include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
 #include "scenes/ode/system.h"
 
@@ -57,7 +58,8 @@ static const struct gm_scene *open_system(const char *name)
         gm_system_close(&system);
         return NULL;
     }
-    return gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
+    return gm_system_is_field(&system) ? gm_user_field_open(&system, name, NULL, false, &fault, sentence)
+                                       : gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
 }
 
 static struct {

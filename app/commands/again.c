@@ -44,11 +44,6 @@ _Noreturn static void refuse(const struct gm_options *options, const char *why)
     gm_command_end(options, GM_EXIT_FILE, "%s cannot be made again: %s", options->arguments.words[0], why);
 }
 
-static void close_lane(void *lane)
-{
-    gm_lane_close(lane);
-}
-
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static const struct gm_lane *const *drive(const struct gm_options *options, const struct gm_request *request,
                                           const char *steps)
@@ -66,7 +61,7 @@ static const struct gm_lane *const *drive(const struct gm_options *options, cons
         if (!lane) {
             refuse(options, message);
         }
-        lanes[i] = gm_arena_keep(options->arena, lane, close_lane);
+        lanes[i] = gm_lane_in(options->arena, lane, message);
         struct gm_drive one = {.lane = lane, .request = request, .index = i};
         if (!gm_drive_to(&one, step, true, message)) {
             refuse(options, message);
@@ -115,11 +110,20 @@ static const char *output_name(const struct gm_options *options, const char *end
     return gm_arena_print(options->arena, "%.*s-again%s", length, base, end);
 }
 
-/* The command that measures a chart; NULL if there is none of that name. */
+/* The path of the new picture. */
+static const char *print_path(const struct gm_options *options)
+{
+    const char *end = gm_arena_print(options->arena, ".%s", gm_format_name(options->format));
+    return options->output ? options->output
+                           : gm_arena_print(options->arena, "%s/%s", options->out ? options->out : ".",
+                                            output_name(options, end));
+}
+
+/* The command that measures a chart or draws the explorer; NULL if there is none of that name. */
 static const struct gm_command_row *chart_of(const char *name)
 {
     const struct gm_command_row *command = gm_command_find(name);
-    return command && command->bit & GM_CHARTS ? command : NULL;
+    return command && command->bit & (GM_CHARTS | GM_TUI | GM_TOUR) ? command : NULL;
 }
 
 /* Repeats a chart's measurement: its run times are new. */
@@ -137,6 +141,7 @@ static int chart_again(const struct gm_options *options, const char *command)
         again->output = options->output;
         again->format = options->format;
         again->name = output_name(options, "");
+        again->terminal.shot = chart->bit & GM_CHARTS ? NULL : print_path(options);
         again->arena = options->arena;
         again->end = options->end;
         return chart->function(again);
@@ -179,15 +184,6 @@ static bool take_look(struct gm_appearance *look, char *const *texts)
     }
     return take_number(texts[SCALE], GM_LEAST_SCALE, GM_MOST_SCALE, &look->scale) &&
            take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
-}
-
-/* The path of the new picture. */
-static const char *print_path(const struct gm_options *options)
-{
-    const char *end = gm_arena_print(options->arena, ".%s", gm_format_name(options->format));
-    return options->output ? options->output
-                           : gm_arena_print(options->arena, "%s/%s", options->out ? options->out : ".",
-                                            output_name(options, end));
 }
 
 /* Reports schemes that were given by names of earlier versions. */

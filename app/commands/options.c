@@ -30,7 +30,8 @@ enum kind {
     SIZE,
     THEME,
     SHARD,
-    ENGINE
+    ENGINE,
+    WORD
 };
 
 #define AT(member) offsetof(struct gm_options, member)
@@ -80,9 +81,17 @@ const struct gm_option gm_option_rows[] = {
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST",
      "LANE:STEP:KEY=VALUE,...: changes during the run (key y)"},
+    {"--window", WORD, GM_RUN | GM_RENDER | GM_TUI, 0, "XMIN,XMAX,YMIN,YMAX",
+     "the plane that is shown, and searched by portrait=yes"},
     {"--graphics", TEXT, EXPLORES, AT(terminal.graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, EXPLORES, AT(terminal.colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--shot", TEXT, GM_TUI | GM_TOUR, AT(terminal.shot), "FILE",
+     "draw the screen into FILE, without a terminal: .txt, .svg or .png"},
+    {"--screen", TEXT, GM_TUI | GM_TOUR, AT(terminal.screen), "COLUMNSxROWS",
+     "size of the screen of --shot, 20x6 to 400x120 (80x24)"},
+    {"--keys", TEXT, GM_TUI | GM_TOUR, AT(terminal.keys), "'WORD ...'",
+     "keys before --shot: 2s lets 2 s pass, ENTER, ESC, UP ..., or text to type"},
     {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
@@ -239,6 +248,16 @@ static bool settle_format(struct gm_options *options, char *message)
                      options->painter);
 }
 
+/* Adds the option as a word of the scene: window=... */
+static bool add_word(struct gm_options *options, const struct gm_option *row, const char *value,
+                     char *message)
+{
+    char *word = gm_text("%s=%s", row->name + strlen("--"), value);
+    const bool good = word && gm_arguments_add(&options->arguments, word);
+    free(word);
+    return good || gm_refuse(message, "not enough memory");
+}
+
 static bool store(struct gm_options *options, const struct gm_option *row, const char *value, char *message)
 {
     char *place = (char *)options + row->offset;
@@ -280,6 +299,8 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
     case MOVIE:
         wrong = gm_sink_is_movie(value) ? NULL : "is no .mp4, .webm or .gif file";
         break;
+    case WORD:
+        return add_word(options, row, value, message);
     case TEXT:
         break;
     }
@@ -395,6 +416,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
                  {"--output", options->output},
                  {"--movie", options->movie},
                  {"--polish", options->polish},
+                 {"--shot", options->terminal.shot},
                  {"--checkpoint", options->checkpoint}};
     enum { FILES = GM_COUNT(files), CHECKPOINT = FILES - 1 };
     for (size_t i = 0; i < FILES; i++) {

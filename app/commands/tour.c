@@ -3,6 +3,7 @@
    geomint terminal, which reports the terminal's abilities. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/base/files.h"
@@ -12,6 +13,8 @@
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/tours/tour.h"
+#include "core/arena.h"
+#include "core/basics.h"
 #include "core/expression/number.h"
 
 int gm_list_tours(const struct gm_options *options)
@@ -22,9 +25,8 @@ int gm_list_tours(const struct gm_options *options)
     for (size_t i = 0; i < count; i++) {
         if (options->json) {
             struct gm_row row = gm_row_begin(stdout);
-            gm_row_text(&row, "tour", tours[i].name);
-            gm_row_text(&row, "title", tours[i].title);
-            gm_row_text(&row, "about", tours[i].about ? tours[i].about : "");
+            gm_row_put(&row, "tour %s, title %s, about %s", tours[i].name, tours[i].title,
+                       tours[i].about ? tours[i].about : "");
             printf(",\"steps\":%zu}\n", tours[i].count);
             continue;
         }
@@ -81,6 +83,29 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
     return gm_finish(gm_tour_render(tour, &output));
 }
 
+/* Opens the explorer, or draws it into a file together with the command that repeats it. */
+static int explore(const struct gm_options *options, const char *command, const struct gm_request *request,
+                   const struct gm_tour *tour)
+{
+    struct gm_overrides terminal = options->terminal;
+    struct gm_arguments *words = gm_arguments_in(options->arena);
+    const char *const more[][2] = {{"--keys", terminal.keys}, {"--graphics", terminal.graphics}};
+    if (!terminal.shot) {
+        return terminal.keys || terminal.screen
+                   ? gm_give_up(GM_EXIT_USAGE, "--keys and --screen need --shot FILE")
+                   : gm_explorer(request, tour, &terminal);
+    }
+    for (int i = 0; i < options->arguments.count; i++) {
+        gm_arena_need(options->arena, gm_arguments_add(words, options->arguments.words[i]));
+    }
+    for (size_t i = 0; i < GM_COUNT(more); i++) {
+        gm_arena_need(options->arena, !more[i][1] || (gm_arguments_add(words, more[i][0]) &&
+                                                      gm_arguments_add(words, more[i][1])));
+    }
+    terminal.words = gm_arena_keep(options->arena, gm_arguments_join(command, words), free);
+    return gm_explorer(request, tour, &terminal);
+}
+
 int gm_command_tour(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
@@ -107,7 +132,7 @@ int gm_command_tour(const struct gm_options *options)
     } else if (options->movie || options->out) {
         status = make_movie(&tour, options);
     } else {
-        status = gm_explorer(NULL, &tour, &options->terminal);
+        status = explore(options, "tour", NULL, &tour);
     }
     gm_tour_close(&tour);
     return status;
@@ -126,5 +151,5 @@ int gm_command_tui(const struct gm_options *options)
     const struct gm_arguments *words = &options->arguments;
     const struct gm_request *request =
         words->count > 0 ? gm_command_parse(options, words->count, words->words, GM_RENDER_SCHEMES) : NULL;
-    return gm_explorer(request, NULL, &options->terminal);
+    return explore(options, "tui", request, NULL);
 }

@@ -53,18 +53,19 @@ static size_t bytes_of(const struct gm_saved *lane, size_t column)
     return (column > 0 ? lane->sizes[column - 1] : 1) * sizeof(double);
 }
 
-static size_t shape_of(const struct gm_saved *lane, size_t column, uint64_t rows, uint64_t shape[GM_NPZ_AXES])
+static struct gm_npz_shape shape_of(const struct gm_saved *lane, size_t column, uint64_t rows)
 {
-    size_t lengths[GM_QUANTITY_AXES], axes = 0;
+    const struct gm_quantity *quantity = column > 0 ? &lane->quantities[column - 1] : NULL;
+    struct gm_npz_shape shape = {.type = quantity && quantity->whole ? GM_NPZ_WHOLE : GM_NPZ_REAL};
+    size_t lengths[GM_QUANTITY_AXES];
     if (!is_fixed(lane, column)) {
-        shape[axes++] = rows;
+        shape.lengths[shape.axes++] = rows;
     }
-    const size_t own =
-        column > 0 ? gm_quantity_shape(&lane->quantities[column - 1], lane->members, lengths) : 0;
+    const size_t own = quantity ? gm_quantity_shape(quantity, lane->members, lengths) : 0;
     for (size_t i = 0; i < own; i++) {
-        shape[axes++] = lengths[i];
+        shape.lengths[shape.axes++] = lengths[i];
     }
-    return axes;
+    return shape;
 }
 
 static void name_of(const struct gm_saving *saving, const struct gm_saved *lane, const char *name,
@@ -84,13 +85,10 @@ static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_sa
     struct gm_npz *npz = gm_npz_open(file);
     bool good = npz != NULL;
     for (size_t i = 0; i <= lane->count && good; i++) {
-        const struct gm_quantity *quantity = i > 0 ? &lane->quantities[i - 1] : NULL;
         char name[80];
-        uint64_t shape[GM_NPZ_AXES];
-        const size_t axes = shape_of(lane, i, capacity, shape);
-        name_of(saving, lane, quantity ? quantity->name : "t", name);
-        good = gm_npz_reserve(npz, name, quantity && quantity->whole ? GM_NPZ_WHOLE : GM_NPZ_REAL, shape,
-                              axes, &starts[i], &crcs[i]);
+        const struct gm_npz_shape shape = shape_of(lane, i, capacity);
+        name_of(saving, lane, i > 0 ? lane->quantities[i - 1].name : "t", name);
+        good = gm_npz_reserve(npz, name, &shape, &starts[i], &crcs[i]);
     }
     if (!good) {
         gm_npz_close(npz);

@@ -19,25 +19,31 @@
 
 struct gm_npz;
 
-enum gm_npz_type { GM_NPZ_REAL, GM_NPZ_WHOLE /* 64 bits */ };
+enum gm_npz_type { GM_NPZ_REAL, GM_NPZ_WHOLE /* 64 bits */, GM_NPZ_LETTER /* gm_npz_text */ };
 
 enum { GM_NPZ_AXES = 4 };
+
+/* The numbers of an array: their type, and its length along each axis. */
+struct gm_npz_shape {
+    enum gm_npz_type type;
+    size_t axes;
+    uint64_t lengths[GM_NPZ_AXES];
+};
 
 /* Begins an archive at the start of `file`, which the caller closes. Returns NULL when out of memory. */
 struct gm_npz *gm_npz_open(int file);
 void gm_npz_close(struct gm_npz *npz);
 
 /* The array NAME.npy with this shape. */
-bool gm_npz_array(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
-                  size_t axes, const void *values);
+bool gm_npz_array(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, const void *values);
 
 /* A text, as an array without axes. */
 bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text);
 
 /* Reserves an array whose numbers the caller writes from offset *place on. *crc: the checksum (CRC-32) of
    the bytes before them. Writes nothing. */
-bool gm_npz_reserve(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
-                    size_t axes, uint64_t *place, uint32_t *crc);
+bool gm_npz_reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, uint64_t *place,
+                    uint32_t *crc);
 /* Writes the head of array `index`, in the order of the archive; crc: the checksum including the numbers. */
 bool gm_npz_settle(struct gm_npz *npz, size_t index, uint32_t crc);
 /* The same for an array with only its first `length` entries along its first axis; the rest stays a gap
@@ -132,7 +138,7 @@ struct gm_data_format {
                  const double *rows, size_t count);
     /* Sets lane->rows to the number of whole rows, after a failed write and a flush of all columns. */
     void (*cut)(const struct gm_saving *saving, struct gm_saved *lane);
-    /* Ends the lane, which has its meta; all columns have been flushed. */
+    /* Ends the lane, which has its meta; all columns have been flushed. NULL: the first column is all of it. */
     bool (*end)(const struct gm_saving *saving, struct gm_saved *lane);
     /* Makes the file of the lanes, also from time to time during the run. NULL: the file is the lanes' files
        one after the other, and then the text of `finish`, if there is one, for the first `lanes`. */

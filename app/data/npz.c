@@ -14,15 +14,14 @@
 #include "app/base/arguments.h"
 #include "render/cells/text.h"
 
-enum { TYPE = 24, NPY_HEAD = 256 };
+enum { NPY_HEAD = 256 };
 
 struct entry {
     char *name;           /* the name with its ending */
     uint64_t place, size; /* offset of the header; size of head and numbers */
     uint32_t crc;
-    char type[TYPE];
-    size_t item, axes, head; /* bytes of a number, and of the head */
-    uint64_t shape[GM_NPZ_AXES];
+    struct gm_npz_shape shape; /* a text has its length, and no axes */
+    size_t head;               /* bytes of the head */
 };
 
 struct gm_npz {
@@ -189,13 +188,20 @@ static struct entry *add_entry(struct gm_npz *npz, char *name)
 static size_t head_of(const struct entry *entry, char head[NPY_HEAD], size_t least)
 {
     enum { FRONT = 10, ALIGNED = 64 };
-    char *dictionary = head + FRONT;
-    const size_t capacity = NPY_HEAD - FRONT, axes = entry->axes;
-    size_t used = (size_t)snprintf(dictionary, capacity, "{'descr': '%s', 'fortran_order': False, 'shape': (",
-                                   entry->type);
+    static const char *const types[] = {
+        [GM_NPZ_REAL] = "<f8", [GM_NPZ_WHOLE] = "<i8", [GM_NPZ_LETTER] = "<U"};
+    char *dictionary = head + FRONT, length[24] = "";
+    const struct gm_npz_shape *shape = &entry->shape;
+    const size_t capacity = NPY_HEAD - FRONT, axes = shape->axes;
+    if (shape->type == GM_NPZ_LETTER) {
+        snprintf(length, sizeof length, "%" PRIu64, shape->lengths[0]);
+    }
+    size_t used =
+        (size_t)snprintf(dictionary, capacity, "{'descr': '%s%s', 'fortran_order': False, 'shape': (",
+                         types[shape->type], length);
     for (size_t i = 0; i < axes; i++) {
         used += (size_t)snprintf(dictionary + used, capacity - used, "%s%" PRIu64 "%s", i ? " " : "",
-                                 entry->shape[i], i + 1 < axes || axes == 1 ? "," : "");
+                                 shape->lengths[i], i + 1 < axes || axes == 1 ? "," : "");
     }
     used += (size_t)snprintf(dictionary + used, capacity - used, "), }");
     size_t size = (FRONT + used + 1 + ALIGNED - 1) / ALIGNED * ALIGNED;
@@ -222,32 +228,29 @@ uint64_t gm_npz_length(int file)
 /* The bytes of an entry's numbers. */
 static uint64_t numbers_of(const struct entry *entry)
 {
-    uint64_t size = entry->item;
-    for (size_t i = 0; i < entry->axes; i++) {
-        size *= entry->shape[i];
+    const struct gm_npz_shape *shape = &entry->shape;
+    if (shape->type == GM_NPZ_LETTER) {
+        return shape->lengths[0] * sizeof(uint32_t);
+    }
+    uint64_t size = sizeof(double);
+    for (size_t i = 0; i < shape->axes; i++) {
+        size *= shape->lengths[i];
     }
     return size;
 }
 
 /* The next entry: its place, and the checksum of its head. */
-static struct entry *reserve(struct gm_npz *npz, const char *name, const char *type, size_t item,
-                             const uint64_t *shape, size_t axes)
+static struct entry *reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape)
 {
     char head[NPY_HEAD];
     struct entry *entry = add_entry(npz, gm_text("%s.npy", name));
-    if (!entry) {
-        return NULL;
+    if (entry) {
+        entry->shape = *shape;
+        entry->head = head_of(entry, head, 0);
+        entry->size = entry->head + numbers_of(entry);
+        entry->crc = libdeflate_crc32(0, head, entry->head);
+        npz->place = head_place(entry) + entry->size;
     }
-    snprintf(entry->type, sizeof entry->type, "%s", type);
-    entry->item = item;
-    entry->axes = axes;
-    for (size_t i = 0; i < axes; i++) {
-        entry->shape[i] = shape[i];
-    }
-    entry->head = head_of(entry, head, 0);
-    entry->size = entry->head + numbers_of(entry);
-    entry->crc = libdeflate_crc32(0, head, entry->head);
-    npz->place = head_place(entry) + entry->size;
     return entry;
 }
 
@@ -258,10 +261,9 @@ static bool settle(struct gm_npz *npz, const struct entry *entry)
     return note(npz, write_local(npz, entry) && gm_bytes_write(npz->file, head, size, head_place(entry)));
 }
 
-static bool write_array(struct gm_npz *npz, const char *name, const char *type, size_t item,
-                        const uint64_t *shape, size_t axes, const void *values)
+bool gm_npz_array(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, const void *values)
 {
-    struct entry *entry = reserve(npz, name, type, item, shape, axes);
+    struct entry *entry = reserve(npz, name, shape);
     if (!entry) {
         return false;
     }
@@ -271,39 +273,26 @@ static bool write_array(struct gm_npz *npz, const char *name, const char *type, 
            settle(npz, entry);
 }
 
-static const char *code_of(enum gm_npz_type type)
-{
-    return type == GM_NPZ_REAL ? "<f8" : "<i8";
-}
-
-bool gm_npz_array(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
-                  size_t axes, const void *values)
-{
-    return write_array(npz, name, code_of(type), 8, shape, axes, values);
-}
-
 bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text)
 {
-    char type[TYPE];
+    struct gm_npz_shape shape = {.type = GM_NPZ_LETTER};
     uint32_t *letters = malloc((strlen(text) + 1) * sizeof *letters);
     if (!letters) {
         errno = ENOMEM;
         return note(npz, false);
     }
-    size_t count = 0;
     while (*text) {
-        letters[count++] = gm_text_next(&text);
+        letters[shape.lengths[0]++] = gm_text_next(&text);
     }
-    snprintf(type, sizeof type, "<U%zu", count);
-    const bool good = write_array(npz, name, type, count * sizeof *letters, NULL, 0, letters);
+    const bool good = gm_npz_array(npz, name, &shape, letters);
     free(letters);
     return good;
 }
 
-bool gm_npz_reserve(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
-                    size_t axes, uint64_t *place, uint32_t *crc)
+bool gm_npz_reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, uint64_t *place,
+                    uint32_t *crc)
 {
-    const struct entry *entry = reserve(npz, name, code_of(type), 8, shape, axes);
+    const struct entry *entry = reserve(npz, name, shape);
     if (entry) {
         *place = head_place(entry) + entry->head;
         *crc = entry->crc;
@@ -321,7 +310,7 @@ bool gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
 {
     struct entry *entry = &npz->entries[index];
     char head[NPY_HEAD];
-    entry->shape[0] = length;
+    entry->shape.lengths[0] = length;
     entry->size = entry->head + numbers_of(entry);
     entry->crc = libdeflate_crc32(0, head, head_of(entry, head, entry->head));
     return note(npz, gm_bytes_copy(npz->file, head_place(entry) + entry->head, numbers_of(entry), -1, 0,

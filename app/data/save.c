@@ -143,12 +143,12 @@ static bool leave_out(struct gm_save *save, char *message)
     return complain(save, message);
 }
 
-bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
-                   uint64_t expected, size_t meta, char *message)
+bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
+                   const struct gm_save_size *size, char *message)
 {
     struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
     *lane = (struct gm_saved){
-        .index = index, .rows = rows, .members = run->problem->m, .file = -1, .meta_size = meta};
+        .index = index, .rows = size->rows, .members = run->problem->m, .file = -1, .meta_size = size->meta};
     lane->count = gm_quantities_beside_time(run, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
@@ -157,7 +157,7 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
     }
     lane->scratch = malloc(longest * sizeof *lane->scratch);
     errno = ENOMEM;
-    return (lane->scratch && save->format->begin(&save->saving, lane, run, expected)) ||
+    return (lane->scratch && save->format->begin(&save->saving, lane, run, size->expected)) ||
            leave_out(save, message);
 }
 
@@ -245,7 +245,8 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
         return give_up(save, message);
     }
     lane->meta = strdup(meta);
-    if (!lane->meta || !save->format->end(&save->saving, lane)) {
+    lane->size = lane->columns[0].place;
+    if (!lane->meta || (save->format->end && !save->format->end(&save->saving, lane))) {
         return leave_out(save, message);
     }
     release(lane, false);

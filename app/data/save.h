@@ -26,12 +26,17 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
 /* The identity of the file's parts, unique and unchanged when they are resumed; 0: they cannot be resumed. */
 uint64_t gm_save_identity(const struct gm_save *save);
 
-/* Begins lane `index`, which already has `rows` rows; lanes come in their order, and may be left out.
-   expected: the expected number of rows, or 0; a wrong one only costs time. meta: the approximate bytes of
-   gm_save_end's text, which get room before the disk is full. Returns false with a sentence, as do the
+/* The size of a lane. */
+struct gm_save_size {
+    uint64_t rows;     /* rows that it already has */
+    uint64_t expected; /* the expected number of rows, or 0; a wrong one only costs time */
+    size_t meta;       /* approximate bytes of gm_save_end's text, which get room before the disk is full */
+};
+
+/* Begins lane `index`; lanes come in their order, and may be left out. Returns false with a sentence, as do the
    following functions. */
-bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
-                   uint64_t expected, size_t meta, char *message);
+bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
+                   const struct gm_save_size *size, char *message);
 /* Adds a row: the current state. */
 bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
 /* Returns true if the current lane takes many rows in one call of gm_save_rows: times and states, as

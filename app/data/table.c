@@ -77,12 +77,5 @@ static const char *refuse(const struct gm_run *one, const struct gm_run *other)
                 : "the lanes' states differ in their columns, which one table does not hold; .npz does";
 }
 
-static bool end(const struct gm_saving *saving, struct gm_saved *lane)
-{
-    (void)saving;
-    lane->size = lane->columns[0].place;
-    return true;
-}
-
 const struct gm_data_format gm_data_format_csv = {
-    .ending = ".csv", .begin = begin, .row = row, .cut = cut, .end = end, .refuse = refuse};
+    .ending = ".csv", .begin = begin, .row = row, .cut = cut, .refuse = refuse};

@@ -73,11 +73,12 @@ bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane 
     bool good = gm_npz_text(tracks->npz, name, meta);
     for (size_t i = 0; i < lane->scene->track_count && good; i++) {
         const struct gm_entries *entries = &lane->entries[i];
-        const uint64_t shape[] = {entries->count, entries->width};
+        struct gm_npz_shape shape = {.axes = 1, .lengths = {entries->count, entries->width}};
         snprintf(name, sizeof name, "%s%s_t", prefix, lane->scene->tracks[i].key);
-        good = gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 1, entries->times);
+        good = gm_npz_array(tracks->npz, name, &shape, entries->times);
         snprintf(name, sizeof name, "%s%s", prefix, lane->scene->tracks[i].key);
-        good = good && gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 2, entries->values);
+        shape.axes = 2;
+        good = good && gm_npz_array(tracks->npz, name, &shape, entries->values);
     }
     return good || complain(tracks, message);
 }

@@ -12,7 +12,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "app/data/format.h"
 #include "app/output/folder.h"
 #include "core/basics.h"
@@ -341,15 +340,19 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     return lane->file >= 0 && gm_lines_open(&lane->columns[0], lane->file, lane->rows);
 }
 
-/* The file of a row's points; malloc'ed. */
-static char *path_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t row,
-                     const char *ending)
+/* Room for a path and the names below it: a longer one cannot be opened. */
+enum { PATH = 4096 + 128 };
+
+/* The file of a row's points. Returns path. */
+static const char *path_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t row,
+                           const char *ending, char path[PATH])
 {
     char prefix[40] = "";
     if (saving->count > 1) {
         snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
     }
-    return gm_text("%s/%s%06" PRIu64 "%s.vtu", saving->folder, prefix, row, ending);
+    snprintf(path, PATH, "%s/%s%06" PRIu64 "%s.vtu", saving->folder, prefix, row, ending);
+    return path;
 }
 
 /* The files of a row. */
@@ -371,14 +374,13 @@ static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, 
         if (!group_of(lane, run, groups[i].support, &group)) {
             continue;
         }
-        char *path = path_of(saving, lane, lane->rows, groups[i].ending);
-        good = path && write_group(&group, path) &&
+        char path[PATH];
+        good = write_group(&group, path_of(saving, lane, lane->rows, groups[i].ending, path)) &&
                gm_column_print(&lane->columns[0], "%s<DataSet timestep=\"%.17g\" part=\"%zu\" file=\"",
                                parts > 0 ? " " : "", run->t, 2 * lane->index + (size_t)(parts > 0)) &&
                gm_column_put(&lane->columns[0], path + front, strlen(path + front)) &&
                gm_column_print(&lane->columns[0], "\"/>");
         parts++;
-        free(path);
     }
     /* one line per row, which exists with its files */
     return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
@@ -419,10 +421,11 @@ static uint64_t place_of_row(const struct places *places, uint64_t row)
     return row > 0 ? places->head + row * places->row : 0;
 }
 
-/* The file of a lane's rows; malloc'ed. */
-static char *rows_path_of(const struct gm_saving *saving, const struct gm_saved *lane)
+/* The file of a lane's rows. Returns path. */
+static const char *rows_path_of(const struct gm_saving *saving, const struct gm_saved *lane, char path[PATH])
 {
-    return gm_text("%s/lane%zu.bin", saving->folder, lane->index);
+    snprintf(path, PATH, "%s/lane%zu.bin", saving->folder, lane->index);
+    return path;
 }
 
 /* An array that begins at a place of the file of that name. */
@@ -484,8 +487,8 @@ static bool row_of_one_file(const struct gm_saving *saving, struct gm_saved *lan
     struct places places;
     find_places(lane, run, &places);
     errno = ENOMEM;
-    char *path = rows_path_of(saving, lane);
-    FILE *file = path ? fopen(path, lane->rows > 0 ? "r+be" : "wbe") : NULL;
+    char path[PATH];
+    FILE *file = fopen(rows_path_of(saving, lane, path), lane->rows > 0 ? "r+be" : "wbe");
     bool good = file && fseeko(file, (off_t)place_of_row(&places, lane->rows), SEEK_SET) == 0;
     for (int fixed = lane->rows == 0; fixed >= 0; fixed--) {
         for (size_t g = 0; g < places.groups; g++) {
@@ -503,7 +506,6 @@ static bool row_of_one_file(const struct gm_saving *saving, struct gm_saved *lan
     }
     const char *slash = strrchr(saving->path, '/');
     good = good && put_row(lane, &places, run->t, path + (slash ? slash + 1 - saving->path : 0));
-    free(path);
     return good;
 }
 
@@ -512,21 +514,17 @@ static bool is_of_files(const struct gm_saving *saving)
     return strcmp(strrchr(saving->path, '.'), gm_data_format_pvd.ending) == 0;
 }
 
-static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
-{
-    return is_of_files(saving) ? row_of_files(saving, lane, run) : row_of_one_file(saving, lane, run);
-}
-
 static void shorten(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t rows)
 {
     struct places places;
     find_places(lane, NULL, &places);
-    char *path = rows_path_of(saving, lane);
-    const bool cut = path && rows > 0 && truncate(path, (off_t)place_of_row(&places, rows)) == 0;
-    if (path && !cut && rows == 0) { /* a file longer than its rows can still be read */
+    char path[PATH];
+    rows_path_of(saving, lane, path);
+    if (rows == 0) {
         unlink(path);
+    } else if (truncate(path, (off_t)place_of_row(&places, rows)) != 0) {
+        return; /* a file longer than its rows can still be read */
     }
-    free(path);
 }
 
 /* Removes the rows from `from` to `last`, which may be incomplete; the last file's folder goes too. */
@@ -538,11 +536,8 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
     }
     for (uint64_t row = from; row <= last && is_of_files(saving); row++) {
         for (size_t i = 0; i < GM_COUNT(groups); i++) {
-            char *path = path_of(saving, lane, row, groups[i].ending);
-            if (path) {
-                unlink(path);
-            }
-            free(path);
+            char path[PATH];
+            unlink(path_of(saving, lane, row, groups[i].ending, path));
         }
     }
     rmdir(saving->folder);
@@ -618,14 +613,7 @@ static bool drop(const struct gm_saving *saving, struct gm_saved *lane)
     return good;
 }
 
-static bool end(const struct gm_saving *saving, struct gm_saved *lane)
-{
-    (void)saving;
-    lane->size = lane->columns[0].place;
-    return true;
-}
-
 const struct gm_data_format gm_data_format_pvd = {
-    .ending = ".pvd", .begin = begin, .row = row, .cut = cut, .end = end, .list = list, .drop = drop};
+    .ending = ".pvd", .begin = begin, .row = row_of_files, .cut = cut, .list = list, .drop = drop};
 const struct gm_data_format gm_data_format_xdmf = {
-    .ending = ".xdmf", .begin = begin, .row = row, .cut = cut, .end = end, .list = list, .drop = drop};
+    .ending = ".xdmf", .begin = begin, .row = row_of_one_file, .cut = cut, .list = list, .drop = drop};

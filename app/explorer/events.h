@@ -27,6 +27,7 @@ struct gm_open {
     unsigned long told;           /* number of the last command line shown */
     char said[GM_MESSAGE];        /* the reason why there will be no shot, or "" */
     struct gm_guide guide;        /* the guide; its tour may be NULL */
+    bool unsaved;                 /* a formula was typed and not saved to a file */
     bool touring;                 /* the worker plays the guide's tour */
     struct gm_studies studies;
     char *partings; /* the lines to print in the shell at the end, or NULL */
@@ -81,6 +82,7 @@ struct gm_explorer {
     int late;              /* rounds of the terminal's answers still to come */
     bool dirty;            /* the screen must be composed again */
     bool fresh;            /* the picture is new */
+    int64_t end;           /* time (ms) at which a text that is shown for some seconds ends; 0: none does */
     double draw_cost;      /* seconds of the last composition */
     bool leave;
     int status;
@@ -93,6 +95,21 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
     explorer->leave = true;
     explorer->status = status;
 }
+
+/* Composes the screen; returns false if there is nothing to show yet. */
+bool gm_explorer_compose(struct gm_explorer *explorer);
+/* Takes a new shot of the worker, or if that is NULL its failure. */
+void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot);
+/* Returns true while a thread or a process works on something that the screen shows. */
+bool gm_explorer_is_busy(const struct gm_explorer *explorer);
+
+/* ---- a script (script.c) ---- */
+
+/* Returns true if the file and the keys of the options can be understood; else fills message. */
+bool gm_script_check(const struct gm_overrides *overrides, char *message);
+/* Plays the script on the explorer's open scene or list, and writes the screen. Returns the exit status, and
+   fills the explorer's message unless that is 0. */
+int gm_script_play(struct gm_explorer *explorer, const struct gm_overrides *overrides);
 
 /* ---- scenes ---- */
 
@@ -115,8 +132,8 @@ void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
 /* Returns true if the worker plays the chosen entry and it has a preview. */
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
-/* Opens the preview of the chosen scene. */
-void gm_explorer_look(struct gm_explorer *explorer);
+/* Opens the preview of the chosen scene once it is due. */
+void gm_explorer_look_if_due(struct gm_explorer *explorer);
 
 /* ---- typed lines ---- */
 

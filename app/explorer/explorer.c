@@ -18,6 +18,7 @@
 #include "app/explorer/terminal/device.h"
 #include "app/explorer/view/view.h"
 #include "app/output/say.h"
+#include "core/basics.h"
 #include "render/clock.h"
 
 enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
@@ -50,7 +51,7 @@ static void ask_measure(struct gm_explorer *explorer)
     }
 }
 
-static void draw(struct gm_explorer *explorer)
+bool gm_explorer_compose(struct gm_explorer *explorer)
 {
     struct gm_screen *screen = &explorer->screen;
     if (explorer->list.shown) {
@@ -63,16 +64,44 @@ static void draw(struct gm_explorer *explorer)
         begin_watch(explorer);
         gm_screen_draw_scene(screen, &explorer->face, explorer->open.shot, explorer->fresh);
     } else {
-        return;
+        return false;
+    }
+    if (explorer->face.loss) {
+        const struct gm_sheet whole = {.cells = &screen->cells,
+                                       .face = &explorer->face,
+                                       .width = screen->cells.columns,
+                                       .height = screen->cells.rows,
+                                       .hits = &screen->hits};
+        gm_screen_ask(&whole, explorer->face.loss);
     }
     explorer->fresh = false;
-    explorer->dirty = !gm_display_show(
-        &explorer->display,
-        &(const struct gm_composed){.cells = &screen->cells,
-                                    .room = screen->pixels,
-                                    .pixels = explorer->face.pixels,
-                                    .theme = explorer->face.theme,
-                                    .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
+    return true;
+}
+
+static void draw(struct gm_explorer *explorer)
+{
+    const struct gm_screen *screen = &explorer->screen;
+    explorer->dirty =
+        gm_explorer_compose(explorer) &&
+        !gm_display_show(&explorer->display,
+                         &(const struct gm_composed){
+                             .cells = &screen->cells,
+                             .room = screen->pixels,
+                             .pixels = explorer->face.pixels,
+                             .theme = explorer->face.theme,
+                             .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
+}
+
+/* Returns the time (ms) at which the first of the texts that are shown for some seconds ends, or 0. */
+static int64_t first_end(const struct gm_explorer *explorer)
+{
+    const struct gm_face *face = &explorer->face;
+    const int64_t now = gm_clock_milliseconds(), ends[] = {face->watch_until, face->hint_until};
+    int64_t first = gm_studies_end(&explorer->open.studies, now);
+    for (size_t i = 0; i < GM_COUNT(ends); i++) {
+        first = ends[i] > now && (first == 0 || ends[i] < first) ? ends[i] : first;
+    }
+    return first;
 }
 
 /* Composes and sends as fast as the terminal accepts: a slow one loses frames, never model time. Returns
@@ -80,13 +109,13 @@ static void draw(struct gm_explorer *explorer)
 static int put_out(struct gm_explorer *explorer)
 {
     int64_t now = gm_clock_milliseconds();
-    if (explorer->list.shown && explorer->list.look_due >= 0 && explorer->list.look_due <= now) {
-        gm_explorer_look(explorer);
-    }
+    gm_explorer_look_if_due(explorer);
+    explorer->dirty = explorer->dirty || (explorer->end > 0 && explorer->end <= now);
     bool good = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();
         draw(explorer);
+        explorer->end = first_end(explorer);
         explorer->draw_cost = gm_clock_seconds() - begun;
         good = good && gm_writer_send(&explorer->display.writer);
     }
@@ -287,7 +316,18 @@ static void read_news(struct gm_explorer *explorer)
     }
     read_picture(explorer);
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
-    struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
+    gm_explorer_take(explorer, explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL);
+}
+
+bool gm_explorer_is_busy(const struct gm_explorer *explorer)
+{
+    struct gm_check *check = (struct gm_check *)&explorer->check;
+    return (check->open && gm_job_is_busy(&check->job)) || gm_studies_are_busy(&explorer->open.studies) ||
+           explorer->measure.fd >= 0;
+}
+
+void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
+{
     if (shot) {
         explorer->open.shot = shot;
         explorer->open.scene = shot->scene; /* the worker has made the scene by now */
@@ -316,6 +356,10 @@ static void run(struct gm_explorer *explorer)
     while (!explorer->leave) {
         read_late_answers(explorer);
         int wait = put_out(explorer);
+        const int64_t left = explorer->end - gm_clock_milliseconds();
+        if (explorer->end > 0 && (wait < 0 || left < wait)) {
+            wait = left > 0 ? (int)left : 0;
+        }
         const int hold = hold_keys(explorer);
         struct pollfd watched[COUNT] = {
             [KEYS] = {.fd = hold > 0 ? -1 : STDIN_FILENO, .events = POLLIN},
@@ -360,8 +404,11 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
                 const struct gm_overrides *overrides)
 {
     struct gm_explorer explorer = {.wake = -1, .list = {.look_due = -1}, .measure = {.fd = -1}};
-    if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
-        !gm_terminal_serves(&explorer.terminal, explorer.message)) {
+    const bool scripted = overrides->shot != NULL;
+    if (scripted ? !gm_terminal_imagine(&explorer.terminal, overrides, explorer.message) ||
+                       !gm_script_check(overrides, explorer.message)
+                 : !gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
+                       !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         return gm_give_up(GM_EXIT_USAGE, "%s", explorer.message);
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
@@ -373,11 +420,16 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
                                      .studies = &explorer.open.studies};
     explorer.late = explorer.terminal.asked >= 0 && !explorer.terminal.answers.attributes ? 2 : 0;
     explorer.face.typed_prompt = &explorer.typed_prompt;
-    explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    explorer.display.writer.fd = -1;
+    if (scripted) {
+        gm_clock_hold(0);
+    } else {
+        explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    }
     explorer.open.wake = explorer.wake;
     explorer.open.display = &explorer.display;
     /* Opens the lanes before the terminal is taken over: an error is easier to read in the shell. */
-    bool ok = explorer.wake >= 0;
+    bool ok = explorer.wake >= 0 || scripted;
     if (!ok) {
         gm_refuse(explorer.message, "The system has no eventfd to spare.");
     } else if (tour) {
@@ -389,10 +441,15 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     } else {
         gm_explorer_show_start(&explorer);
     }
-    ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message) &&
-         gm_display_open(&explorer.display, &explorer.terminal, explorer.wake);
     int number = 0;
-    if (ok) {
+    if (ok && scripted) {
+        explorer.status = gm_script_play(&explorer, overrides);
+        gm_display_close(&explorer.display);
+    } else if (ok) {
+        ok = gm_console_open(explorer.wake, &explorer.terminal, explorer.message) &&
+             gm_display_open(&explorer.display, &explorer.terminal, explorer.wake);
+    }
+    if (ok && !scripted) {
         run(&explorer);
         number = gm_console_leaving();
         gm_display_rest(&explorer.display);
@@ -408,8 +465,8 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
     free(explorer.open.partings);
     gm_console_release(); /* the eventfd stays open: an abandoned worker may still write to it */
-    if (!ok || explorer.status == GM_EXIT_USAGE) {
-        return gm_give_up(GM_EXIT_USAGE, "%s",
+    if (!ok || explorer.status == GM_EXIT_USAGE || (scripted && explorer.status != GM_EXIT_OK)) {
+        return gm_give_up(ok ? explorer.status : GM_EXIT_USAGE, "%s",
                           explorer.message[0] ? explorer.message : "There is not enough memory.");
     }
     if (number != 0 && number != SIGINT) {

@@ -3,6 +3,7 @@
 #include "app/explorer/events.h"
 
 #include <curses.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,8 +118,12 @@ static void look_soon(struct gm_explorer *explorer)
     explorer->dirty = true;
 }
 
-void gm_explorer_look(struct gm_explorer *explorer)
+void gm_explorer_look_if_due(struct gm_explorer *explorer)
 {
+    if (!explorer->list.shown || explorer->list.look_due < 0 ||
+        explorer->list.look_due > gm_clock_milliseconds()) {
+        return;
+    }
     explorer->list.look_due = -1;
     explorer->list.kept = false;
     if (!gm_open_named(&explorer->open, chosen(explorer)->name, true, explorer->message)) {
@@ -263,6 +268,20 @@ static void enter(struct gm_explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
+/* Leaves, or asks first if something would be lost. */
+static void quit(struct gm_explorer *explorer)
+{
+    const struct gm_open *open = &explorer->open;
+    explorer->dirty = true;
+    explorer->face.loss = open->shot && open->shot->recorded >= 0 ? "The recording is not finished"
+                          : gm_studies_are_busy(&open->studies)   ? "A diagram is not finished"
+                          : open->unsaved                         ? "The formula is not saved"
+                                                                  : NULL;
+    if (!explorer->face.loss) {
+        gm_explorer_leave(explorer, GM_EXIT_OK);
+    }
+}
+
 static void press_in_list(struct gm_explorer *explorer, int key)
 {
     struct gm_start *start = &explorer->list.start;
@@ -270,9 +289,9 @@ static void press_in_list(struct gm_explorer *explorer, int key)
     explorer->dirty = true;
     if (explorer->face.page != GM_PAGE_SCENE) {
         if (gm_pages_press(key, &explorer->face) == GM_KEY_LEAVE) {
-            gm_explorer_leave(explorer, GM_EXIT_OK);
+            quit(explorer);
         }
-    } else if (key == '?') {
+    } else if (key == '?' || key == KEY_F(1)) {
         explorer->face.page = GM_PAGE_START;
         explorer->face.scroll = 0;
     } else if (gm_key_is_enter(key)) {
@@ -281,7 +300,7 @@ static void press_in_list(struct gm_explorer *explorer, int key)
         start->typed[0] = '\0';
         find_all(explorer);
     } else if (key == 'q' && !start->typed[0]) {
-        gm_explorer_leave(explorer, GM_EXIT_OK);
+        quit(explorer);
     } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
         start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
         look_soon(explorer);
@@ -343,6 +362,20 @@ void gm_explorer_copy(struct gm_explorer *explorer)
     }
 }
 
+/* Explains a key without a meaning, once for each key. */
+static void hint_at(struct gm_face *face, int key)
+{
+    enum { HINT_MILLISECONDS = 3000 };
+    if (key < 0 || key >= GM_KEY_NUMBERS || (face->hinted[key / 32] >> key % 32 & 1)) {
+        return;
+    }
+    face->hinted[key / 32] |= 1u << key % 32;
+    snprintf(face->hint, sizeof face->hint, key > ' ' && key <= '~' ? "%c" : "this key", key);
+    const size_t used = strlen(face->hint);
+    snprintf(face->hint + used, sizeof face->hint - used, " does nothing here; ? lists the keys");
+    face->hint_until = gm_clock_milliseconds() + HINT_MILLISECONDS;
+}
+
 /* Handles a key of the tour, if there is one. */
 static void press_in_tour(struct gm_explorer *explorer, int key)
 {
@@ -373,7 +406,7 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
     struct gm_face *face = press->face;
     const bool said = press->shot->message[0] && press->shot->message_number != face->read;
     face->read = press->shot->message_number;
-    face->watch_until = 0;
+    face->watch_until = face->hint_until = 0;
     if (press->key == GM_KEY_REDRAW) {
         return GM_KEY_REPAINT;
     }
@@ -398,6 +431,14 @@ static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
 
 void gm_explorer_key(struct gm_explorer *explorer, int key)
 {
+    if (explorer->face.loss) {
+        explorer->face.loss = NULL;
+        explorer->dirty = true;
+        if (key == 'q') {
+            gm_explorer_leave(explorer, GM_EXIT_OK);
+        }
+        return;
+    }
     if (explorer->typed_prompt.kind != GM_TYPED_NONE && key != GM_KEY_REDRAW) {
         gm_explorer_press_typed(explorer, key);
         return;
@@ -426,7 +467,11 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
     const struct gm_keystroke one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
     switch (press_in_scene(&one)) {
     case GM_KEY_LEAVE:
-        gm_explorer_leave(explorer, GM_EXIT_OK);
+        quit(explorer);
+        break;
+    case GM_KEY_UNKNOWN:
+        hint_at(&explorer->face, key);
+        explorer->dirty = true;
         break;
     case GM_KEY_BLOCKS:
         next_graphics(explorer);
@@ -438,7 +483,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         repaint(explorer);
         break;
     case GM_KEY_SCENES:
-        explorer->open.studies.shown = GM_STUDY_NONE;
+        gm_studies_leave(&explorer->open.studies);
         gm_explorer_show_start(explorer);
         break;
     case GM_KEY_STUDY:
@@ -462,6 +507,7 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         press_in_tour(explorer, key);
         break;
     case GM_KEY_FILE:
+        explorer->open.unsaved = false;
         gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
         explorer->dirty = true;
         break;

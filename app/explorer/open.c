@@ -401,6 +401,12 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
     return true;
 }
 
+/* Returns true if a line has a formula of its own, with or without the name of a file. */
+static bool has_formula(const char *line)
+{
+    return memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") || strstr(line, " rate=");
+}
+
 /* Carries out a correct line. */
 static void take(struct gm_explorer *explorer)
 {
@@ -408,7 +414,9 @@ static void take(struct gm_explorer *explorer)
     prompt->entered = false;
     bool good;
     if (prompt->kind == GM_TYPED_SYSTEM) {
-        good = gm_explorer_open_line(explorer, prompt->line.text, &prompt->fault);
+        const char *line = prompt->line.text;
+        good = gm_explorer_open_line(explorer, line, &prompt->fault);
+        explorer->open.unsaved = explorer->open.unsaved || (good && has_formula(line));
     } else if (prompt->kind == GM_TYPED_MAP) {
         good = take_map(explorer);
     } else {

@@ -382,33 +382,23 @@ char *gm_figure_path(const struct gm_figure_output *output, const char *name, en
                    gm_format_name(format));
 }
 
-/* Prints one picture; pictures of the page are PNG. */
-static bool print_one(const struct gm_figure_job *job, const struct gm_request *request,
-                      const struct gm_lane *const *lanes, const struct gm_figure_output *output,
-                      enum gm_theme theme, enum gm_format format, char *message)
-{
-    char *path = gm_figure_path(output, job->figure->name, theme, format);
-    struct gm_print print = {.path = path, .format = format, .look = output->look};
-    print.look.theme = theme;
-    const bool good =
-        path ? gm_still_write(&print, request, lanes, message) : gm_refuse(message, "not enough memory");
-    free(path);
-    return good;
-}
-
+/* Prints the pictures in both themes. The page shows PNG files. */
 static int paint(const struct gm_figure_job *job, const struct gm_request *request,
                  struct gm_lane *const *lanes, const struct gm_figure_output *output, char *message)
 {
     const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
-    const struct gm_lane *const *shown = (const struct gm_lane *const *)lanes;
-    for (size_t i = 0; i < 2; i++) {
-        if (!print_one(job, request, shown, output, themes[i], GM_FORMAT_PNG, message) ||
-            (output->format != GM_FORMAT_PNG &&
-             !print_one(job, request, shown, output, themes[i], output->format, message))) {
-            return GM_EXIT_FILE;
-        }
+    const enum gm_format formats[] = {GM_FORMAT_PNG, output->format};
+    bool good = true;
+    for (size_t i = 0; good && i < (output->format == GM_FORMAT_PNG ? 2 : 4); i++) {
+        struct gm_print print = {.format = formats[i / 2], .look = output->look};
+        print.look.theme = themes[i % 2];
+        char *path = gm_figure_path(output, job->figure->name, print.look.theme, print.format);
+        print.path = path;
+        good = path ? gm_still_write(&print, request, (const struct gm_lane *const *)lanes, message)
+                    : gm_refuse(message, "not enough memory");
+        free(path);
     }
-    return GM_EXIT_OK;
+    return good ? GM_EXIT_OK : GM_EXIT_FILE;
 }
 
 static int make(const struct gm_figure_job *job, const struct gm_figure_output *output,

@@ -134,11 +134,11 @@ struct gm_study_row {
        measurement. */
     char *(*pick)(const struct gm_grid *grid, size_t panel, double x, double y);
 
-    /* ---- kinds without cells, NULL for the others; on a failure `open` leaves the body of the grid's
+    /* ---- kinds without cells, NULL for the others; on a failure the first two leave the body of the grid's
        arena, with a sentence ---- */
     void (*open)(struct gm_grid *grid);
-    bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
-    bool (*write)(const struct gm_grid *grid, const char *path);
+    void (*measure)(struct gm_grid *grid);
+    void (*write)(const struct gm_grid *grid, FILE *table);
 
     /* ---- kinds with cells, when they are opened, in the body of the grid's arena ---- */
     const char *which; /* the question, for a message without a scene */
@@ -150,7 +150,7 @@ struct gm_study_row {
     /* Fills axes, lines and cells; `words` are all, among them those typed. */
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
-    /* ---- of gm_cells_measure; `prepare` in a body ---- */
+    /* ---- of gm_cells_measure, in a body of the arena ---- */
     bool alone; /* timed runs, one after the other; a lane that cannot be opened ends only its line */
     /* Makes the reference of the runs; NULL: none. */
     void (*prepare)(struct gm_grid *grid);
@@ -182,10 +182,9 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 void gm_grid_close(void *grid);
 
-/* Functions for gm_chart_write; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV,
-   false with errno. */
+/* Functions of a gm_chart; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV. */
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
-bool gm_grid_write(const void *grid, const char *path);
+void gm_grid_write(const void *grid, FILE *table);
 
 /* Writes the cells of a line as a list in JSON. */
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,

@@ -23,34 +23,29 @@ const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t
     return text;
 }
 
+static const struct {
+    char letter;
+    const char *word;
+} verdicts[] = {[GM_BOUNDED] = {'.', ""},
+                [GM_LOST] = {'L', "lost"},
+                [GM_GAINED] = {'G', "gained"},
+                [GM_WRONG] = {'W', "wrong"}};
+
 const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell)
 {
-    static const char *const words[] = {[GM_LOST] = "lost", [GM_GAINED] = "gained", [GM_WRONG] = "wrong"};
     if (!cell->tried) {
         return "untried";
     }
-    if (cell->verdict == GM_BOUNDED) {
-        return gm_stability_judge(grid);
+    if (cell->verdict == GM_FAILED) {
+        return gm_status_name(cell->status);
     }
-    return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
+    return cell->verdict == GM_BOUNDED ? gm_stability_judge(grid) : verdicts[cell->verdict].word;
 }
 
 char gm_cell_letter(const struct gm_grid_cell *cell)
 {
-    if (!cell->tried) {
-        return '?';
-    }
-    switch (cell->verdict) {
-    case GM_BOUNDED:
-        return '.';
-    case GM_LOST:
-        return 'L';
-    case GM_GAINED:
-        return 'G';
-    case GM_WRONG:
-        return 'W';
-    case GM_FAILED:
-        break;
+    if (!cell->tried || cell->verdict != GM_FAILED) {
+        return cell->tried ? verdicts[cell->verdict].letter : '?';
     }
     switch (cell->status) {
     case GM_BLOW_UP:

@@ -24,19 +24,6 @@ struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_s
     return lane;
 }
 
-static void close_lane(void *lane)
-{
-    gm_lane_close(lane);
-}
-
-struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message)
-{
-    if (!lane) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
-    return gm_arena_keep(grid->arena, lane, close_lane);
-}
-
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
                                   struct gm_grid_cell *cell, char *message)
 {
@@ -88,8 +75,7 @@ enum { WINDOW = 64 };
 
 struct measuring {
     struct gm_grid *grid;
-    bool failed;
-    char *message;
+    const char *fault; /* the reason for which all runs end, or NULL */
     struct {
         struct gm_grid_cell cell;
         bool opened;
@@ -153,8 +139,8 @@ static bool take_cell(void *self, size_t index, size_t slot)
     }
     if (!measuring->slots[slot].opened) {
         line->ended = true;
-        measuring->failed = !grid->row->alone;
-        return gm_refuse(measuring->message, "%s", line->reason) || grid->row->alone;
+        measuring->fault = grid->row->alone ? NULL : line->reason;
+        return grid->row->alone;
     }
     if (measuring->slots[slot].cell.tried) {
         line->cells[at] = measuring->slots[slot].cell;
@@ -174,8 +160,8 @@ static bool is_stopped(void *self)
     return gm_listener_stops(((const struct measuring *)self)->grid->listener);
 }
 
-/* Returns true if there are numbers to show; else false with a sentence. */
-static bool has_numbers(const struct gm_grid *grid, char *message)
+/* Returns true if there are numbers to show. */
+static bool has_numbers(const struct gm_grid *grid)
 {
     bool any = false;
     for (size_t i = 0; i < grid->count; i++) {
@@ -183,22 +169,15 @@ static bool has_numbers(const struct gm_grid *grid, char *message)
             any |= grid->lines[i].cells[k].tried;
         }
     }
-    return any || gm_refuse(message, "%s", grid->lines[0].reason);
+    return any;
 }
 
-static void prepare(struct gm_arena *arena, void *grid)
+void gm_cells_measure(struct gm_grid *grid)
 {
-    (void)arena;
-    ((struct gm_grid *)grid)->row->prepare(grid);
-}
-
-bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
-{
-    struct measuring measuring = {.grid = grid, .message = message};
+    struct measuring measuring = {.grid = grid};
     const bool alone = grid->row->alone;
-    grid->listener = listener;
-    if (grid->row->prepare && !gm_arena_run(grid->arena, prepare, grid)) {
-        return gm_refuse(message, "%s", gm_arena_reason(grid->arena));
+    if (grid->row->prepare) {
+        grid->row->prepare(grid);
     }
     const struct gm_pool pool = {.count = gm_grid_cells(grid),
                                  .jobs = alone ? 1 : grid->jobs,
@@ -208,7 +187,9 @@ bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, 
                                  .stopped = is_stopped,
                                  .self = &measuring};
     grid->begun = grid->begun > 1 ? grid->begun : 1;
-    gm_listener_hears(listener, grid->lines[0].scheme->name, 0, pool.count);
+    gm_listener_hears(grid->listener, grid->lines[0].scheme->name, 0, pool.count);
     gm_pool_run(&pool);
-    return !measuring.failed && has_numbers(grid, message);
+    if (measuring.fault || !has_numbers(grid)) {
+        gm_arena_refuse(grid->arena, "%s", measuring.fault ? measuring.fault : grid->lines[0].reason);
+    }
 }

@@ -33,6 +33,7 @@ void gm_terminal_listener_clear(void);
    precision, must be those of the run with this number. */
 
 struct gm_sweep {
+    struct gm_arena *arena; /* owns the texts */
     const struct gm_scene *scene;
     struct gm_words words;
     char *arguments;         /* "SCENE key=value ...", which gives the same sweep */
@@ -40,15 +41,13 @@ struct gm_sweep {
     char *measure;           /* the list of observables, if it was given; else NULL */
     size_t count;            /* runs */
     size_t shard, shards;    /* the shard to make: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
-    bool unreadable;         /* it could not be opened because of a file */
     struct gm_chosen chosen; /* observables, one column each */
 };
 
-/* Reads a scene and its key=value, and a list of observables, or NULL for all. Returns false with a
-   sentence (GM_MESSAGE bytes). The caller closes it in both cases. */
-bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
-                   char *message);
-void gm_sweep_close(void *sweep);
+/* Reads a scene and its key=value, and a list of observables, or NULL for all. Called in a body of the arena, which
+   closes the sweep; leaves it with a sentence and an exit status. */
+void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
+                   const char *measure, int *status);
 
 /* The number of runs of the shard, and the number of its k-th run. */
 size_t gm_sweep_share(const struct gm_sweep *sweep);
@@ -83,10 +82,10 @@ struct gm_sweep_table;
 
 /* Opens the table to append rows: FILE.csv, for a shard FILE.I-of-N.csv, or standard output if `path` is
    NULL. An incomplete last row of a killed program is cut off. With `retry`, rows with this status are
-   recomputed. Returns NULL with a sentence, and leaves the table untouched, if it is another sweep's or
-   another process writes it. */
-struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const char *path, const char *retry,
-                                           char *message);
+   recomputed. Called in a body of the arena; leaves it with a sentence, and the table untouched, if that is
+   another sweep's or another process writes it. */
+struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct gm_sweep *sweep,
+                                           const char *path, const char *retry);
 const char *gm_sweep_table_path(const struct gm_sweep_table *table);
 
 struct gm_sweep_sum {
@@ -112,11 +111,11 @@ char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
 
 /* ---- shares ---- */
 
-/* Writes the sweep of a table's shards to FILE.csv.sweep, so that they can be joined. Returns false with a
-   sentence if the file has another sweep. */
-bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message);
-/* Opens the sweep of the note FILE.csv.sweep. */
-bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message);
+/* Writes the sweep of a table's shards to FILE.csv.sweep, so that they can be joined, in a body of the sweep's
+   arena; refuses a file with another sweep. */
+void gm_sweep_note(const struct gm_sweep *sweep, const char *path);
+/* Opens the sweep of the note FILE.csv.sweep, as gm_sweep_open does. */
+void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char *path);
 /* Joins the shards' rows in the order of the runs to FILE.csv; calls `missing` with the words of each run
    without a row. Returns false with a sentence. */
 bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
@@ -125,14 +124,13 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
 /* ---- the picture ---- */
 
 /* The data of a table's picture: bounded, for any number of rows. One key with several numbers makes a
-   graph, two a map. Returns NULL with a sentence for another number of them. */
-struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message);
+   graph, two a map; another number of them leaves the body of the arena with a sentence. */
+struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct gm_sweep *sweep);
 bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
 /* Takes the row of a run, or the rows of a table; false with a sentence if that cannot be read. */
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row);
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message);
-void gm_sweep_chart_close(void *chart);
-void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
+void gm_sweep_chart_draw(const void *chart, struct gm_picture *picture);
 
 /* The run that a map shows at (x, y), in the units of its axes; `map` is the panel's number. Returns false
    if the panel does not show a map. */

@@ -4,11 +4,11 @@
 
 #include <errno.h>
 #include <libdeflate.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/arguments.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
 #include "render/files/regular_file.h"
@@ -66,12 +66,15 @@ void gm_pause_close(struct gm_pause *pause)
 
 /* ---- a record ---- */
 
+/* Before the packed lane there are the fields of struct gm_paused in their order, and the caller's numbers. */
+enum { FIELDS = offsetof(struct gm_paused, numbers) };
+
 static size_t head_size(const struct gm_pause *pause)
 {
-    return 3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(int64_t) + pause->numbers * sizeof(double);
+    return FIELDS + pause->numbers * sizeof(double);
 }
 
-/* One function writes and reads the fields before the packed lane. */
+/* One function writes and reads. */
 static unsigned char *pass(unsigned char *at, void *data, size_t size, bool write)
 {
     memcpy(write ? at : data, write ? data : at, size);
@@ -80,11 +83,7 @@ static unsigned char *pass(unsigned char *at, void *data, size_t size, bool writ
 
 static void pass_head(const struct gm_pause *pause, unsigned char *at, struct gm_paused *paused, bool write)
 {
-    at = pass(at, &paused->seconds, sizeof paused->seconds, write);
-    at = pass(at, &paused->rows, sizeof paused->rows, write);
-    at = pass(at, &paused->saved, sizeof paused->saved, write);
-    at = pass(at, &paused->last_row, sizeof paused->last_row, write);
-    at = pass(at, paused->spacing, sizeof paused->spacing, write);
+    at = pass(at, paused, FIELDS, write);
     if (pause->numbers > 0) {
         pass(at, paused->numbers, pause->numbers * sizeof(double), write);
     }
@@ -301,7 +300,7 @@ bool gm_pause_has_rows(const struct gm_pause *pause)
     for (size_t i = 0; pause && i < pause->count; i++) {
         uint64_t rows = 0;
         if (pause->records[i].bytes) {
-            memcpy(&rows, pause->records[i].bytes + sizeof(double), sizeof rows);
+            memcpy(&rows, pause->records[i].bytes + offsetof(struct gm_paused, rows), sizeof rows);
         }
         any |= rows > 0;
     }
@@ -310,12 +309,13 @@ bool gm_pause_has_rows(const struct gm_pause *pause)
 
 /* ---- renders ---- */
 
-char *gm_checkpoint_path(const struct gm_frames *frames)
+const char *gm_checkpoint_path(const struct gm_frames *frames)
 {
     const struct gm_schedule *schedule = frames->schedule;
-    return schedule->shards > 1 ? gm_text("%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
-                                          schedule->shard, schedule->shards)
-                                : gm_text("%s/%s.checkpoint", frames->folder, frames->name);
+    return schedule->shards > 1
+               ? gm_arena_print(frames->arena, "%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
+                                schedule->shard, schedule->shards)
+               : gm_arena_print(frames->arena, "%s/%s.checkpoint", frames->folder, frames->name);
 }
 
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,

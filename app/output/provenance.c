@@ -11,6 +11,7 @@
 #include "app/base/arguments.h"
 #include "app/words/drive.h"
 #include "core/schemes.h"
+#include "render/cells/grid.h"
 
 static bool take(struct gm_provenance *provenance, const char *key, char *text)
 {
@@ -119,7 +120,9 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
 static void put_options(FILE *stream, const void *data)
 {
     const struct gm_appearance *look = data;
-    if (look->page_width > 0) {
+    if (look->screen) {
+        fprintf(stream, " --screen %dx%d", look->screen->columns, look->screen->rows);
+    } else if (look->page_width > 0) {
         fprintf(stream, " --size %.17gx%.17gmm", look->page_width, look->page_height);
     } else {
         fprintf(stream, " --size %dx%d", look->width, look->height);

@@ -264,11 +264,11 @@ static bool open_system(struct making *making)
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system);
     made->close = field ? gm_user_field_close : gm_system_scene_close;
-    made->scene = field
-                      ? gm_user_field_open(&making->system, made->name, words, making->moves, making->message)
-                      : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
-                                             making->message);
-    if (!made->scene && !field && fault.sentence[0]) {
+    made->scene =
+        field ? gm_user_field_open(&making->system, made->name, words, making->moves, &fault, making->message)
+              : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
+                                     making->message);
+    if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
     }
     fault =

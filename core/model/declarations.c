@@ -173,6 +173,47 @@ static void give(struct gm_reading *reading)
     }
 }
 
+/* Adds half the length of a field's line and the points of its grid, as the last parameters. */
+static bool add_ring(struct gm_reading *reading)
+{
+    static const struct {
+        enum gm_system_word word;
+        double usual;
+        const char *meaning;
+    } rows[GM_RING_PARAMETERS] = {{GM_WORD_HALF_LENGTH, 20, "the ring is −half_length ≤ x < half_length"},
+                                  {GM_WORD_POINTS, 400, "of the grid"}};
+    for (size_t i = 0; i < GM_RING_PARAMETERS; i++) {
+        const struct gm_system_line *line = gm_reading_line(reading, rows[i].word);
+        struct gm_entry entry = {.name = (char *)gm_system_words[rows[i].word].word,
+                                 .length = strlen(gm_system_words[rows[i].word].word),
+                                 .role = GM_ENTRY_PARAMETER,
+                                 .number = reading->parameter_count++,
+                                 .read = true};
+        double number = rows[i].usual;
+        if (line) {
+            entry.place = line->place;
+            entry.value = line->value;
+            if (!gm_reading_number(reading, line->value, &number)) {
+                return false;
+            }
+        }
+        entry.node = gm_formula_constant(&reading->system->graph, number);
+        struct gm_system_variable *variable =
+            gm_reading_add(reading, entry) ? add_variable(reading, &entry) : NULL;
+        if (!variable) {
+            return false;
+        }
+        variable->derived = rows[i].word == GM_WORD_POINTS; /* a whole number: a row of the scene */
+        variable->text = line ? gm_reading_text(reading, line->value) : NULL;
+        variable->meaning = strdup(rows[i].meaning);
+        variable->unit = gm_reading_text(reading, (struct gm_span){0, 0});
+        if (!variable->meaning) {
+            return gm_fail_memory(&reading->fault);
+        }
+    }
+    return !reading->fault.failed;
+}
+
 /* Lists follow the numbers that give their lengths; then all formulas are read, which may hold both. */
 bool gm_declared_parameters(struct gm_reading *reading)
 {
@@ -190,6 +231,9 @@ bool gm_declared_parameters(struct gm_reading *reading)
             }
         }
         give(reading);
+    }
+    if (gm_system_is_field(reading->system) && !reading->fault.failed && !add_ring(reading)) {
+        return false;
     }
     for (size_t i = choices->count; i < reading->entry_count && !reading->fault.failed; i++) {
         const struct gm_entry *entry = &reading->entries[i];

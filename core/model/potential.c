@@ -49,21 +49,6 @@ static double degree_of(const struct gm_formula *graph, gm_node_id formula)
     return degree;
 }
 
-/* The derivative of a node over one variable. */
-static gm_node_id over(struct gm_user_system *system, gm_node_id node, size_t variable)
-{
-    gm_node_id *direction = malloc((system->variable_count + 1) * sizeof *direction), result = GM_NO_NODE;
-    for (size_t i = 0; direction && i < system->variable_count; i++) {
-        direction[i] = gm_formula_constant(&system->graph, i == variable);
-    }
-    if (direction && node != GM_NO_NODE) {
-        result = gm_derivative_along(&system->graph, node, direction, system->variable_count);
-    }
-    system->graph.failed |= result == GM_NO_NODE;
-    free(direction);
-    return result;
-}
-
 /* With u at the start, f = V'(u), f' = V'', f'' = V''':
        u_tt   = u_xx - f
        u_ttt  = (u_t)_xx - f' u_t
@@ -80,8 +65,8 @@ static void derive_start(struct gm_user_wave *wave, struct gm_user_system *syste
         system->graph.failed = true;
         return;
     }
-    for (size_t k = 2; k < GM_TYPED_START && !system->graph.failed; k++) {
-        const gm_node_id bend = over(system, over(system, at[k - 2], x), x);
+    for (size_t k = 2; k < gm_wave_start_count(wave) && !system->graph.failed; k++) {
+        const gm_node_id bend = gm_system_derivative(system, gm_system_derivative(system, at[k - 2], x), x);
         gm_node_id rate = force[F];
         if (k > 2) {
             rate = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
@@ -101,10 +86,10 @@ bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *syste
     *wave = (struct gm_user_wave){.system = system, .exact = system->variables[0].exact};
     gm_node_id last = system->energy;
     for (size_t k = 0; k < GM_TYPED_DERIVATIVES; k++) {
-        last = wave->by_u[k] = over(system, last, 0);
+        last = wave->by_u[k] = gm_system_derivative(system, last, 0);
     }
     wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->by_u[0]);
-    wave->start_slope = over(system, system->variables[0].start, system->velocities);
+    wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
     if (!system->graph.failed) {
         derive_start(wave, system);
     }

@@ -17,6 +17,12 @@ struct gm_user_wave {
     gm_node_id start[GM_TYPED_START], start_slope /* u_x */, exact;
 };
 
+/* Returns the number of formulas of the start: u and u_t, and further derivatives without an exact solution. */
+static inline size_t gm_wave_start_count(const struct gm_user_wave *wave)
+{
+    return wave->exact == GM_NO_NODE ? GM_TYPED_START : 2;
+}
+
 /* Derives the formulas and adds them to the graph. False when out of memory. */
 bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *system);
 

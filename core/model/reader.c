@@ -289,8 +289,8 @@ static bool read_requirement(struct gm_reading *reading, const struct gm_system_
     gm_span_take(reading->text, &rest, ";", &formula);
     rest = gm_span_trimmed(reading->text, rest);
     if (item && rest.begin == rest.end) {
-        return gm_fail_first(&reading->fault, formula.end,
-                             "a sentence was expected: require: F; it says why not");
+        return gm_fail_first(&reading->fault, formula.end, "a sentence was expected: %s: F; it says why not",
+                             gm_system_words[line->word].word);
     }
     return item && add_formula(reading, item, formula) && gm_text_read(reading, item, rest);
 }
@@ -717,9 +717,6 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_SUBTITLE:
     case GM_WORD_CAPTION:
         system->texts[line->word] = gm_reading_text(reading, line->value);
-        if (gm_system_is_field(system)) {
-            return true;
-        }
         item = add_item(reading, line, (struct gm_span){0, 0});
         return item && gm_text_read(reading, item, line->value) &&
                (line->word != GM_WORD_TITLE || item->count == 0 || gm_reading_line(reading, GM_WORD_NAME) ||
@@ -770,7 +767,14 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
     case GM_WORD_OBSERVE:
         return read_named(reading, line);
     case GM_WORD_REQUIRE:
+    case GM_WORD_EXACT_WHILE:
         return read_requirement(reading, line);
+    case GM_WORD_COLOURS:
+        item = add_item(reading, line, (struct gm_span){0, 0});
+        return item && add_formulas(reading, item, line->value) &&
+               (item->count == 2 ||
+                gm_fail_first(&reading->fault, line->value.begin,
+                              "two values are at the ends of the colours: colours: -1, 1"));
     case GM_WORD_LEVEL:
         return read_level(reading, line);
     case GM_WORD_GRAPH:
@@ -870,12 +874,39 @@ static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t cou
     return *nodes || gm_fail_memory(&reading->fault);
 }
 
+/* A field without a start starts with its exact solution. */
+static bool start_exactly(struct gm_user_system *system)
+{
+    gm_node_id *values = malloc(system->variable_count * sizeof *values);
+    for (size_t i = 0; values && i < system->variable_count; i++) {
+        values[i] = i == system->n ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
+    }
+    for (size_t i = 0; values && i < system->n; i++) {
+        const bool is_rate = system->kind == GM_FIELD && i == 1;
+        gm_node_id node = system->variables[is_rate ? 0 : i].exact, *start = &system->variables[i].start;
+        if (*start != GM_NO_NODE || node == GM_NO_NODE) {
+            continue;
+        }
+        node = is_rate ? gm_system_derivative(system, node, system->n) : node;
+        if (system->graph.failed ||
+            !gm_formula_substitute(&system->graph, &node, 1, values, system->variable_count)) {
+            break;
+        }
+        *start = node;
+    }
+    free(values);
+    return values && !system->graph.failed;
+}
+
 static bool is_complete(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
     const struct gm_system_line *start = gm_reading_line(reading, GM_WORD_START);
+    if (gm_system_is_field(system) && !start_exactly(system)) {
+        return gm_fail_memory(&reading->fault);
+    }
     for (size_t i = 0; i < system->n && rates; i++) {
         if (system->rates[i] == GM_NO_NODE) {
             return gm_fail_first(&reading->fault, gm_reading_line(reading, GM_WORD_RATE)->value.begin,

@@ -197,10 +197,10 @@ bool gm_reading_reserves(const char *name, size_t length)
 {
     /* keys of a command line, and columns of tables */
     static const char *const reserved[] = {
-        "dt",      "until",   "steps",     "scheme", "schemes",     "zip",    "overlay",
-        "equal",   "show",    "members",   "t",      "lane",        "meta",   "compensated",
-        "binding", "tau0",    "tolerance", "spread", "scene",       "status", "evaluations",
-        "solves",  "seconds", "stopped",   "shape",  "newmark_beta"};
+        "dt",        "until",        "steps",  "scheme",   "schemes",     "zip",         "overlay", "equal",
+        "show",      "members",      "t",      "lane",     "meta",        "compensated", "binding", "tau0",
+        "tolerance", "spread",       "scene",  "status",   "evaluations", "solves",      "seconds", "stopped",
+        "shape",     "newmark_beta", "trails", "portrait", "window"};
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;
@@ -209,11 +209,12 @@ bool gm_reading_reserves(const char *name, size_t length)
     return gm_formula_reserves(name, length);
 }
 
-/* true for keys of a ring */
+/* True for keys of a ring, unless the reader has added them with their values. */
 static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
 {
     static const char *const keys[] = {"half_length", "points", "space", "boundary"};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system); i++) {
+    for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system) && !entry->read;
+         i++) {
         if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
             return true;
         }

@@ -110,3 +110,17 @@ struct gm_naming gm_system_naming(const struct gm_user_system *system)
 {
     return (struct gm_naming){.variable = variable_name, .part = part_name, .data = system};
 }
+
+gm_node_id gm_system_derivative(struct gm_user_system *system, gm_node_id node, size_t variable)
+{
+    gm_node_id *direction = malloc((system->variable_count + 1) * sizeof *direction), result = GM_NO_NODE;
+    for (size_t i = 0; direction && i < system->variable_count; i++) {
+        direction[i] = gm_formula_constant(&system->graph, i == variable);
+    }
+    if (direction && node != GM_NO_NODE) {
+        result = gm_derivative_along(&system->graph, node, direction, system->variable_count);
+    }
+    system->graph.failed |= result == GM_NO_NODE;
+    free(direction);
+    return result;
+}

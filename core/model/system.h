@@ -29,6 +29,9 @@ enum gm_system_word {
 
 enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
 
+/* The last parameters of every field: half_length, points. */
+enum { GM_RING_PARAMETERS = 2 };
+
 /* Limits of an evolution: fields, and the order of derivatives over x in their rates. */
 enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
 /* The most components of a system of matrices. */
@@ -93,7 +96,7 @@ struct gm_system_item {
 /* nodes, by word. section: the function that becomes 0, two functions to show, a function that must be
    positive. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
    and the other. surface: three half axes. mass: the formula. dt, until and steps: the number, in parameters.
-   require and level: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the
+   require, level and exact-while: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the
    scene. */
 
 struct gm_user_system {
@@ -139,6 +142,9 @@ static inline bool gm_system_is_field(const struct gm_user_system *system)
 {
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
 }
+
+/* Returns the derivative of a node over one variable; GM_NO_NODE when out of memory, which the graph notes. */
+gm_node_id gm_system_derivative(struct gm_user_system *system, gm_node_id node, size_t variable);
 
 /* Rewrites formulas of a field with x as variable 0 and t as variable 1. False: out of memory. */
 bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t count);

@@ -29,6 +29,17 @@ uint32_t gm_text_next(const char **text)
     return code < least[more] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000) ? 0xFFFD : code;
 }
 
+size_t gm_text_put(uint32_t code, char bytes[GM_TEXT_BYTES])
+{
+    static const unsigned char lead[] = {0, 0xC0, 0xE0, 0xF0};
+    const int more = (code >= 0x80) + (code >= 0x800) + (code >= 0x10000); /* bytes after the first */
+    bytes[0] = (char)(lead[more] | code >> 6 * more);
+    for (int i = 1; i <= more; i++) {
+        bytes[i] = (char)(0x80 | (code >> 6 * (more - i) & 0x3F));
+    }
+    return 1 + (size_t)more;
+}
+
 bool gm_text_is_shown(uint32_t code)
 {
     static const struct {

@@ -2,6 +2,8 @@
 #ifndef GM_RENDER_CELLS_TEXT_H
 #define GM_RENDER_CELLS_TEXT_H
 
+#include <stddef.h>
+
 #include "render/cells/grid.h"
 
 /* Text in character cells, one code point per cell. */
@@ -9,6 +11,10 @@
 /* Returns the next code point of UTF-8 and moves *text past it. Malformed bytes become U+FFFD, the end is
    0. */
 uint32_t gm_text_next(const char **text);
+
+/* Writes a code point as UTF-8; returns the number of bytes. */
+enum { GM_TEXT_BYTES = 4 };
+size_t gm_text_put(uint32_t code, char bytes[GM_TEXT_BYTES]);
 
 /* Returns true if a terminal shows a code point. It obeys control characters (C0, C1); marks of direction and
    letters without a width make a text look like another one; U+FFFD is malformed UTF-8. */

@@ -142,6 +142,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         [GM_FONT_SANS] = {"DejaVu Sans", false},
         [GM_FONT_BOLD] = {"DejaVu Sans", true},
         [GM_FONT_MONO] = {"DejaVu Sans Mono", false},
+        [GM_FONT_MONO_BOLD] = {"DejaVu Sans Mono", true},
     };
     struct gm_glyphs *glyphs = calloc(1, sizeof *glyphs);
     if (!glyphs || !start_library(glyphs)) {

@@ -8,7 +8,7 @@
 
 /* Letters: fonts found by fontconfig, drawn by FreeType into one growing image of coverages (the atlas). */
 
-enum gm_font { GM_FONT_SANS, GM_FONT_BOLD, GM_FONT_MONO, GM_FONT_COUNT };
+enum gm_font { GM_FONT_SANS, GM_FONT_BOLD, GM_FONT_MONO, GM_FONT_MONO_BOLD, GM_FONT_COUNT };
 
 struct gm_glyphs;
 

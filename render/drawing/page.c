@@ -41,6 +41,10 @@ void gm_page_close(struct gm_painter *painter)
 bool gm_page_draw(struct gm_painter *painter, struct gm_picture *picture)
 {
     const struct gm_metrics metrics = gm_painter_metrics(painter);
+    if (painter->look.screen) {
+        gm_paint_cells(painter, painter->look.screen);
+        return true;
+    }
     if (painter->look.title) {
         picture->title = painter->look.title;
     }

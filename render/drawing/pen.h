@@ -124,6 +124,10 @@ void gm_paint_axes(struct gm_painter *painter, const struct gm_axes *axes);
 void gm_paint_labels(struct gm_painter *painter, const struct gm_layout *layout);
 struct gm_metrics gm_painter_metrics(const struct gm_painter *painter);
 
+/* cells.c: the screen of a terminal. A cell has GM_CELL_WIDTH x GM_CELL_HEIGHT pixels. */
+enum { GM_CELL_WIDTH = 9, GM_CELL_HEIGHT = 18 };
+void gm_paint_cells(struct gm_painter *painter, const struct gm_cells *cells);
+
 /* A page that is drawn with one pen in one look, as often as its picture changes. */
 
 /* Returns false on failure, with a sentence in message (GM_MESSAGE bytes) and errno (gm_glyphs_open). The

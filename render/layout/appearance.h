@@ -35,6 +35,8 @@ enum { GM_LEAST_SIDE = 64, GM_MOST_SIDE = 16384 };
 #define GM_LEAST_DPI 24.0
 #define GM_MOST_DPI 2400.0
 
+struct gm_cells;
+
 /* The look of a picture, whatever it shows. */
 struct gm_appearance {
     int width, height; /* pixels */
@@ -46,6 +48,7 @@ struct gm_appearance {
     double page_width, page_height; /* size of a drawing, in mm; 0: the pixels at their dpi, or at 96 */
     const char *title;              /* replaces the picture's title; NULL: does not */
     bool live;                      /* painted for a screen while the user watches, not for a file */
+    const struct gm_cells *screen;  /* cells to draw instead of the picture; NULL: none */
 };
 
 #endif

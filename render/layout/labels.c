@@ -87,7 +87,7 @@ static const char *whole_front(const struct gm_label_list *list, enum gm_text_si
         const char *text;
         size_t kept;    /* bytes of it that remain */
         bool short_too; /* the part before it is enough, however short */
-    } breaks[] = {{"  ", 0, true},  {". ", 1, true},  {"; ", 0, true},
+    } breaks[] = {{"  ", 0, true},  {". ", 1, true},  {"; ", 0, true}, {", after ", 0, true},
                   {", ", 0, false}, {" (", 0, false}, {": ", 0, false}};
     const char *longest = NULL;
     for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {

@@ -352,7 +352,7 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 static void put_family(struct gm_svg *svg, enum gm_font font)
 {
     fprintf(svg->out, " font-family=\"'%s', %s\"", gm_glyphs_family(svg->painter.glyphs, font),
-            font == GM_FONT_MONO ? "'Bitstream Vera Sans Mono', monospace"
+            font >= GM_FONT_MONO ? "'Bitstream Vera Sans Mono', monospace"
                                  : "'Bitstream Vera Sans', Verdana, sans-serif");
 }
 
@@ -377,8 +377,9 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
         put_attribute(svg->out, "y", y);
     }
     fprintf(svg->out, " font-size=\"%d\"", writing->letters);
-    fputs(writing->font == GM_FONT_BOLD ? " font-weight=\"bold\"" : "", svg->out);
-    if (writing->font == GM_FONT_MONO) {
+    const bool bold = writing->font == GM_FONT_BOLD || writing->font == GM_FONT_MONO_BOLD;
+    fputs(bold ? " font-weight=\"bold\"" : "", svg->out);
+    if (writing->font >= GM_FONT_MONO && !svg->painter.look.screen) {
         put_family(svg, writing->font);
     }
     if (writing->anchor != GM_ANCHOR_LEFT) {
@@ -416,7 +417,7 @@ static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const
     fputs(paged ? "mm\" height=\"" : "\" height=\"", svg->out);
     put_hundredths(svg->out, hundredths(paged ? look->page_height : unit * look->height));
     fprintf(svg->out, "%s\" viewBox=\"0 0 %d %d\"", paged ? "mm" : "", look->width, look->height);
-    put_family(svg, GM_FONT_SANS);
+    put_family(svg, look->screen ? GM_FONT_MONO : GM_FONT_SANS);
     fputs(" stroke-linecap=\"round\" stroke-linejoin=\"round\" xml:space=\"preserve\">\n<title>", svg->out);
     put_text(svg->out, look->title ? look->title : picture->title);
     fputs("</title>\n<metadata xmlns:geomint=\"urn:geomint\">\n", svg->out);

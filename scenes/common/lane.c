@@ -176,10 +176,12 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const double error = gm_lane_observe(lane, (size_t)lost);
     const double left = gm_observe(observable, &view) / initial_of(observable, &view);
     if (error <= lost_above(lane->scheme) && left >= 0) {
-        snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
+        snprintf(text, size,
+                 "%s is %.3g: the exact motion conserves this quantity, the scheme has %.1e of it left",
                  observable->key, error, left);
     } else {
-        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
+        snprintf(text, size, "%s is %.3g: the exact motion conserves this quantity, the scheme has lost it",
+                 observable->key, error);
     }
 }
 
@@ -445,14 +447,31 @@ void gm_shown_rename(struct gm_shown *shown, const char *before, const char *aft
     }
 }
 
-/* "name, then Verlet, then RK4"; the last two of many switches. */
-static void add_switches(const struct gm_lane *lane, char *name, size_t size)
+/* Returns the scheme that was at work after a number of switches. */
+static const struct gm_scheme *scheme_after(const struct gm_lane *lane, size_t switches)
 {
-    size_t used = strlen(name);
-    const size_t first = lane->switch_count > 2 ? lane->switch_count - 2 : 0;
-    for (size_t i = first; i < lane->switch_count && used < size; i++) {
-        used += (size_t)snprintf(name + used, size - used, "%s, then %s", i == first && first > 0 ? " …" : "",
-                                 lane->switches[i].scheme->title);
+    return switches > 0 ? lane->switches[switches - 1].scheme : lane->first_scheme;
+}
+
+/* Turns a name of the start, "RK4, Δt = 0.1", into "Gauss 4, Δt = 0.1, after Verlet, RK4": the scheme at work
+   is first, and a name that is cut loses the oldest one. At most two earlier schemes are named. */
+static void name_switches(const struct gm_lane *lane, char *name, size_t size)
+{
+    const size_t count = lane->switch_count;
+    const char *title = scheme_after(lane, count)->title;
+    char was[sizeof lane->schemes];
+    size_t length = 0;
+    snprintf(was, sizeof was, "%s", name);
+    const char *part = part_of(was, lane->first_scheme->title, false, &length);
+    size_t used =
+        (size_t)(part ? snprintf(name, size, "%.*s%s%s", (int)(part - was), was, title, part + length)
+                      : snprintf(name, size, "%s, %s", title, was));
+    for (size_t i = count; i-- > 0 && i + 2 >= count && used < size;) {
+        used += (size_t)snprintf(name + used, size - used, "%s%s", i + 1 == count ? ", after " : ", ",
+                                 scheme_after(lane, i)->title);
+    }
+    if (count > 2 && used < size) {
+        snprintf(name + used, size - used, " …");
     }
 }
 
@@ -462,18 +481,15 @@ static void compose(struct gm_lane *lane)
     struct gm_shown *shown = &lane->shown;
     *shown = lane->named;
     snprintf(lane->schemes, sizeof lane->schemes, "%s", lane->first_scheme->title);
-    add_switches(lane, lane->schemes, sizeof lane->schemes);
     if (lane->switch_count == 0) {
         return;
     }
-    if (shown->colour_name[0]) {
-        add_switches(lane, shown->colour_name, sizeof shown->colour_name);
-        return;
-    }
-    if (!shown->panel_name[0]) {
+    if (!shown->panel_name[0] && !shown->colour_name[0]) {
         snprintf(shown->panel_name, sizeof shown->panel_name, "%s", lane->first_scheme->title);
     }
-    add_switches(lane, shown->panel_name, sizeof shown->panel_name);
+    name_switches(lane, lane->schemes, sizeof lane->schemes);
+    name_switches(lane, shown->colour_name[0] ? shown->colour_name : shown->panel_name,
+                  sizeof shown->panel_name);
 }
 
 void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named)

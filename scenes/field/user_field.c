@@ -26,16 +26,19 @@
 #include "core/ode/user/evolution.h"
 #include "core/schemes.h"
 #include "core/tape.h"
+#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/rows.h"
+#include "scenes/common/system/studies.h"
+#include "scenes/common/system/texts.h"
 #include "scenes/common/written.h"
 #include "scenes/field/observed.h"
 #include "scenes/mesh/observed.h"
 #include "scenes/mesh/picture.h"
 
-enum { DT, UNTIL, HALF_LENGTH, COMMON_ROWS };
-enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, MOST_OBSERVABLES = 48, MOST_GRAPHS = 3 };
+enum { DT, UNTIL };
+enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_GRAPHS = 3, MOST_ROWS = 6 };
 enum { SAMPLES = 4096 }; /* points at which a start is examined */
 
-struct lane;
 struct user_field;
 
 /* A kind of field. */
@@ -48,7 +51,7 @@ struct kind {
     size_t observable_count;
     const char *graphs[2][MOST_GRAPHS]; /* graphs over time, without and with an exact solution; conserved */
     size_t graph_count;                 /* quantities of the file fill the rest */
-    bool (*open)(struct gm_problem *problem, const struct lane *lane, const double *values);
+    bool (*open)(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values);
     void (*close)(struct gm_problem *problem);
     /* Returns true if the start is possible; else false with a sentence. */
     bool (*closes)(const struct gm_problem *problem, char *sentence, size_t size);
@@ -60,72 +63,31 @@ struct kind {
 static const struct kind waves, moving_waves, evolutions, forms;
 
 struct user_field {
-    struct gm_scene scene; /* first, so that a pointer to the scene is one to this */
+    struct gm_system_scene of_file; /* first, so that a pointer to the scene is one to this */
     struct gm_arena *arena;
-    struct gm_user_system system;
     const struct kind *kind;
     struct gm_user_wave wave; /* only the member of the kind is used */
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     bool solved; /* an exact solution is known */
-    struct gm_parameter *rows;
-    size_t row_count, values; /* the number of rows; the first row of the file's parameters */
-    struct lane *initial;
-    struct gm_observable observables[MOST_OBSERVABLES];
-    size_t observable_count;
-    struct gm_tape densities[MOST_DENSITIES]; /* formulas of all variables, so that lanes share them */
-    size_t first_density;
-    const char *schemes[MOST_PREFERRED + 1];
-    struct gm_work work;
     double resolutions[3], errors[3];
     double low, high; /* the range of u at the start */
-    struct gm_kept_texts texts;
 };
 
-/* Parameters of a run; after the values of the file's parameters follows a byte for each, 1 if it was
-   given. */
-struct lane {
-    struct gm_timing timing;
-    int show; /* the content of the surfaces: scenes/field/observed.h; on a moving mesh enum gm_mesh_view */
-    const struct user_field *owner;
-    double half_length;
-    long points;
-    int space; /* enum gm_derivatives */
-    int walls;
-    double alpha; /* only on a moving mesh */
-    int density;  /* enum gm_mesh_density */
-    double values[];
-};
+static const struct user_field *owner_of(const struct gm_system_lane *lane)
+{
+    return (const struct user_field *)lane->owner; /* the system's scene is its first member */
+}
 
 static const struct user_field *field_of(const struct gm_view *view)
 {
-    return ((const struct lane *)view->parameters)->owner;
+    return owner_of(view->parameters);
 }
 
 /* Returns the line, which all problems of such files have. */
 static const struct gm_user_line *line_of(const struct gm_view *view)
 {
     return view->problem->parameters;
-}
-
-static size_t parameter_count(const struct user_field *field)
-{
-    return field->row_count - field->values;
-}
-
-/* Returns values of all variables, malloc'ed; `given`: of the given parameters only, others follow. */
-static double *values_of(const struct lane *lane, const char *given)
-{
-    const struct gm_user_system *system = &lane->owner->system;
-    double *known = malloc(system->variable_count * sizeof *known);
-    for (size_t i = 0; known && i < system->variable_count; i++) {
-        const size_t own = i - system->parameters;
-        const bool told = own < parameter_count(lane->owner) && (!given || given[own]);
-        known[i] = told ? lane->values[own] : NAN;
-    }
-    double *values = known ? gm_equations_start(system, known) : NULL;
-    free(known);
-    return values;
 }
 
 /* ---- observables ---- */
@@ -141,13 +103,28 @@ static double constant_of(const struct gm_view *view, size_t component)
                : 0;
 }
 
+/* Returns true if the exact solution holds at the view's time, as it does at the start. */
+static bool is_known(const struct gm_view *view)
+{
+    const struct gm_system_scene *of_file = &field_of(view)->of_file;
+    const struct gm_system_item *item = gm_system_item_of(&of_file->system, GM_WORD_EXACT_WHILE, 0);
+    double value = 1;
+    if (item && view->t != view->t0) {
+        gm_system_values(&of_file->of_items[item - of_file->system.items], view, 0, &value);
+    }
+    return value > 0;
+}
+
 /* Returns the largest error of all components. */
 static double solution_error(const struct gm_view *view)
 {
     const struct user_field *field = field_of(view);
+    if (!is_known(view)) {
+        return NAN;
+    }
     const struct gm_grid1 *grid = &view->problem->line;
     double largest = 0;
-    for (size_t c = 0; c < gm_line_components(&field->system); c++) {
+    for (size_t c = 0; c < gm_line_components(&field->of_file.system); c++) {
         const double *u = view->state + c * grid->points, constant = constant_of(view, c);
         for (size_t i = 0; i < gm_grid1_seen(grid); i++) {
             const double there = gm_user_line_exact(line_of(view), c, gm_grid1_node(grid, i), view->t);
@@ -205,16 +182,36 @@ static double crest(const struct gm_view *view)
     return gm_grid1_node(grid, top) + (bend < 0 ? grid->dx * (left - right) / (2 * bend) : 0);
 }
 
+/* Returns the number of an observable among the file's invariants and observables. */
+static size_t density_of(const struct gm_user_system *system, const char *key)
+{
+    size_t number = 0;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        const size_t length = strlen(item->name);
+        const bool kept = item->word == GM_WORD_INVARIANT;
+        if (!kept && item->word != GM_WORD_OBSERVE) {
+            continue;
+        }
+        if (strncmp(key, item->name, length) == 0 && strcmp(key + length, kept ? "_error" : "") == 0) {
+            break;
+        }
+        number++;
+    }
+    return number;
+}
+
 static double integral_of(const struct gm_view *view, bool magnitude)
 {
     const struct user_field *field = field_of(view);
-    const size_t number = (size_t)(view->observable - field->observables) - field->first_density;
+    const struct gm_system_scene *of_file = &field->of_file;
     if (!field->kind->place) {
-        return gm_user_evolution_integral(view->problem, number, magnitude, view->state);
+        return gm_user_evolution_integral(view->problem, density_of(&of_file->system, view->observable->key),
+                                          magnitude, view->state);
     }
-    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, weight, density;
+    double *values = gm_system_start_values(view->parameters, NULL), sum = values ? 0 : NAN, weight, density;
     for (size_t i = 0; values && field->kind->place(view, i, values, &weight); i++) {
-        gm_tape_values(&field->densities[number], values, &density, 1);
+        gm_tape_values(&of_file->formulas[view->observable - of_file->observables], values, &density, 1);
         sum += weight * (magnitude ? fabs(density) : density);
     }
     free(values);
@@ -250,7 +247,7 @@ static double highest_of(const struct user_field *field)
 
 static double exact_first(const struct gm_view *view, double x)
 {
-    return gm_user_line_exact(line_of(view), 0, x, view->t);
+    return is_known(view) ? gm_user_line_exact(line_of(view), 0, x, view->t) : NAN;
 }
 
 /* Sets the graphs: the error, if an exact solution is known, and conserved quantities. Returns their
@@ -268,11 +265,11 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
         graphs[0].calm_low = 1e-3;
         graphs[0].calm_high = 1;
     }
-    for (size_t i = field->first_density; i < field->observable_count && count < field->kind->graph_count;
-         i++) {
-        if (field->observables[i].kept) {
+    for (size_t i = 0; i < field->of_file.observable_count && count < field->kind->graph_count; i++) {
+        const struct gm_observable *observable = &field->of_file.observables[i];
+        if (observable->kept && observable->evaluate == integral) {
             graphs[count] = kept;
-            graphs[count++].observable = field->observables[i].key;
+            graphs[count++].observable = observable->key;
         }
     }
     if (count == 0) {
@@ -283,29 +280,37 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 
 static void record_shown(const struct gm_view *view, double *entry)
 {
-    gm_surface_record_shown(view, ((const struct lane *)view->parameters)->show, gm_field_u, entry);
+    gm_surface_record_shown(view, ((const struct gm_system_lane *)view->parameters)->grid.show, gm_field_u,
+                            entry);
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct lane *lane = lanes[0]->parameters;
-    const struct user_field *field = lane->owner;
-    const bool crosses = field->kind == &forms || field->low < -0.2 * field->high;
-    const double most = highest_of(field), margin = 0.1 * (field->high - field->low);
+    const struct gm_system_lane *lane = lanes[0]->parameters;
+    const struct user_field *field = owner_of(lane);
+    const struct gm_system_scene *of_file = &field->of_file;
+    const struct gm_system_item *colours = gm_system_item_of(&of_file->system, GM_WORD_COLOURS, 0);
+    double ends[2] = {field->low, field->high};
+    if (colours) {
+        const struct gm_view view = gm_lane_view(lanes[0]);
+        gm_system_values(&of_file->of_items[colours - of_file->system.items], &view, 0, ends);
+    }
+    const bool crosses = field->kind == &forms || ends[0] < -0.2 * ends[1];
+    const double most = fmax(fabs(ends[0]), fabs(ends[1])), margin = colours ? 0 : 0.1 * (ends[1] - ends[0]);
     struct gm_field_look look = {
         .value = gm_field_u,
         .exact = field->solved ? exact_first : NULL,
-        .name = field->system.variables[0].name,
-        .low = crosses ? -most - margin : field->low - margin,
-        .high = crosses ? most + margin : field->high + margin,
+        .name = of_file->system.variables[0].name,
+        .low = crosses ? -most - margin : ends[0] - margin,
+        .high = crosses ? most + margin : ends[1] + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
-        .show = lane->show,
+        .show = lane->grid.show,
     };
     const char *beyond = "";
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
         const struct gm_entries *rows = &lanes[i]->entries[0];
-        if (lanes[i]->problem.line.walls && lane->show == GM_SHOW_FIELD) {
+        if (lanes[i]->problem.line.walls && lane->grid.show == GM_SHOW_FIELD) {
             /* a kink that comes back from a wall leads to other values than it came from */
             hold(&look.low, &look.high, 5 * most, rows->values, rows->count * rows->width);
         }
@@ -315,21 +320,23 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                      longest);
         }
     }
-    picture->title = field->scene.title;
-    picture->subtitle =
-        gm_picture_text(picture, "%ld points,  Δx = %g%s%s", lane->points, lanes[0]->problem.line.dx,
-                        gm_shared_step(picture, lanes, count), beyond);
+    const char *subtitle = gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, "");
+    picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, of_file->scene.title);
+    picture->subtitle = gm_picture_text(
+        picture, "%s%s%ld points,  Δx = %g%s%s", subtitle, subtitle[0] ? ",  " : "", lane->grid.points,
+        lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count), beyond);
     struct gm_graph graphs[MOST_GRAPHS];
     gm_draw_field(picture, lanes, count, &look, graphs, graphs_of(field, graphs));
 }
 
 static void draw_mesh(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct user_field *field = ((const struct lane *)lanes[0]->parameters)->owner;
+    const struct user_field *field = owner_of(lanes[0]->parameters);
     const size_t nodes = gm_user_mesh_order(&field->wave);
     struct gm_mesh_look look = {
+        .show = (enum gm_mesh_view)((const struct gm_system_lane *)lanes[0]->parameters)->grid.show,
         .front = gm_picture_text(picture, "means of V by %zu of Gauss’s points", nodes),
-        .name = field->system.variables[0].name,
+        .name = field->of_file.system.variables[0].name,
         .scale = GM_LINEAR,
         .low = field->low,
         .high = field->high,
@@ -338,17 +345,18 @@ static void draw_mesh(const struct gm_lane *const *lanes, size_t count, struct g
         hold(&look.low, &look.high, 5 * highest_of(field), gm_lane_view(lanes[i]).state,
              lanes[i]->problem.n / 4);
     }
-    picture->title = field->scene.title;
+    picture->title = field->of_file.scene.title;
     gm_mesh_draw(lanes, count, picture, &look);
 }
 
 static const char *const boundaries[] = {"ring", "walls", NULL},
                          *const spaces[] = {"differences", "fourier", NULL},
                          *const shown[] = {"field", "energy-law", "momentum-law", NULL};
-#define RING(least) GM_POINTS(struct lane, points, "", least, "of the grid")
-#define SHOW GM_LAW_ROW(struct lane, show, shown)
+#define LANE struct gm_system_lane
+#define RING(least) GM_POINTS(LANE, grid.points, "", least, "of the grid")
+#define SHOW GM_LAW_ROW(LANE, grid.show, shown)
 #define BOUNDARY                                                                                             \
-    GM_CHOICE_ROW(struct lane, walls, "boundary", "ring", boundaries,                                        \
+    GM_CHOICE_ROW(LANE, grid.walls, "boundary", "ring", boundaries,                                          \
                   "a ring, or walls that reflect: u_x = 0 at both ends")
 #define HIGHEST                                                                                              \
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
@@ -358,24 +366,34 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
 
 /* ---- the kinds ---- */
 
-/* Returns the ring, or the grid between walls. */
-static struct gm_grid1 grid_of(const struct lane *lane)
+/* Returns half the length of a lane's line. */
+static double half_length_of(const struct gm_system_lane *lane)
 {
-    return lane->walls ? gm_between_walls(lane->half_length, lane->points)
-                       : gm_ring(lane->half_length, lane->points);
+    const struct gm_system_scene *owner = lane->owner;
+    size_t row = GM_SYSTEM_ROWS;
+    while (owner->variables[row] != owner->system.velocities - GM_RING_PARAMETERS) {
+        row++;
+    }
+    return lane->values[row - GM_SYSTEM_ROWS];
 }
 
-static bool open_wave(struct gm_problem *problem, const struct lane *lane, const double *values)
+/* Returns the ring, or the grid between walls. */
+static struct gm_grid1 grid_of(const struct gm_system_lane *lane)
+{
+    return (lane->grid.walls ? gm_between_walls : gm_ring)(half_length_of(lane), lane->grid.points);
+}
+
+static bool open_wave(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
 {
     const struct gm_grid1 grid = grid_of(lane);
-    return gm_user_wave_open(problem, &lane->owner->wave, values, &grid);
+    return gm_user_wave_open(problem, &owner_of(lane)->wave, values, &grid);
 }
 
 /* Evaluates in the middle between the two levels of the state. */
 static bool place_wave(const struct gm_view *view, size_t i, double *values, double *weight)
 {
     const struct gm_grid1 *grid = &view->problem->line;
-    const size_t x = field_of(view)->system.velocities, right = i + 1 < grid->points ? i + 1 : 0,
+    const size_t x = field_of(view)->of_file.system.velocities, right = i + 1 < grid->points ? i + 1 : 0,
                  left = i > 0 ? i - 1 : grid->points - 1;
     const double *u = view->state, *other = u + grid->points, gap = other[grid->points],
                  jump = right == 0 || i == 0 ? grid->jump : 0;
@@ -409,11 +427,11 @@ static const struct kind waves = {
     .place = place_wave,
 };
 
-static bool open_mesh(struct gm_problem *problem, const struct lane *lane, const double *values)
+static bool open_mesh(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
 {
-    const struct gm_user_mesh mesh = {lane->half_length, lane->points, lane->alpha,
-                                      (enum gm_mesh_density)lane->density};
-    return gm_user_mesh_open(problem, &lane->owner->wave, values, &mesh);
+    const struct gm_user_mesh mesh = {half_length_of(lane), lane->grid.points, lane->grid.alpha,
+                                      (enum gm_mesh_density)lane->grid.density};
+    return gm_user_mesh_open(problem, &owner_of(lane)->wave, values, &mesh);
 }
 
 /* Returns field, position or their velocities (`number`) at node k, counted from the left end. */
@@ -429,7 +447,7 @@ static double at_node(const struct gm_view *view, const struct gm_mesh *mesh, si
 /* Evaluates in the middle of an element. */
 static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, double *weight)
 {
-    const size_t x = field_of(view)->system.velocities;
+    const size_t x = field_of(view)->of_file.system.velocities;
     const struct gm_mesh mesh = gm_mesh_of(view);
     double sum[4], rise[4];
     if (k > mesh.points) {
@@ -449,18 +467,18 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
 }
 
 static const struct gm_parameter mesh_rows[] = {
-    GM_INTEGER_ROW(struct lane, points, "points", "", 1, 1e5, "nodes between the ends", .logarithmic = true),
+    GM_INTEGER_ROW(LANE, grid.points, "points", "", 1, 1e5, "nodes between the ends", .logarithmic = true),
     GM_CHOICE_ROW(
-        struct lane, show, "show", "all", gm_mesh_views,
+        LANE, grid.show, "show", "all", gm_mesh_views,
         "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .live = true),
     GM_REAL_ROW(
-        struct lane, alpha, "alpha", "auto", 0, 1e6,
+        LANE, grid.alpha, "alpha", "auto", 0, 1e6,
         "weight of the field's slope in the mesh density; auto: 3/2 over the largest slope at the start, or π/10 of the "
         "length over what u goes up and down there, whichever is less",
         .automatic = true),
     GM_CHOICE_ROW(
-        struct lane, density, "density", "arclength", gm_mesh_densities,
+        LANE, grid.density, "density", "arclength", gm_mesh_densities,
         "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
         "tempered where the field is steeper than at the start"),
 };
@@ -479,16 +497,17 @@ static const struct kind moving_waves = {
     .place = place_on_mesh,
 };
 
-static bool open_evolution(struct gm_problem *problem, const struct lane *lane, const double *values)
+static bool open_evolution(struct gm_problem *problem, const struct gm_system_lane *lane,
+                           const double *values)
 {
     const struct gm_grid1 grid = grid_of(lane);
-    return gm_user_evolution_open(problem, &lane->owner->evolution, values, &grid,
-                                  (enum gm_derivatives)lane->space);
+    return gm_user_evolution_open(problem, &owner_of(lane)->evolution, values, &grid,
+                                  (enum gm_derivatives)lane->grid.space);
 }
 
 static const struct gm_parameter evolution_rows[] = {
     RING(5),
-    GM_CHOICE_ROW(struct lane, space, "space", "differences", spaces,
+    GM_CHOICE_ROW(LANE, grid.space, "space", "differences", spaces,
                   "derivatives: central differences of order 2, or of waves through the nodes"),
     BOUNDARY};
 static const struct gm_observable of_evolutions[] = {HIGHEST};
@@ -506,10 +525,10 @@ static const struct kind evolutions = {
     .draw = draw,
 };
 
-static bool open_form(struct gm_problem *problem, const struct lane *lane, const double *values)
+static bool open_form(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
 {
     const struct gm_grid1 grid = grid_of(lane);
-    return gm_user_form_open(problem, &lane->owner->form, values, &grid);
+    return gm_user_form_open(problem, &owner_of(lane)->form, values, &grid);
 }
 
 /* Evaluates at the stages of the cells, which a run stores, by Gauss's rule; at the nodes before the first
@@ -517,7 +536,7 @@ static bool open_form(struct gm_problem *problem, const struct lane *lane, const
 static bool place_in_cell(const struct gm_view *view, size_t number, double *values, double *weight)
 {
     static const double left = 0, whole = 1;
-    const struct gm_user_system *system = &field_of(view)->system;
+    const struct gm_user_system *system = &field_of(view)->of_file.system;
     const struct gm_grid1 *grid = &view->problem->line;
     const struct gm_collocation_tableau *tableau = view->scheme->coefficients;
     const bool stepped = view->memory != NULL;
@@ -560,33 +579,20 @@ static const struct kind forms = {
 
 /* ---- from parameters to problem and start ---- */
 
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence);
+
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
-    struct lane *lane = parameters;
-    const struct user_field *field = lane->owner;
-    char *given = (char *)(lane->values + parameter_count(field));
-    for (size_t i = 0; i < parameter_count(field); i++) {
-        given[i] |= gm_is_given(field->rows[field->values + i].key, keys, count);
-    }
-    double *values = values_of(lane, given);
-    bool good = values || gm_refuse(sentence, "not enough memory");
-    for (size_t i = 0; i < parameter_count(field) && good; i++) {
-        const struct gm_parameter *row = &field->rows[field->values + i];
-        const double value = lane->values[i] = values[field->system.parameters + i];
-        good = (value >= row->lowest && value <= row->highest) ||
-               gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g", row->key, value,
-                         row->lowest, row->highest);
-    }
-    free(values);
-    return good;
+    return gm_system_settle(parameters, keys, count, open_other, sentence);
 }
 
 static void start(const void *parameters, const struct gm_problem *problem, double *y)
 {
-    const struct lane *lane = parameters;
-    if (lane->owner->kind == &evolutions) {
+    const struct gm_system_lane *lane = parameters;
+    if (owner_of(lane)->kind == &evolutions) {
         gm_user_evolution_start(problem, y);
-    } else if (lane->owner->kind == &forms) {
+    } else if (owner_of(lane)->kind == &forms) {
         gm_user_form_start(problem, y);
     } else {
         gm_user_wave_levels(problem, lane->timing.dt, y);
@@ -597,7 +603,7 @@ static bool start_mesh(const void *parameters, const struct gm_problem *problem,
                        const struct gm_scheme *scheme, double *y, char *sentence)
 {
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
-    const struct lane *lane = parameters;
+    const struct gm_system_lane *lane = parameters;
     struct gm_mesh mesh;
     moving->describe(problem, &mesh);
     return gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y) ||
@@ -605,21 +611,22 @@ static bool start_mesh(const void *parameters, const struct gm_problem *problem,
                sentence,
                "no mesh of %ld nodes was found for alpha = %g: the homotopy from the uniform mesh fails; a "
                "smaller alpha helps",
-               lane->points, lane->alpha);
+               lane->grid.points, lane->grid.alpha);
 }
 
 /* Notes the weight of the slope if the start chose it. */
 static void note_alpha(const struct gm_problem *problem, void *parameters)
 {
-    ((struct lane *)parameters)->alpha = gm_user_mesh_alpha(problem);
+    ((struct gm_system_lane *)parameters)->grid.alpha = gm_user_mesh_alpha(problem);
 }
 
 /* Returns the start on a grid: the ring's, or a fine one if the mesh moves. malloc'ed; NULL when out of
    memory. */
-static double *start_on(const struct lane *lane, const struct gm_problem *problem, struct gm_grid1 *grid)
+static double *start_on(const struct gm_system_lane *lane, const struct gm_problem *problem,
+                        struct gm_grid1 *grid)
 {
-    const bool moves = lane->owner->kind == &moving_waves;
-    *grid = moves ? gm_ring(lane->half_length, SAMPLES) : problem->line;
+    const bool moves = owner_of(lane)->kind == &moving_waves;
+    *grid = moves ? gm_ring(half_length_of(lane), SAMPLES) : problem->line;
     grid->points += moves;
     double *y = malloc((moves ? grid->points : problem->n) * sizeof *y), slope, rate;
     if (y && !moves) {
@@ -637,10 +644,10 @@ static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *gr
     const struct user_field *field = field_of(view);
     const size_t apart = gm_grid1_seen(grid) / (SAMPLES + 2) + 1;
     double largest = 1e-9;
-    for (size_t i = 0; i < gm_line_components(&field->system) * grid->points; i++) {
+    for (size_t i = 0; i < gm_line_components(&field->of_file.system) * grid->points; i++) {
         largest = fmax(largest, fabs(view->state[i]));
     }
-    for (size_t c = 0; c < gm_line_components(&field->system); c++) {
+    for (size_t c = 0; c < gm_line_components(&field->of_file.system); c++) {
         const double constant = constant_of(view, c);
         for (size_t i = 0; i < gm_grid1_seen(grid); i += apart) {
             const double x = gm_grid1_node(grid, i), begin = view->state[c * grid->points + i],
@@ -648,7 +655,7 @@ static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *gr
             if (!(fabs(exact - begin) <= 1e-3 * largest)) {
                 return gm_refuse(sentence,
                                  "exact: %.60s would begin at %.6g where x = %.6g, and it starts at %.6g",
-                                 field->system.variables[c].name, exact, x, begin);
+                                 field->of_file.system.variables[c].name, exact, x, begin);
             }
         }
     }
@@ -676,38 +683,62 @@ static bool has_levels(const struct gm_problem *problem, const char *name, const
                name, further, y[2 * points]);
 }
 
-static bool check_start(const struct lane *lane, const struct gm_problem *problem, char *sentence)
+static bool check_start(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence)
 {
-    const struct user_field *field = lane->owner;
+    const struct user_field *field = owner_of(lane);
     struct gm_grid1 grid;
     if (!field->kind->closes(problem, sentence, GM_MESSAGE)) {
         return false;
     }
     double *y = start_on(lane, problem, &grid);
     const struct gm_view view = {.problem = problem, .parameters = lane, .state = y};
-    const bool good =
-        y ? (!field->solved || begins_exactly(&view, &grid, sentence)) &&
-                (field->kind != &waves || has_levels(problem, field->system.variables[0].name, y, sentence))
-          : gm_refuse(sentence, "not enough memory");
+    const bool written =
+        field->of_file.system.variables[0].start_place > 0; /* else it is the exact solution */
+    const bool good = y ? (!field->solved || !written || begins_exactly(&view, &grid, sentence)) &&
+                              (field->kind != &waves ||
+                               has_levels(problem, field->of_file.system.variables[0].name, y, sentence))
+                        : gm_refuse(sentence, "not enough memory");
     free(y);
     return good;
 }
 
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
-    const struct lane *lane = parameters;
-    double *values = values_of(lane, NULL);
-    bool good = (values && lane->owner->kind->open(problem, lane, values)) ||
-                gm_refuse(sentence, "not enough memory");
-    if (good) {
-        problem->name = lane->owner->scene.name;
-        good = check_start(lane, problem, sentence);
+    const struct gm_system_lane *lane = parameters;
+    const struct kind *kind = owner_of(lane)->kind;
+    double *values = gm_system_start_values(lane, NULL);
+    if (!values) {
+        return gm_refuse(sentence, "not enough memory");
     }
-    if (!good && values) {
-        lane->owner->kind->close(problem);
+    if (!gm_system_is_admitted(lane, values, sentence)) {
+        free(values);
+        return false;
     }
+    bool good = kind->open(problem, lane, values) || gm_refuse(sentence, "not enough memory");
+    problem->name = lane->owner->scene.name;
     free(values);
+    good = good && check_start(lane, problem, sentence);
+    if (!good) {
+        kind->close(problem);
+    }
     return good;
+}
+
+/* Sets the parameter `position`, if the start depends on it. */
+static size_t point(const void *parameters, double x, double u, struct gm_choice *choices)
+{
+    static const char key[] = "position";
+    const struct gm_user_system *system = &((const struct gm_system_lane *)parameters)->owner->system;
+    size_t count = 0, found = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, system->variables[0].start, &count);
+    for (size_t i = 0; parts && i < count; i++) {
+        const struct gm_node *node = &system->graph.nodes[parts[i]];
+        found |= node->operation == GM_VARIABLE && strcmp(system->variables[node->a].name, key) == 0;
+    }
+    free(parts);
+    (void)u;
+    gm_choose(&choices[0], key, x);
+    return found;
 }
 
 /* ---- the scene is made ---- */
@@ -724,79 +755,59 @@ struct making {
 static void close_field(void *thing)
 {
     struct user_field *field = thing;
-    for (size_t i = 0; i < MOST_DENSITIES; i++) {
-        gm_tape_close(&field->densities[i]);
-    }
     gm_user_evolution_close(&field->evolution);
-    gm_kept_texts_close(&field->texts);
-    gm_system_close(&field->system);
-}
-
-/* Returns the number of a line; `usual` without such a line. */
-static double number_of(const struct gm_user_system *system, const double *values, enum gm_system_word word,
-                        double usual)
-{
-    const struct gm_system_item *item = gm_system_item_of(system, word, 0);
-    return item ? values[item->nodes[0]] : usual;
+    gm_system_close_rows(&field->of_file);
 }
 
 static void make_rows(struct user_field *field)
 {
-    const struct gm_user_system *system = &field->system;
+    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY};
+    struct gm_system_scene *of_file = &field->of_file;
+    const struct gm_user_system *system = &of_file->system;
     const struct kind *kind = field->kind;
     struct gm_arena *arena = field->arena;
-    const size_t parameters = system->velocities - system->parameters;
-    field->values = COMMON_ROWS + kind->row_count;
-    field->row_count = field->values + parameters;
-    field->rows = gm_arena_take(arena, field->row_count, sizeof *field->rows);
-    field->initial = gm_arena_take(arena, 1, sizeof *field->initial + parameters * (sizeof(double) + 1));
-    field->initial->owner = field;
-    double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free),
-           *all = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *all);
-    gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+    const double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
     /* a moving mesh needs fewer nodes */
-    const double half_length = number_of(system, all, GM_WORD_HALF_LENGTH, 20),
-                 grid = number_of(system, all, GM_WORD_POINTS, 400),
-                 points = kind == &moving_waves ? fmax(1, floor(grid / 4)) : grid,
-                 dt = number_of(system, all, GM_WORD_DT, gm_written_rounded(half_length / grid)),
-                 steps = number_of(system, all, GM_WORD_STEPS, 2 * half_length / dt),
-                 until = number_of(system, all, GM_WORD_UNTIL, steps * dt);
-    const struct gm_parameter common[] = {
-        [DT] = GM_DT("", 1e-9, 1e6),
-        [UNTIL] = GM_UNTIL(""),
-        [HALF_LENGTH] =
-            GM_HALF_LENGTH(struct lane, half_length, gm_kept_number(&field->texts, half_length, NULL),
-                           "the ring is −half_length ≤ x < half_length"),
-    };
-    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY};
-    memcpy(field->rows, common, sizeof common);
-    memcpy(field->rows + COMMON_ROWS, kind->rows, kind->row_count * sizeof *kind->rows);
-    field->rows[COMMON_ROWS].standard = gm_kept_number(&field->texts, points, NULL);
-    for (size_t i = COMMON_ROWS; i < field->values; i++) {
+    const double half_length = values[system->velocities - 2], grid = values[system->velocities - 1],
+                 points = kind == &moving_waves ? fmax(1, floor(grid / 4)) : grid;
+    const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
+    struct gm_parameter common[MOST_ROWS];
+    memcpy(common, kind->rows, kind->row_count * sizeof *common);
+    common[0].standard = gm_kept_number(&of_file->texts, points, NULL);
+    for (size_t i = 0; i < kind->row_count; i++) {
         for (size_t k = 0; k < GM_COUNT(chosen); k++) {
             const char *text = system->texts[chosen[k]];
-            const bool here = text && strcmp(field->rows[i].key, gm_system_words[chosen[k]].word) == 0;
-            field->rows[i].standard = here ? text : field->rows[i].standard;
+            const bool here = text && strcmp(common[i].key, gm_system_words[chosen[k]].word) == 0;
+            common[i].standard = here ? text : common[i].standard;
         }
+        gm_arena_need(arena, common[i].standard);
     }
-    gm_arena_need(arena,
-                  gm_written_timing(&field->texts, system, dt, until, &field->rows[DT], &field->rows[UNTIL]));
-    for (size_t i = 0; i < parameters; i++) {
-        const struct gm_system_variable *variable = &system->variables[system->parameters + i];
-        for (size_t k = 0; k < field->values; k++) {
-            if (strcmp(field->rows[k].key, variable->name) == 0) {
+    gm_arena_need(arena, gm_system_make_rows(of_file, timing, common, kind->row_count, false));
+    struct gm_parameter *last = &of_file->rows[of_file->row_count - 1];
+    last->lowest = 0.1;
+    last->highest = 1e5;
+    last->logarithmic = true;
+    for (size_t i = GM_SYSTEM_ROWS; i < of_file->row_count; i++) {
+        for (size_t k = 0; k < kind->row_count; k++) {
+            if (strcmp(common[k].key, of_file->rows[i].key) == 0) {
                 gm_arena_refuse(arena, "%.60s is a key of moving meshes: a parameter needs another name",
-                                variable->name);
+                                common[k].key);
             }
         }
-        field->rows[field->values + i] =
-            gm_written_row(&field->texts, variable, values[system->parameters + i], "a parameter",
-                           offsetof(struct lane, values) + i * sizeof(double));
     }
-    for (size_t i = 0; i < field->row_count; i++) {
-        gm_arena_need(arena, field->rows[i].standard);
+    const size_t own = of_file->row_count + kind->row_count;
+    gm_parameters_reset(of_file->rows + GM_SYSTEM_ROWS, own - GM_SYSTEM_ROWS, of_file->initial);
+    double numbers[GM_SYSTEM_TIMES];
+    char sentence[GM_MESSAGE];
+    if (!gm_system_open_timing(of_file, numbers, sentence)) {
+        gm_arena_refuse(arena, "%s", sentence);
     }
-    gm_parameters_reset(field->rows, field->row_count, field->initial);
+    const double dt = numbers[0] > 0 ? numbers[0] : gm_written_rounded(half_length / grid),
+                 steps = numbers[2] >= 0 ? numbers[2] : 2 * half_length / dt,
+                 until = numbers[1] >= 0 ? numbers[1] : steps * dt;
+    gm_arena_need(arena, gm_written_timing(&of_file->texts, system, dt, until, &of_file->rows[DT],
+                                           &of_file->rows[UNTIL]));
+    gm_parameters_reset(of_file->rows, GM_SYSTEM_ROWS, of_file->initial);
 }
 
 static void make_observables(struct user_field *field)
@@ -805,38 +816,42 @@ static void make_observables(struct user_field *field)
                                       error = GM_LOG_OBSERVABLE("solution_error", solution_error,
                                                                 "distance from the exact solution");
     static const char infinite[] = "its density is not finite everywhere";
-    const struct gm_user_system *system = &field->system;
-    double *unused = gm_arena_take(field->arena, system->variable_count, sizeof *unused);
-    const size_t usual = field->kind->observable_count;
-    memcpy(field->observables, field->kind->observables, usual * sizeof *field->observables);
-    field->first_density = usual;
+    struct gm_system_scene *of_file = &field->of_file;
+    const struct gm_user_system *system = &of_file->system;
+    size_t count = field->kind->observable_count;
+    of_file->observables = calloc(MOST_OBSERVABLES, sizeof *of_file->observables);
+    of_file->formulas = calloc(MOST_OBSERVABLES, sizeof *of_file->formulas);
+    of_file->terms = calloc(MOST_OBSERVABLES, sizeof *of_file->terms);
+    gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
+    memcpy(of_file->observables, field->kind->observables, count * sizeof *of_file->observables);
     if (field->solved && field->kind == &moving_waves) {
-        memcpy(field->observables + usual, on_nodes, sizeof on_nodes);
-        field->first_density += GM_COUNT(on_nodes);
+        memcpy(of_file->observables + count, on_nodes, sizeof on_nodes);
+        count += GM_COUNT(on_nodes);
     } else if (field->solved) {
-        field->observables[field->first_density++] = error;
+        const struct gm_system_item *known = gm_system_item_of(system, GM_WORD_EXACT_WHILE, 0);
+        of_file->observables[count] = error;
+        of_file->observables[count++].missing = known ? known->text : NULL;
     }
-    field->observable_count = field->first_density;
+    const size_t first_density = count;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const bool kept = item->word == GM_WORD_INVARIANT;
         if (!kept && item->word != GM_WORD_OBSERVE) {
             continue;
         }
-        const size_t number = field->observable_count - field->first_density;
-        if (number == MOST_DENSITIES) {
+        if (count - first_density == MOST_DENSITIES) {
             gm_arena_refuse(field->arena, "a field has at most %d invariants and observables",
                             MOST_DENSITIES);
         }
         const char *key = gm_arena_print(field->arena, kept ? "%s_error" : "%s", item->name);
-        gm_arena_need(field->arena, gm_tape_open(&field->densities[number], &system->graph, item->nodes, 1,
-                                                 system->variable_count, unused));
-        for (size_t k = 0; k < field->observable_count; k++) {
-            if (gm_observables_clash(key, field->observables[k].key)) {
+        of_file->observable_count = count + 1;
+        gm_arena_need(field->arena, gm_system_open_tape(of_file, &of_file->formulas[count], item->nodes, 1));
+        for (size_t k = 0; k < count; k++) {
+            if (gm_observables_clash(key, of_file->observables[k].key)) {
                 gm_arena_refuse(field->arena, "there are two observables %s", key);
             }
         }
-        struct gm_observable *row = &field->observables[field->observable_count++];
+        struct gm_observable *row = &of_file->observables[count++];
         *row = kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(
                           key, integral, item->name, item->name,
                           .least = gm_system_option_number(item, GM_OPTION_SCALE, 0), .terms = terms,
@@ -844,20 +859,22 @@ static void make_observables(struct user_field *field)
                     : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
         gm_written_options(row, item);
     }
+    of_file->observable_count = of_file->scene.observable_count = count;
+    of_file->scene.observables = of_file->observables;
 }
 
 static void make_schemes(struct user_field *field, const struct gm_problem *problem)
 {
     size_t count, others;
     char sentence[GM_MESSAGE];
-    const char *text = field->system.texts[GM_WORD_SCHEMES];
+    const char *text = field->of_file.system.texts[GM_WORD_SCHEMES];
     const bool elsewhere = field->kind == &moving_waves && gm_user_field_moving(text, &others) == 0;
-    if (!gm_written_schemes(elsewhere ? NULL : text, problem, field->schemes, MOST_PREFERRED, &count,
-                            sentence)) {
+    if (!gm_written_schemes(elsewhere ? NULL : text, problem, field->of_file.schemes, GM_MOST_PREFERRED,
+                            &count, sentence)) {
         gm_arena_refuse(field->arena, "%s", sentence);
     }
-    field->scene.schemes = count > 0 ? field->schemes : field->kind->schemes;
-    field->scene.lanes = field->system.texts[GM_WORD_LANES];
+    field->of_file.scene.schemes = count > 0 ? field->of_file.schemes : field->kind->schemes;
+    field->of_file.scene.lanes = field->of_file.system.texts[GM_WORD_LANES];
 }
 
 /* Refines the grid with the step if there is an exact solution, or, on a moving mesh, against a run on more
@@ -865,10 +882,11 @@ static void make_schemes(struct user_field *field, const struct gm_problem *prob
    is measured. */
 static void make_work(struct user_field *field)
 {
-    const double points = (double)field->initial->points;
-    struct gm_work *work = &field->work;
-    *work = (struct gm_work){
-        .arguments = "", .coarsest = field->initial->half_length / points * 2, .halvings = 5};
+    const struct gm_system_lane *initial = field->of_file.initial;
+    const double points = (double)initial->grid.points;
+    struct gm_work *work = &field->of_file.work;
+    *work =
+        (struct gm_work){.arguments = "", .coarsest = half_length_of(initial) / points * 2, .halvings = 5};
     if (field->solved) {
         work->measure = "solution_error";
     } else if (field->kind == &moving_waves) {
@@ -891,9 +909,9 @@ static void make_work(struct user_field *field)
 static const char *title_of(struct user_field *field)
 {
     enum { SHORT = 48 };
-    const struct gm_user_system *system = &field->system;
-    if (system->texts[GM_WORD_TITLE]) {
-        return system->texts[GM_WORD_TITLE];
+    const struct gm_user_system *system = &field->of_file.system;
+    if (gm_system_title(system)) {
+        return gm_system_title(system);
     }
     if (system->kind != GM_FIELD) {
         return "A field of one’s own";
@@ -936,7 +954,7 @@ static bool on_a_ring(const struct gm_scheme *scheme)
 static void find_range(struct user_field *field, const struct gm_problem *problem)
 {
     struct gm_grid1 grid;
-    const double *y = gm_arena_keep(field->arena, start_on(field->initial, problem, &grid), free);
+    const double *y = gm_arena_keep(field->arena, start_on(field->of_file.initial, problem, &grid), free);
     field->low = field->high = y[0];
     for (size_t i = 0; i < grid.points; i++) {
         gm_range_add(&field->low, &field->high, y[i]);
@@ -955,13 +973,13 @@ static void close_problem(void *thing)
 
 static bool derive(struct user_field *field)
 {
-    switch (field->system.kind) {
+    switch (field->of_file.system.kind) {
     case GM_EVOLUTION:
-        return gm_user_evolution_derive(&field->evolution, &field->system);
+        return gm_user_evolution_derive(&field->evolution, &field->of_file.system);
     case GM_MATRICES:
-        return gm_user_form_derive(&field->form, &field->system);
+        return gm_user_form_derive(&field->form, &field->of_file.system);
     default:
-        return gm_user_wave_derive(&field->wave, &field->system);
+        return gm_user_wave_derive(&field->wave, &field->of_file.system);
     }
 }
 
@@ -969,7 +987,8 @@ static void make(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
     struct user_field *field = making->field = gm_arena_take(arena, 1, sizeof *field);
-    struct gm_user_system *system = &field->system;
+    struct gm_system_scene *of_file = &field->of_file;
+    struct gm_user_system *system = &of_file->system;
     static const struct gm_track surface[] = {GM_SURFACE_TRACK(record_shown)},
                                  paths[] = {GM_MESH_PATHS_TRACK};
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
@@ -991,54 +1010,64 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_need(arena, derive(field));
     field->solved = gm_line_is_solved(system);
     make_rows(field);
-    field->scene = (struct gm_scene){
+    of_file->scene = (struct gm_scene){
         .name = making->name,
         .title = title_of(field),
         .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A field of one’s own.",
         .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
-        .time = in_potential ? "what light needs for a length of 1" : "that of the equation",
-        .size = sizeof *field->initial + parameter_count(field) * (sizeof(double) + 1),
-        .initial = field->initial,
+        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME]
+                : in_potential      ? "what light needs for a length of 1"
+                                    : "that of the equation",
+        .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
+        .initial = of_file->initial,
         .words = making->words,
-        .source = system->source,
-        .text = system->source,
-        .mark = gm_arena_keep(arena, gm_written_mark(making->name, system->source), free),
-        .parameters = field->rows,
-        .parameter_count = field->row_count,
+        .source = making->words ? system->source : NULL,
+        .text = making->words ? system->source : NULL,
+        .mark =
+            making->words ? gm_arena_keep(arena, gm_written_mark(making->name, system->source), free) : NULL,
+        .parameters = of_file->rows,
+        .parameter_count = of_file->row_count + of_file->common_count,
         .tracks = moves ? paths : surface,
         .track_count = 1,
-        .work = &field->work,
-        .observables = field->observables,
+        .work = &of_file->work,
         .asked = law,
         .asked_count = by_matrices ? GM_COUNT(law) : 0,
+        .variant = gm_system_variant,
+        .idle = gm_system_idle,
         .settle = settle,
         .setup = setup,
         .close = kind->close,
         .start = start,
         .draw = kind->draw,
+        .point = point,
         .failure = tell_failure,
     };
     if (moves) {
-        field->scene.elsewhere = on_a_ring;
-        field->scene.start_with = start_mesh;
-        field->scene.chosen = note_alpha;
-    } else if (in_potential && !field->initial->walls) {
-        field->scene.elsewhere = on_a_mesh;
+        of_file->scene.elsewhere = on_a_ring;
+        of_file->scene.start_with = start_mesh;
+        of_file->scene.chosen = note_alpha;
+    } else if (in_potential && making->words && !of_file->initial->grid.walls) {
+        of_file->scene.elsewhere = on_a_mesh;
     }
-    if (!setup(field->initial, &making->problem, sentence)) {
+    if (!gm_system_open_items(of_file, sentence) || !setup(of_file->initial, &making->problem, sentence)) {
         gm_arena_refuse(arena, "%s", sentence);
     }
     gm_arena_keep(arena, making, close_problem);
     make_observables(field);
     make_schemes(field, &making->problem);
-    find_range(field, &making->problem);
+    if (moves || !gm_system_item_of(system, GM_WORD_COLOURS, 0)) {
+        find_range(field, &making->problem);
+    }
     make_work(field);
-    field->scene.observable_count = field->observable_count;
+    if (!gm_system_make_studies(of_file, &making->problem, NULL, sentence)) {
+        gm_arena_refuse(arena, "%s", sentence);
+    }
     gm_arena_drop(arena, making);
 }
 
-const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, bool moves, char *sentence)
+/* Opens the scene of a system, which it takes. */
+static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
+                                        const char *const *words, bool moves, char *sentence)
 {
     struct making making = {.system = system, .name = name, .words = words, .moves = moves};
     struct gm_arena *arena = gm_arena_open();
@@ -1048,10 +1077,36 @@ const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const c
         gm_arena_close(arena);
         return NULL;
     }
-    return &making.field->scene;
+    return &making.field->of_file;
+}
+
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence)
+{
+    const bool moves = ((const struct user_field *)first)->kind == &moving_waves;
+    return open_one(system, first->scene.name, first->scene.words, moves, sentence);
+}
+
+const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
+                                          const char *const *words, bool moves, struct gm_fault *fault,
+                                          char *sentence)
+{
+    const bool choices = system->choices.count > 0;
+    struct gm_system_scene *first = open_one(system, name, words, moves, sentence);
+    *fault = (struct gm_fault){0};
+    if (first && choices &&
+        !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {
+        gm_user_field_close(&first->scene);
+        return NULL;
+    }
+    return first ? &first->scene : NULL;
 }
 
 void gm_user_field_close(const struct gm_scene *scene)
 {
-    gm_arena_close(((const struct user_field *)scene)->arena); /* the scene is its first member */
+    const struct user_field *field = (const struct user_field *)scene; /* the scene is its first member */
+    if (field->of_file.next) {
+        gm_user_field_close(&field->of_file.next->scene);
+    }
+    gm_arena_close(field->arena);
 }

@@ -8,7 +8,8 @@
 /* Returns a scene of a system that is a field, and takes the system, as gm_system_scene_open
    (scenes/ode/system.h) does for all others. If `moves`, a wave equation is on a moving mesh. */
 const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, bool moves, char *sentence);
+                                          const char *const *words, bool moves, struct gm_fault *fault,
+                                          char *sentence);
 /* Returns how many of these schemes, separated by blanks or commas, or NULL, are on moving meshes; *others:
    the number of the rest. */
 size_t gm_user_field_moving(const char *schemes, size_t *others);

@@ -128,7 +128,7 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
 {
     struct gm_panel *before = picture->last, *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        const struct gm_mesh_parameters *parameters = walk.lane->parameters;
+        const struct gm_timing *timing = walk.lane->parameters;
         const struct gm_entries *paths = &walk.lane->entries[0];
         const double t = walk.lane->run->t;
         if (walk.first && named) {
@@ -145,7 +145,7 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
             panel->y = (struct gm_axis){.label = "t", .low = 0, .high = 0};
         }
         panel->y.low = fmin(panel->y.low, fmin(paths->times[0], t));
-        panel->y.high = fmax(panel->y.high, fmax(parameters->timing.until, t));
+        panel->y.high = fmax(panel->y.high, fmax(timing->until, t));
         draw_paths(picture, panel, walk.lane, paths->width > 40);
     }
     for (panel = before ? before->next : picture->first; panel; panel = panel->next) {
@@ -219,16 +219,15 @@ static const char *step_text(struct gm_picture *picture, double dt)
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                             const struct gm_mesh_look *look)
 {
-    const struct gm_mesh_parameters *parameters = lanes[0]->parameters;
     const size_t points = lanes[0]->problem.n / 4;
-    const bool named = parameters->show != GM_MESH_CONVERGENCE;
+    const bool named = look->show != GM_MESH_CONVERGENCE;
     const bool one_step = gm_one_step(lanes, count);
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
         one_size &= lanes[i]->problem.n / 4 == points;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
-    const bool fields = parameters->show == GM_MESH_ALL || parameters->show == GM_MESH_FIELD;
+    const bool fields = look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD;
     const struct gm_view view = gm_lane_view(lanes[0]);
     const bool exact = isfinite(gm_mesh_exact(&view, gm_mesh_of(&view).first, view.t0)),
                later = lanes[0]->run->t != lanes[0]->t0;
@@ -284,7 +283,7 @@ static void draw_energies(struct gm_picture *picture, const struct gm_lane *cons
 void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                   const struct gm_mesh_look *look)
 {
-    const int show = ((const struct gm_mesh_parameters *)lanes[0]->parameters)->show;
+    const enum gm_mesh_view show = look->show;
     picture->subtitle = subtitle(picture, lanes, count, look);
     gm_draw_clock(picture, lanes, count);
     const size_t panels = gm_panel_count(lanes, count);

@@ -18,15 +18,10 @@ enum gm_mesh_view {
 /* The names of enum gm_mesh_view and of enum gm_mesh_density (core/mesh/moving_mesh.h), NULL-terminated. */
 extern const char *const gm_mesh_views[], *const gm_mesh_densities[];
 
-/* The parameters of such a scene begin with these; its first track holds the paths
+/* The differences between scenes; the picture has the title. The first track of such a scene holds the paths
    (scenes/mesh/observed.h). */
-struct gm_mesh_parameters {
-    struct gm_timing timing;
-    int show; /* enum gm_mesh_view */
-};
-
-/* The differences between scenes; the picture has the title. */
 struct gm_mesh_look {
+    enum gm_mesh_view show;
     const char *front, *name; /* the beginning of the subtitle; the name of the field */
     enum gm_scale scale;
     double low, high; /* the range of the field */

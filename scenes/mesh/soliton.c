@@ -20,7 +20,8 @@
 #include "scenes/mesh/picture.h"
 
 struct parameters {
-    struct gm_mesh_parameters shown;
+    struct gm_timing timing;
+    int show; /* enum gm_mesh_view */
     struct gm_soliton model;
 };
 
@@ -47,7 +48,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct parameters, model.length, "length", "25", 1, 1e4, "distance of the walls",
                 .logarithmic = true),
     GM_CHOICE_ROW(
-        struct parameters, shown.show, "show", "all", gm_mesh_views,
+        struct parameters, show, "show", "all", gm_mesh_views,
         "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .live = true),
 };
@@ -137,11 +138,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         [GM_MESH_ENERGY] = "The energy of %s on a moving mesh",
         [GM_MESH_CONVERGENCE] = "What moving the mesh gains: %s",
     };
-    picture->title = gm_picture_text(picture, titles[soliton->shown.show], who);
+    picture->title = gm_picture_text(picture, titles[soliton->show], who);
     const struct gm_view view = gm_lane_view(lanes[0]);
     const struct gm_mesh mesh = gm_mesh_of(&view);
     const bool phi4 = soliton->model.field == GM_PHI4;
     const struct gm_mesh_look look = {
+        .show = (enum gm_mesh_view)soliton->show,
         .front = gm_picture_text(picture, "%s,  velocity %g", phi4 ? "φ⁴" : "sine-Gordon",
                                  soliton->model.velocity),
         .name = "φ",

@@ -22,16 +22,20 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "scenes/common/system/pieces.h"
+#include "scenes/common/system/rows.h"
 #include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
+#include "scenes/common/trails.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/system/aim.h"
+#include "scenes/ode/system/curves.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/failure.h"
 #include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/observed.h"
+#include "scenes/ode/system/phase.h"
 #include "scenes/ode/system/sights.h"
 
 enum { DT, UNTIL };
@@ -41,14 +45,9 @@ enum {
     MOST_FOLLOWED = 32,
     CROSSINGS = 1 << 14,
     REMEMBERED = 256,
+    MOST_FOLLOWED_STATES = 1024,
     MOST_RECORDED = 1 << 22 /* numbers of a track: many components have fewer entries */
 };
-
-/* Returns the bytes after the values: 1 if the row was given. */
-static char *given_of(struct gm_system_lane *lane)
-{
-    return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
-}
 
 /* ---- tracks ---- */
 
@@ -95,6 +94,23 @@ static void record_shape(const struct gm_view *view, double *entry)
     }
 }
 
+static size_t members_width(const struct gm_view *view)
+{
+    const size_t followed = gm_system_followed(view);
+    return followed > 0 ? followed * gm_system_scene_of(view)->system.n : 1;
+}
+
+/* Records the states of some members, for their curves over time. */
+static void record_members(const struct gm_view *view, double *entry)
+{
+    const size_t n = gm_system_scene_of(view)->system.n, m = view->problem->m,
+                 followed = gm_system_followed(view);
+    entry[0] = 0;
+    for (size_t i = 0; i < followed * n; i++) {
+        entry[i] = view->state[i % n * m + gm_system_followed_member(view, i / n)];
+    }
+}
+
 static double section(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
@@ -125,60 +141,12 @@ static void record_crossing(const struct gm_view *view, double *entry)
 
 /* ---- from parameters to problem and start ---- */
 
-/* Makes the scene of the text of `first` with other values. */
-static struct gm_system_scene *make_other(const struct gm_system_scene *first,
-                                          const struct gm_system_value *values, size_t count,
-                                          struct gm_fault *fault, char *sentence);
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence);
 
-/* Derives values that were not given from those that were, by the file's formulas. */
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
-    struct gm_system_lane *lane = parameters;
-    if (!gm_system_choose(lane, make_other, sentence)) {
-        return false;
-    }
-    const struct gm_system_scene *system_scene = lane->owner;
-    char *given = given_of(lane);
-    bool by_steps = false;
-    for (size_t i = 0; i < count; i++) {
-        by_steps |= strcmp(keys[i], "steps") == 0;
-        for (size_t row = 0; row < system_scene->row_count; row++) {
-            given[row] |= strcmp(keys[i], system_scene->rows[row].key) == 0;
-        }
-    }
-    double *values = gm_system_start_values(lane, given);
-    if (!values) {
-        return gm_refuse(sentence, "not enough memory");
-    }
-    bool good = gm_system_is_admitted(lane, values, sentence);
-    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
-        if (system_scene->variables[row] == GM_NO_VARIABLE) {
-            continue;
-        }
-        const double value = values[system_scene->variables[row]];
-        lane->values[row - GM_SYSTEM_ROWS] = value;
-        const struct gm_parameter *bounds = &system_scene->rows[row];
-        good = isfinite(value) || gm_refuse(sentence, "%s is not finite with these values", bounds->key);
-        good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
-                        gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g",
-                                  bounds->key, value, bounds->lowest, bounds->highest));
-    }
-    for (size_t i = 0; i < GM_COUNT(system_scene->timing) && good; i++) {
-        double number = NAN;
-        const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
-        if (gm_system_item_of(&system_scene->system, word, 0)) {
-            gm_tape_values(&system_scene->timing[i], values, &number, 1);
-        }
-        if (word == GM_WORD_DT && !given[DT] && number > 0) {
-            lane->timing.dt = number;
-        } else if (word == GM_WORD_UNTIL && !given[UNTIL] && number >= 0) {
-            lane->timing.until = number;
-        } else if (word == GM_WORD_STEPS && !given[UNTIL] && !by_steps && number >= 0) {
-            lane->timing.until = number * lane->timing.dt;
-        }
-    }
-    free(values);
-    return good;
+    return gm_system_settle(parameters, keys, count, open_other, sentence);
 }
 
 static bool starts_on_manifold(const struct gm_system_lane *lane, const struct gm_problem *problem,
@@ -401,15 +369,9 @@ static double radian_time(const void *parameters)
 /* Returns why a key has no effect: a plane has no camera, another word of a choice has other values. */
 static const char *idle(const void *parameters, const char *key)
 {
-    const struct gm_system_lane *lane = parameters;
-    for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
-        const struct gm_parameter *at = &lane->owner->rows[row];
-        if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
-            lane->owner->variables[row] == GM_NO_VARIABLE) {
-            return lane->owner->lacks;
-        }
-    }
-    return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
+    const char *reason = gm_system_idle(parameters, key);
+    return !reason && gm_camera_has(key) && gm_system_sight(parameters)->dimensions < 3 ? "a plane is shown"
+                                                                                        : reason;
 }
 
 /* Adds the component that is 0 in the section, if that is a component. */
@@ -469,43 +431,12 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-/* Makes the row of a choice, whose values are its words. */
-static bool make_choice(struct gm_system_scene *system_scene, size_t i)
-{
-    const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
-    for (size_t k = 0; k < choice->count; k++) {
-        system_scene->words[i][k] = choice->words[k];
-    }
-    system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
-    struct gm_parameter *row = &system_scene->rows[GM_SYSTEM_ROWS + i];
-    *row = (struct gm_parameter){
-        .key = choice->name,
-        .unit = "",
-        .help = gm_kept_texts_add(&system_scene->texts,
-                                  gm_span_words(system_scene->system.source, choice->meaning)),
-        .type = GM_CHOICE,
-        .offset = offsetof(struct gm_system_lane, values) + i * sizeof(double),
-        .standard = choice->words[choice->chosen],
-        .choices = system_scene->words[i],
-    };
-    return row->help != NULL;
-}
-
 static bool make_rows(struct gm_system_scene *system_scene, bool typed)
 {
-    const struct gm_user_system *system = &system_scene->system;
-    const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    const size_t skipped = gm_system_skipped(system_scene);
-    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
-    system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
-    system_scene->variables = calloc(most, sizeof *system_scene->variables);
-    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
-    double *start = gm_equations_start(system, NULL);
-    bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
     static const struct gm_parameter timing[GM_SYSTEM_ROWS] = {
         [DT] = GM_DT("", 1e-30, 1e30), [UNTIL] = GM_UNTIL("")};
-    static const struct gm_parameter common[GM_COMMON_ROWS] = {
+    static const struct gm_parameter common[GM_COMMON_ROWS + GM_CAMERA_KEYS] = {
         [GM_ROW_MEMBERS] =
             GM_INTEGER_ROW(struct gm_system_lane, members, "members", "1", 1, 1e6,
                            "how many start: one, or a disc, a grid or a line of them", .logarithmic = true),
@@ -513,41 +444,20 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
                                       "radius of that disc, half the width of a grid or a line"),
         [GM_ROW_SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
                                        "of the members: on a disc's edge, in a grid, on a line"),
-        [GM_ROW_SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
-                                      "all, or a plane of two components", .live = true),
+        [GM_ROW_SHOW] = GM_TEXT_ROW(struct gm_system_lane, show, "show", "all",
+                                    "all, a plane of two components, or names over time, as in t:q+p",
+                                    .live = true, .admits = gm_system_admits_show),
+        [GM_ROW_TRAILS] = GM_TRAILS_ROW(struct gm_system_lane),
+        [GM_ROW_PORTRAIT] = GM_BOOLEAN_ROW(struct gm_system_lane, portrait, "portrait", "no",
+                                           "the direction field, nullclines and equilibria of a plane",
+                                           .live = true, .looks = true, .admits = gm_system_admits_portrait),
+        [GM_ROW_WINDOW] = GM_TEXT_ROW(struct gm_system_lane, window, "window", "auto",
+                                      "the plane that is shown: XMIN,XMAX,YMIN,YMAX, or auto", .names = true,
+                                      .live = true, .looks = true, .admits = gm_system_admits_window),
+        GM_CAMERA_ROWS(struct gm_system_lane, camera),
     };
-    static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
-    for (size_t i = 0; good && i < choices; i++) {
-        good = make_choice(system_scene, i);
-    }
-    size_t row = GM_SYSTEM_ROWS + choices;
-    for (size_t i = 0; good && i < parameters + n; i++) {
-        const bool is_start = i >= parameters;
-        size_t number = is_start ? i - parameters : system->parameters + i;
-        if (is_start && system->variables[number].start == GM_NO_NODE) {
-            number = system->velocities + number - half; /* it is the velocity that the file gives */
-        }
-        const struct gm_system_variable *variable = &system->variables[number];
-        if (variable->derived) {
-            continue;
-        }
-        system_scene->variables[row] = number;
-        system_scene->rows[row] = gm_written_row(
-            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
-            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
-        system_scene->rows[row].required = typed;
-        good = system_scene->rows[row++].standard != NULL;
-    }
-    system_scene->row_count = row;
-    if (good) {
-        system_scene->common = system_scene->rows + row;
-        memcpy(system_scene->rows, timing, sizeof timing);
-        memcpy(system_scene->common, common + skipped, sizeof common - skipped * sizeof *common);
-        memcpy(system_scene->common + GM_COMMON_ROWS - skipped, camera, sizeof camera);
-        system_scene->initial->owner = system_scene;
-    }
-    free(start);
-    return good;
+    const size_t skipped = gm_system_skipped(system_scene);
+    return gm_system_make_rows(system_scene, timing, common + skipped, GM_COUNT(common) - skipped, typed);
 }
 
 /* Makes dt and until, from the file, or from the system's frequency. */
@@ -558,18 +468,9 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
                         system_scene->initial);
     system_scene->initial->members = 1;
     system_scene->radian = radian_time(system_scene->initial);
-    double *values = gm_system_start_values(system_scene->initial, NULL);
-    double numbers[3] = {NAN, NAN, NAN};
-    for (size_t i = 0; values && i < 3; i++) {
-        const struct gm_system_item *item =
-            gm_system_item_of(system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
-        if (item && gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
-            gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
-        }
-    }
-    free(values);
-    if (numbers[2] < 0 || (isfinite(numbers[2]) && numbers[2] != floor(numbers[2]))) {
-        return gm_refuse(sentence, "steps: %.10g is no whole number", numbers[2]);
+    double numbers[GM_SYSTEM_TIMES];
+    if (!gm_system_open_timing(system_scene, numbers, sentence)) {
+        return false;
     }
     const int looks = system->n <= MOST_FOLLOWED ? 10 : 0;
     const double dt =
@@ -577,8 +478,8 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
-    return values && gm_written_timing(&system_scene->texts, system, dt, until, &system_scene->rows[DT],
-                                       &system_scene->rows[UNTIL]);
+    return gm_written_timing(&system_scene->texts, system, dt, until, &system_scene->rows[DT],
+                             &system_scene->rows[UNTIL]);
 }
 
 /* Makes the sights of the state, and the one of the modified energy. */
@@ -594,8 +495,9 @@ static bool make_shows(struct gm_system_scene *system_scene)
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
     struct gm_parameter *show = &system_scene->common[GM_ROW_SHOW - gm_system_skipped(system_scene)];
     show->choices = system_scene->shows;
+    show->admitting = show[GM_ROW_PORTRAIT - GM_ROW_SHOW].admitting = system_scene;
     if (system_scene->has_section) {
-        show->help = "all, the section, or a plane of two components";
+        show->help = "all, the section, a plane of two components, or names over time, as in t:q+p";
         if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
             show->standard = system_scene->shows[GM_SHOW_SECTION];
         }
@@ -621,6 +523,11 @@ static void make_tracks(struct gm_system_scene *system_scene)
                                                               .interval = shape_interval,
                                                               .bound = 96,
                                                               .record = record_shape};
+    system_scene->tracks[GM_TRACK_MEMBERS] = (struct gm_track){.key = "members",
+                                                               .width = members_width,
+                                                               .interval = step_of,
+                                                               .bound = MOST_FOLLOWED_STATES,
+                                                               .record = record_members};
     system_scene->tracks[GM_TRACK_SECTION] = (struct gm_track){.key = "section",
                                                                .numbers = 2,
                                                                .section = section,
@@ -712,11 +619,6 @@ static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
            gm_refuse(sentence, "the hook \"%s\" is for %s", hook->name, hook->needs);
 }
 
-static const struct gm_scene *variant(const void *parameters)
-{
-    return &((const struct gm_system_lane *)parameters)->owner->scene;
-}
-
 static bool make(struct gm_system_scene *system_scene, const char *name, const char *const *words, bool typed,
                  char *sentence)
 {
@@ -740,13 +642,14 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
         .parameters = system_scene->rows,
         .parameter_count = system_scene->row_count + GM_COMMON_ROWS - gm_system_skipped(system_scene),
-        .variant = variant,
+        .variant = gm_system_variant,
         .idle = idle,
         .settle = settle,
         .setup = setup,
         .close = close_problem,
         .start = start,
         .draw = gm_system_draw,
+        .portrait = gm_system_portrait,
         .point = point,
         .failure = gm_system_tell_failure,
     };
@@ -815,27 +718,10 @@ static struct gm_system_scene *open_one(const struct gm_user_system *system, con
     return system_scene;
 }
 
-static struct gm_system_scene *make_other(const struct gm_system_scene *first,
-                                          const struct gm_system_value *values, size_t count,
-                                          struct gm_fault *fault, char *sentence)
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence)
 {
-    struct gm_user_system system;
-    const char *text = first->system.source;
-    if (!gm_equations_open(&system, text, first->system.length, values, count, fault)) {
-        gm_refuse(sentence, "%s", fault->sentence[0] ? fault->sentence : "not enough memory");
-    } else if (gm_system_is_field(&system)) {
-        gm_refuse(sentence, "choice: %s=%s is a field, and other words are none", values->name, values->text);
-    } else {
-        struct gm_system_scene *made =
-            open_one(&system, first->scene.name, first->scene.words, false, sentence);
-        if (made && !gm_system_lack(made, values[count - 1].name, values[count - 1].text)) {
-            gm_system_scene_close(&made->scene);
-            made = NULL;
-        }
-        return made;
-    }
-    gm_system_close(&system);
-    return NULL;
+    return open_one(system, first->scene.name, first->scene.words, false, sentence);
 }
 
 const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
@@ -845,7 +731,8 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
     struct gm_system_scene *first = open_one(system, name, words, typed, sentence);
     const unsigned long refusals = gm_memory_refusals();
     *fault = (struct gm_fault){0};
-    if (first && (!gm_system_unite(first, make_other, fault, sentence) || gm_memory_refusals() != refusals)) {
+    if (first && (!gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence}) ||
+                  gm_memory_refusals() != refusals)) {
         gm_system_scene_close(&first->scene);
         return NULL;
     }
@@ -864,34 +751,14 @@ void gm_system_scene_close(const struct gm_scene *scene)
     }
     gm_system_close_sight(&system_scene->section);
     gm_tape_close(&system_scene->surfaces);
-    for (size_t i = 0; system_scene->formulas && i < system_scene->observable_count; i++) {
-        gm_tape_close(&system_scene->formulas[i]);
-    }
-    for (size_t i = 0; system_scene->terms && i < system_scene->observable_count; i++) {
-        gm_tape_close(&system_scene->terms[i]);
-    }
-    for (size_t i = 0; system_scene->of_items && i < system_scene->system.item_count; i++) {
-        gm_tape_close(&system_scene->of_items[i]);
-    }
-    free(system_scene->of_items);
-    free(system_scene->figures);
-    struct gm_tape *const others[] = {&system_scene->where,     &system_scene->stop,
-                                      &system_scene->exact,     &system_scene->timing[0],
-                                      &system_scene->timing[1], &system_scene->timing[2]};
+    struct gm_tape *const others[] = {&system_scene->where, &system_scene->stop, &system_scene->exact};
     for (size_t i = 0; i < GM_COUNT(others); i++) {
         gm_tape_close(others[i]);
     }
-    gm_kept_texts_close(&system_scene->texts);
     gm_user_model_close(&system_scene->model);
-    gm_system_close(&system_scene->system);
     free(system_scene->sights);
     free(system_scene->shows);
     free(system_scene->all_shows);
-    free(system_scene->observables);
-    free(system_scene->formulas);
-    free(system_scene->terms);
-    free(system_scene->variables);
-    free(system_scene->rows);
-    free(system_scene->initial);
+    gm_system_close_rows(system_scene);
     free(system_scene);
 }

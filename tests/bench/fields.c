@@ -10,7 +10,6 @@
 #include "core/basics.h"
 #include "core/field/families/burgers.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"
@@ -18,6 +17,7 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/bench/timing.h"
+#include "tests/common/sine_gordon.h"
 
 enum { REPEATS = 7 };
 

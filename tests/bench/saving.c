@@ -52,9 +52,10 @@ static double measure(const struct gm_request *request, long steps, enum kind ki
     const double start = seconds();
     struct gm_save *save = drive.lane && saves ? gm_save_open(path, 1, false, false, message) : NULL;
     const struct gm_run *run = drive.lane ? drive.lane->run : NULL;
-    const uint64_t expected = run ? gm_rows_expected(&rows, run, steps) : 0;
-    bool good = run && (!saves || (save && gm_save_begin(save, 0, run, 0, expected, 0, message) &&
-                                   gm_save_row(save, run, message)));
+    const struct gm_save_size size = {.expected = run ? gm_rows_expected(&rows, run, steps) : 0};
+    bool good =
+        run &&
+        (!saves || (save && gm_save_begin(save, 0, run, &size, message) && gm_save_row(save, run, message)));
     good = good && advance(&drive, save, kind, steps, message) && (!save || gm_save_end(save, "{}", message));
     if (save) {
         good = gm_save_close(save, good, false, message) && good;

@@ -331,9 +331,9 @@ drive_mouse() {
     keys . . . .
     wait_for 't = π/3'
     local row=${1#*x}
-    mouse "0;2;$((row - 1))M"
+    mouse "0;2;$((row - 2))M"
     wait_for 't = 0 '
-    mouse "32;500;$((row - 1))M" "0;40;$((row - 1))m"
+    mouse "32;500;$((row - 2))M" "0;40;$((row - 2))m"
     wait_for 't = π/3'
 }
 
@@ -350,18 +350,20 @@ for size in 80x24 160x45; do
         settled >"$folder/screen-$colours"
         keys r
         wait_for 't = 0 '
-        drive_time
-        drive_backwards
-        keys q
-        clean 0
-        open_disc
-        begin
-        drive_parameters
-        drive_lanes
-        keys q
-        clean 0
-        open_disc
-        begin
+        if [ $size$colours = 80x24truecolor ]; then # shots.py drives the same keys at other sizes
+            drive_time
+            drive_backwards
+            keys q
+            clean 0
+            open_disc
+            begin
+            drive_parameters
+            drive_lanes
+            keys q
+            clean 0
+            open_disc
+            begin
+        fi
         drive_screen $size $colours
         drive_mouse $size
         keys q
@@ -503,10 +505,10 @@ start 80x24
 open_disc
 wait_for 'Watch the area'
 seen=$(screen)
-[[ $seen == *'Watch the area: a symplectic map may shear the disc, but it never grows.'*'? help'*'q quit'* ]] ||
+[[ $seen == *'Watch the area: a symplectic map may shear the disc, but it never grows.'*'? help'*'q quit'*'← → change'* ]] ||
     fail "what to watch and the keys are not both there: $seen"
 wait_gone 'Watch the area'
-wait_for '\? help +space pause +q quit'
+wait_for 'space pause +\? help +esc back +q quit +s scheme +f fork +← → change'
 keys Escape # back to the list, and again to the scene
 wait_for 'Type to search'
 keys Enter

@@ -105,7 +105,16 @@ for way in q C-c TERM INT QUIT HUP; do
     name=disc-000$number.mp4
     record
     case $way in
-    q | C-c) keys $way ;;
+    q)
+        keys q
+        wait_for 'Quit\? The recording is not finished\. q again quits, any other key stays'
+        keys z
+        wait_gone 'Quit\?'
+        keys q
+        wait_for 'Quit\?'
+        keys q
+        ;;
+    C-c) keys $way ;;
     *) kill -"$way" "$(explorer_pid)" ;;
     esac
     wait_for "geomint: Saved $name, a movie of [0-9.]+ s\\."
@@ -129,6 +138,8 @@ keys R
 wait_for "● 0:0[1-9]"
 keys l
 wait_for 'Type to search'
+keys q
+wait_for 'Quit\?'
 keys q
 wait_for 'geomint: Saved disc-0007.mp4'
 wait_for 'geomint: Saved kepler-0001.mp4'
@@ -186,6 +197,8 @@ cat >/dev/null
 sleep 8640$$
 END
 record "PATH=$folder/bin:\$PATH"
+keys q
+wait_for 'Quit\?'
 keys q
 wait_gone 'SCHEMES'
 keys C-c

@@ -45,7 +45,7 @@ wait_for '1/7: A disc'
 # a change in flight, and back over it
 keys n n n n n n n n n
 wait_for '6/7: Mend it in flight'
-wait_for 'RK4, then midpoint' # its name in the picture
+wait_for 'midpoint, after RK4' # its name in the picture
 wait_for '▸━+ midpoint|▸ ━+ midpoint'
 wait_for 'paused'
 keys r
@@ -134,7 +134,7 @@ for tour in energy chaos space-time mesh galilei room worth; do
     wait_for "▸ $tour"
 done
 keys Enter
-wait_for 'What is it worth\? 1/5'
+wait_for 'What is it worth\? 1/6'
 keys q
 wait_for 'left 0'
 
@@ -162,10 +162,10 @@ wait_for 'work-precision [0-9]+ %'
 wait_for 'error against run time'
 keys Escape # it goes on behind the scene
 wait_for 'SCHEMES'
-wait_for 'work-precision of disc ([0-9]+ %|is finished)'
+wait_for 'work-precision of disc ([0-9]+ %|is ready)'
 keys w
 wait_for 'what an accuracy costs'
-wait_for 'work-precision ([1-9][0-9]* %|is finished)'
+wait_for 'work-precision [1-9][0-9]* %'
 keys x
 wait_for 'Stopped|Done'
 keys p
@@ -196,26 +196,28 @@ wait_for 'what an accuracy costs'
 keys m
 wait_for 'which step is bounded'
 keys Escape
-wait_for 'work-precision of kepler ([0-9]+ %|is finished)'
+wait_for 'work-precision of kepler ([0-9]+ %|is ready)'
 keys w x
 wait_for 'Stopped|Done'
 keys Escape
 wait_for 'SCHEMES'
+wait_for 'work-precision of kepler is ready: w shows it'
 rests 'paused, with studies finished'
-wait_for 'work-precision of kepler is finished: w shows it'
-keys l # what is said of a scene leaves with it, and comes back with it
+keys l # a notice leaves with its scene
 wait_for 'Type to search'
 keys vortices
 wait_for '▸ vortices'
 keys Enter
 wait_for 'SCHEMES'
-wait_gone 'is finished'
+wait_gone 'is ready'
 keys Escape
 wait_for 'Type to search'
 keys kepler
 wait_for '▸ kepler'
 keys Enter
-wait_for 'work-precision of kepler is finished: w shows it'
+wait_for 'SCHEMES'
+keys w
+wait_for 'work-precision [0-9]+ %: (Stopped|Done)'
 keys q
 wait_for 'left 0'
 
@@ -255,8 +257,8 @@ wait_for 'Predict: Which line'
 keys n
 wait_for 'what an accuracy costs'
 keys n
-wait_for '3/5: Many schemes'
-keys q
+wait_for '3/6: Many schemes'
+keys q q # its study may not be finished
 wait_for 'left 0'
 
 [ "$failures" = 0 ] && echo "tours in the explorer: all passed"

@@ -225,6 +225,8 @@ wait_for 'That is right'
 keys Enter
 wait_for 'SCHEMES'
 keys q
+wait_for 'Quit\? The formula is not saved'
+keys q
 wait_for 'left 0'
 
 # in a small terminal, too, the sentence is there to its end, and the caret below its letter

@@ -160,7 +160,7 @@ def leave(choose, session, sent):
             session.run(0.3)
             session.write(b'\x1b')
             session.run(0.3)
-            session.write(b'q')
+            session.write(b'qq')  # a loss is asked for first
             session.run(0.5)
         wanted = {0}
     else:

@@ -20,16 +20,16 @@ BEFORE, AFTER = 8, 4  # lines between an image and its command
 SIZE = "960x540"  # pixels, if the command gives none
 MOST_BYTES = {".png": 200_000, ".gif": 600_000}
 MOST_BYTES_IN_ALL = 2_500_000
-HOW = ("-o", "--movie", "--size", "--painter")  # options with a value that do not choose what is drawn
+HOW = ("-o", "--movie", "--shot", "--size", "--painter")  # options with a value that do not choose what is drawn
 
 
 def what_is_drawn(words):
-    """Returns the words that choose what is drawn, sorted, with each theme that is not the usual one."""
+    """Returns the words that choose what is drawn, sorted, with each theme and screen that is not the usual one."""
     words, kept = list(words), []
     while words:
         word = words.pop(0)
-        value = words.pop(0) if word in HOW or word == "--theme" else None
-        if word not in HOW and value != "light":
+        value = words.pop(0) if word in (*HOW, "--theme", "--screen") else None
+        if word not in HOW and value not in ("light", "80x24"):
             kept.append(word if value is None else f"{word} {value}")
     return sorted(kept)
 
@@ -58,7 +58,7 @@ def shown(source):
             for link in re.findall(r"!\[[^]]*\]\(([^)]*\.(?:png|gif))\)", line):
                 commands = found.setdefault(os.path.normpath(os.path.join(os.path.dirname(document), link)), [])
                 near = "\n".join(lines[max(0, number - BEFORE - 1):number + AFTER])
-                for command in re.findall(r"geomint ([a-z-]+ [^\n`]*(?:-o|--movie) \S+\.(?:png|gif))", near):
+                for command in re.findall(r"geomint ([a-z-]+ [^\n`]*(?:-o|--movie|--shot) \S+\.(?:png|gif))", near):
                     words = shlex.split(command)
                     if words[-1] == os.path.basename(link):
                         commands.append((f"{os.path.relpath(document, source)}:{number}", words))
@@ -83,7 +83,7 @@ def difference(geomint, path, words):
 def draw(geomint, path, words):
     """Draws a picture in a folder of its own first: a failure leaves the old one."""
     with tempfile.TemporaryDirectory(dir=os.path.dirname(path)) as folder:
-        size = [] if "--size" in words else ["--size", SIZE]
+        size = [] if "--size" in words or words[0] == "tui" else ["--size", SIZE]
         subprocess.run([geomint, *words, *size, "--painter", "own"], cwd=folder, check=True, capture_output=True)
         os.replace(os.path.join(folder, words[-1]), path)
     print(f"{words[-1]}: drawn")

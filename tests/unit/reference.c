@@ -305,6 +305,7 @@ static bool is_without_reference(const char *name)
                                 "projected-rk4",
                                 "exponential-euler1",
                                 "lawson4",
+                                "dopri5",
                                 "etdrk4"};
     for (size_t i = 0; i < GM_COUNT(list); i++) {
         if (strcmp(list[i], name) == 0) {

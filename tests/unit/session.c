@@ -420,26 +420,26 @@ static void switches_are_told(void **unused)
     assert_true(gm_session_switch(&session, 0, gm_scheme_find("gauss4"), message));
     /* of two at one moment only the last one has made anything */
     assert_true(gm_session_switch(&session, 0, gm_scheme_find("verlet"), message));
-    assert_string_equal(lane->shown.panel_name, "RK4, then Verlet");
+    assert_string_equal(lane->shown.panel_name, "Verlet, after RK4");
     assert_string_equal(session.lanes[1]->shown.panel_name, "");
     go(&session, 1.5001);
     const int marks = marks_of(&session, t);
     assert_true(marks > 0);
     /* a fork has the same past */
     assert_true(gm_session_fork(&session, 0, gm_scheme_find("gauss4"), message));
-    assert_string_equal(session.lanes[2]->shown.panel_name, "RK4, then Verlet, then Gauss 4");
+    assert_string_equal(session.lanes[2]->shown.panel_name, "Gauss 4, after Verlet, RK4");
     assert_int_equal(marks_of(&session, t), 2 * marks);
     assert_true(gm_session_remove(&session, 2, message));
     /* in one panel */
     assert_true(gm_session_overlay(&session, message));
-    assert_string_equal(lane->shown.colour_name, "RK4, then Verlet");
+    assert_string_equal(lane->shown.colour_name, "Verlet, after RK4");
     assert_true(gm_session_overlay(&session, message));
     /* earlier there was none, and it comes back */
     assert_true(gm_session_visit(&session, 0.5, message));
     assert_string_equal(lane->schemes, "RK4");
     assert_int_equal(marks_of(&session, t), 0);
     assert_true(gm_session_visit(&session, INFINITY, message));
-    assert_string_equal(lane->shown.panel_name, "RK4, then Verlet");
+    assert_string_equal(lane->shown.panel_name, "Verlet, after RK4");
     for (int i = 0; i < 12; i++) {
         assert_true(gm_session_back(&session, message));
     }

@@ -586,7 +586,7 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nwork: until=1; errors 1, 1/0\n", 4, 26, "no finite number"},
     {CANONICAL "H: p_q^2/2\nstability: until=1; q 0, 1; p_q 0\n", 4, 29, "no option \"p_q\""},
     {CANONICAL "H: p_q^2/2\nstability: until=1; q 0, 1; unit 1\n", 4, 34, "a unit has a name"},
-    {"field: u\nV: u^2\nstart: u = 0, u_t = 0\nrequire: 1; text\n", 4, 1, "has no line \"require\""},
+    {"field: u\nV: u^2\nstart: u = 0, u_t = 0\nstop: 1\n", 4, 1, "has no line \"stop\""},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
     {"rate: x = -x\nstart: x = 1\nsection: ; x, x\n", 3, 10, "where something is 0"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 2, 4, "singular at the start, q = 1: momenta"},

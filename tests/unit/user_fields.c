@@ -17,13 +17,14 @@
 #include "core/field/families/laws/wave.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"
 #include "core/ode/user/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/lane.h"
+#include "tests/common/sine_gordon.h"
 
 enum { POINTS = 200, SIZE = 2 * POINTS + 1 };
 #define HALF 20.0
@@ -115,6 +116,57 @@ static void typed_again_it_is_the_built_in_equation(void **unused)
             }
         }
         close_typed(&typed);
+    }
+}
+
+/* The built-in file is the solutions that are written by hand: its start, its error, and when none is known. */
+static void the_scene_has_the_known_solutions(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words;
+        struct gm_sine_gordon solution;
+    } cases[] = {
+        {"frequency=0.3", {.initial = GM_BREATHER, .frequency = 0.3}},
+        {"frequency=0.9 half_length=15", {.initial = GM_BREATHER, .frequency = 0.9}},
+        {"initial=kink velocity=-0.7", {.initial = GM_KINK, .velocity = -0.7, .position = -5}},
+        {"initial=antikink position=3", {.initial = GM_ANTIKINK, .velocity = 0.5, .position = 3}},
+        {"initial=kink half_length=4", {.initial = GM_KINK, .velocity = 0.5, .position = -5}},
+        {"initial=kink-antikink velocity=0.8", {.initial = GM_KINK_ANTIKINK, .velocity = 0.8}},
+        {"initial=kink-antikink velocity=0", {.initial = GM_KINK_ANTIKINK}},
+        {"initial=kink-antikink velocity=0.3 half_length=8", {.initial = GM_KINK_ANTIKINK, .velocity = 0.3}},
+        {"initial=antikink-kink", {.initial = GM_KINK_COLLISION, .velocity = 0.5, .position = -5}},
+        {"initial=antikink-kink position=12",
+         {.initial = GM_KINK_COLLISION, .velocity = 0.5, .position = 12}},
+    };
+    static const double times[] = {0, 1, 30, 90};
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
+        char words[200];
+        double levels[SIZE];
+        snprintf(words, sizeof words, "sine-gordon scheme=box points=%d dt=0.1 %s", POINTS, cases[i].words);
+        struct gm_lane *lane = test_lane(words);
+        struct gm_problem problem = lane->problem;
+        const double half_length = problem.line.dx * POINTS / 2;
+        problem.parameters = &cases[i].solution;
+        gm_sine_gordon_levels(&problem, 0, 0.1, levels);
+        if (!(distance(gm_lane_view(lane).state, levels) < 1e-13)) {
+            fail_msg("%s starts %.3g away", words, distance(gm_lane_view(lane).state, levels));
+        }
+        for (size_t k = 0; k < GM_COUNT(times); k++) {
+            assert_int_equal(gm_run_until(lane->run, times[k]), GM_OK);
+            const double t = lane->run->t, *u = gm_lane_view(lane).state;
+            double largest = 0;
+            gm_sine_gordon_levels(&problem, t, 0.1, levels);
+            for (size_t j = 0; j < POINTS; j++) {
+                largest = fmax(largest, fabs(u[j] - levels[j]));
+            }
+            const double error = test_observed(lane, "solution_error");
+            const bool known = gm_sine_gordon_is_known(&cases[i].solution, half_length, t);
+            if (known != !isnan(error) || (known && !(fabs(error - largest) < 1e-12))) {
+                fail_msg("%s at t = %g: %.3g, not %.3g", words, t, error, known ? largest : NAN);
+            }
+        }
+        gm_lane_close(lane);
     }
 }
 
@@ -481,6 +533,8 @@ static const struct {
     {FIELD "V: u^2\npoints: 12.5\n", "has to be a whole number"},
     {FIELD "V: u^2\nhalf_length: -1\n", "half_length is -1, and has to be"},
     {FIELD "V: u^2\nexact: u = u\n", "does not hold u"},
+    {FIELD "V: u^2\nexact-while: 1\n", "a sentence was expected: exact-while: F"},
+    {FIELD "V: u^2\ncolours: 1\n", "two values are at the ends of the colours"},
     {FIELD "V: u^2\nexact: u_t = x\n", "exact: is of u alone"},
     {FIELD "V: u^2\ninvariant: m = t\n", "a density does not hold t"},
     {FIELD "V: u^2\nparameter: points = 3\n", "the name points is reserved"},
@@ -758,6 +812,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(typed_again_it_is_the_built_in_equation),
+        cmocka_unit_test(the_scene_has_the_known_solutions),
         cmocka_unit_test(phi4_moves_as_written_by_hand),
         cmocka_unit_test(double_sine_gordon_moves_as_written_by_hand),
         cmocka_unit_test(the_multisymplectic_law_holds),

@@ -18,7 +18,6 @@
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"

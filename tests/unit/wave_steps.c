@@ -13,11 +13,11 @@
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"
+#include "tests/common/sine_gordon.h"
 
 enum { POINTS = 201 };
 

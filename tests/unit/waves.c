@@ -16,12 +16,12 @@
 #include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"
 #include "tests/common/reference.h"
+#include "tests/common/sine_gordon.h"
 
 enum { REFERENCE_POINTS = 101 };
 

@@ -6,15 +6,6 @@
 #include "app/commands/commands.h"
 #include "app/commands/measuring/measuring.h"
 
-static void print_number(double value, const char *format)
-{
-    if (isfinite(value)) {
-        printf(format, value);
-    } else {
-        printf(" %9s", "-");
-    }
-}
-
 static void print_line(const struct gm_grid_line *line)
 {
     printf("\n%s, order %d\n", line->scheme->name, line->scheme->order);
@@ -38,20 +29,20 @@ static void print_line(const struct gm_grid_line *line)
         printf("%12.6g", cell->dt);
         for (int k = 0; k < GM_POWERS; k++) {
             if (line->shown[k]) {
-                print_number(cell->errors[k], " %9.2e");
+                gm_print_number(" %9.2e", 9, cell->errors[k]);
             }
         }
         printf(" %9s", heads[cell->best]);
-        print_number(cell->gamma, " %9.3g");
-        print_number(cell->gamma / cell->dt, " %9.3g");
-        print_number(exp(-cell->gamma / (2 * cell->dt)), " %9.1e");
+        gm_print_number(" %9.3g", 9, cell->gamma);
+        gm_print_number(" %9.3g", 9, cell->gamma / cell->dt);
+        gm_print_number(" %9.1e", 9, exp(-cell->gamma / (2 * cell->dt)));
         printf("%s%s\n", cell->status == GM_OK ? "" : "  ",
                cell->status == GM_OK ? "" : gm_status_name(cell->status));
     }
     printf("%12s", "slope");
     for (int k = 0; k < GM_POWERS; k++) {
         if (line->shown[k]) {
-            print_number(line->orders[k], " %9.3f");
+            gm_print_number(" %9.3f", 9, line->orders[k]);
         }
     }
     printf("\n");
@@ -73,9 +64,7 @@ static void print_table(const struct gm_grid *grid)
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
-    gm_row_count(row, "order", line->scheme->order);
-    gm_row_number(row, "until", timing->until, 17);
-    gm_row_text(row, "reason", line->reason);
+    gm_row_put(row, "order %i, until %.17g, reason %s", line->scheme->order, timing->until, line->reason);
     gm_row_list(row, "slopes", line->orders, GM_POWERS);
 }
 

@@ -158,67 +158,37 @@ static void draw_region(const void *data, struct gm_picture *picture)
     }
 }
 
-static bool write_region(const void *data, const char *path)
+static void write_region(const void *data, FILE *csv)
 {
     const struct region *region = data;
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
     const bool plane = region->test == GM_TEST_PLANE;
     fprintf(csv, "scheme,re,im,growth,growth_known\n");
     for (size_t i = 0; i < (plane ? (size_t)SIDE * SIDE : LINE); i++) {
         struct gm_row row = {.stream = csv, .form = GM_ROW_CSV};
-        gm_row_text(&row, "scheme", region->scheme->name);
-        gm_row_number(&row, "re", plane ? place(region, i % SIDE) : 0, 9);
-        gm_row_number(&row, "im", plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
-                      9);
-        gm_row_number(&row, "growth", isfinite(region->measured[i]) ? region->measured[i] : NAN, 9);
-        gm_row_number(&row, "growth_known", isfinite(region->known[i]) ? region->known[i] : NAN, 9);
+        gm_row_put(&row, "scheme %s, re %.9g, im %.9g, growth %.9g, growth_known %.9g", region->scheme->name,
+                   plane ? place(region, i % SIDE) : 0,
+                   plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
+                   isfinite(region->measured[i]) ? region->measured[i] : NAN,
+                   isfinite(region->known[i]) ? region->known[i] : NAN);
         fputc('\n', csv);
     }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
 }
 
-static void print_region(const struct region *region, double left, double up, double part, double apart)
-{
-    const bool plane = region->test == GM_TEST_PLANE;
-    struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "scheme", region->scheme->name);
-    gm_row_text(&row, "test", plane ? "y' = z y" : "q'' = -w^2 q");
-    gm_row_number(&row, "reach", region->reach, 17);
-    if (plane) {
-        gm_row_number(&row, "real_limit", left, 17);
-        gm_row_number(&row, "imaginary_limit", up, 17);
-        gm_row_number(&row, "stable_part", part, 17);
-        gm_row_number(&row, "difference", apart, 17);
-    } else {
-        gm_row_number(&row, "limit", region->limit, 17);
-    }
-    printf("}\n");
-}
-
+/* The limits of a region, its part of the picture, and the largest difference from the stability function; NAN:
+   nothing was compared. */
 static void print_limits(const struct region *region, bool json)
 {
-    if (json && region->test == GM_TEST_OSCILLATOR) {
-        print_region(region, NAN, NAN, NAN, NAN);
-        return;
-    }
-    if (region->test == GM_TEST_OSCILLATOR) {
-        printf("%s: stable on the oscillator up to h ω = %.4g%s\n", region->scheme->name, region->limit,
-               region->limit == region->reach ? " at least" : "");
-        return;
-    }
-    const double left = gm_linear_limit(region->scheme, -1, 0, region->reach, steps_of(region->scheme));
-    const double up = gm_linear_limit(region->scheme, 0, 1, region->reach, steps_of(region->scheme));
-    double apart = 0;
-    size_t inside = 0, compared = 0;
-    for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+    const struct gm_scheme *scheme = region->scheme;
+    const bool plane = region->test == GM_TEST_PLANE;
+    const double reach = region->reach;
+    const double left = plane ? gm_linear_limit(scheme, -1, 0, reach, steps_of(scheme)) : NAN;
+    const double up = plane ? gm_linear_limit(scheme, 0, 1, reach, steps_of(scheme)) : region->limit;
+    double apart = NAN;
+    size_t inside = 0;
+    for (size_t i = 0; plane && i < (size_t)SIDE * SIDE; i++) {
         inside += stable(region->measured[i]);
         if (isfinite(region->known[i]) && isfinite(region->measured[i]) && region->known[i] < 1e3) {
             apart = fmax(apart, fabs(region->known[i] - region->measured[i]));
-            compared++;
         }
     }
     const double part = (double)inside / (SIDE * SIDE);
@@ -226,14 +196,26 @@ static void print_limits(const struct region *region, bool json)
         return;
     }
     if (json) {
-        print_region(region, left, up, part, compared > 0 ? apart : NAN);
-        return;
-    }
-    printf("%s: stable for real z from -%.4g%s, for imaginary z up to %.4g%s; %.1f %% of the picture\n",
-           region->scheme->name, left, left == region->reach ? " and below" : "", up,
-           up == region->reach ? " and beyond" : "", 100 * part);
-    if (compared > 0) {
-        printf("largest difference from the stability function of its coefficients: %.1e\n", apart);
+        struct gm_row row = gm_row_begin(stdout);
+        gm_row_put(&row, "scheme %s, test %s, reach %.17g", scheme->name, plane ? "y' = z y" : "q'' = -w^2 q",
+                   reach);
+        if (plane) {
+            gm_row_put(&row, "real_limit %.17g, imaginary_limit %.17g, stable_part %.17g, difference %.17g",
+                       left, up, part, apart);
+        } else {
+            gm_row_put(&row, "limit %.17g", up);
+        }
+        printf("}\n");
+    } else if (!plane) {
+        printf("%s: stable on the oscillator up to h ω = %.4g%s\n", scheme->name, up,
+               up == reach ? " at least" : "");
+    } else {
+        printf("%s: stable for real z from -%.4g%s, for imaginary z up to %.4g%s; %.1f %% of the picture\n",
+               scheme->name, left, left == reach ? " and below" : "", up, up == reach ? " and beyond" : "",
+               100 * part);
+        if (!isnan(apart)) {
+            printf("largest difference from the stability function of its coefficients: %.1e\n", apart);
+        }
     }
 }
 
@@ -266,7 +248,9 @@ static int find_region(const struct gm_options *options)
     if (!gm_options_take_stdout(options)) {
         print_limits(&region, options->json);
     }
-    status = gm_command_chart(options, "stability", name, &region, draw_region, write_region);
+    status = gm_command_chart(
+        options, "stability",
+        &(struct gm_chart){.name = name, .data = &region, .draw = draw_region, .write = write_region});
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
 
@@ -313,12 +297,9 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
     const double limit = gm_stability_limit(grid, line);
-    gm_row_text(row, "parameter", grid->parameter->key);
-    gm_row_text(row, "unit", grid->plan->label);
-    gm_row_number(row, "until", timing->until, 17);
-    gm_row_text(row, "judge", gm_stability_judge(grid));
-    gm_row_number(row, "accuracy", grid->accuracy, 17);
-    gm_row_number(row, "limit", limit > 0 ? limit : NAN, 17);
+    gm_row_put(row, "parameter %s, unit %s, until %.17g, judge %s, accuracy %.17g, limit %.17g",
+               grid->parameter->key, grid->plan->label, timing->until, gm_stability_judge(grid),
+               grid->accuracy, limit > 0 ? limit : NAN);
 }
 
 int gm_command_stability(const struct gm_options *options)

@@ -107,41 +107,35 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
     }
 }
 
-static void draw(const void *chart, struct gm_picture *picture)
-{
-    gm_sweep_chart_draw(chart, picture);
-}
-
 /* The picture of a table that is complete; its words are those of the sweep. */
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
     char message[GM_MESSAGE];
     struct gm_arguments *words = gm_arguments_in(options->arena);
     gm_arena_need(options->arena, gm_arguments_split(words, sweep->arguments));
-    struct gm_sweep_chart *chart = gm_sweep_chart_open(sweep, message);
-    if (chart) {
-        gm_arena_keep(options->arena, chart, gm_sweep_chart_close);
-    }
-    if (!chart || !gm_sweep_chart_read(chart, path, message)) {
+    *options->end = GM_EXIT_FILE;
+    struct gm_sweep_chart *chart = gm_sweep_chart_open(options->arena, sweep);
+    if (!gm_sweep_chart_read(chart, path, message)) {
         return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     struct gm_options told = *options;
     told.arguments = *words;
     told.measure = sweep->measure;
-    return gm_command_chart(&told, "sweep", gm_arena_print(options->arena, "%.80s-sweep", sweep->scene->name),
-                            chart, draw, NULL);
+    return gm_command_chart(
+        &told, "sweep",
+        &(struct gm_chart){.name = gm_arena_print(options->arena, "%.80s-sweep", sweep->scene->name),
+                           .data = chart,
+                           .draw = gm_sweep_chart_draw});
 }
 
 static int make(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
     char message[GM_MESSAGE];
-    if (options->shards && !gm_sweep_note(sweep, path, message)) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
+    *options->end = GM_EXIT_FILE;
+    if (options->shards) {
+        gm_sweep_note(sweep, path);
     }
-    struct gm_sweep_table *table = gm_sweep_table_open(sweep, path, options->retry, message);
-    if (!table) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    struct gm_sweep_table *table = gm_sweep_table_open(options->arena, sweep, path, options->retry);
     struct gm_sweep_sum sum;
     gm_catch_interrupts();
     bool good = gm_sweep_table_fill(table, cores_of(options), NULL, &gm_terminal_listener, &sum, message);
@@ -175,8 +169,9 @@ static int join(const struct gm_options *options, struct gm_sweep *sweep)
     if (options->arguments.count > 0) {
         return gm_give_up(GM_EXIT_USAGE, "--join needs no scene: %s.sweep tells of the sweep", options->join);
     }
-    if (!gm_sweep_recall(sweep, options->join, message) ||
-        !gm_sweep_join(sweep, options->join, name_missing, &missing, message)) {
+    *options->end = GM_EXIT_FILE;
+    gm_sweep_recall(options->arena, sweep, options->join);
+    if (!gm_sweep_join(sweep, options->join, name_missing, &missing, message)) {
         return gm_give_up(GM_EXIT_FILE, "%s", message);
     }
     if (missing > 0) {
@@ -191,15 +186,12 @@ static int join(const struct gm_options *options, struct gm_sweep *sweep)
 int gm_command_sweep(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
-    struct gm_sweep *sweep =
-        gm_arena_keep(options->arena, gm_arena_take(options->arena, 1, sizeof *sweep), gm_sweep_close);
+    struct gm_sweep *sweep = gm_arena_take(options->arena, 1, sizeof *sweep);
     if (options->join) {
         return gm_finish(join(options, sweep));
     }
     check(options);
-    if (!gm_sweep_open(sweep, &options->arguments, options->measure, message)) {
-        gm_command_end(options, sweep->unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
-    }
+    gm_sweep_open(options->arena, sweep, &options->arguments, options->measure, options->end);
     sweep->shard = options->shards ? (size_t)options->shard : 1;
     sweep->shards = options->shards ? (size_t)options->shards : 1;
     const char *path = options->table || is_drawn(options) ? path_of(options, sweep) : NULL;

@@ -78,6 +78,9 @@ void gm_study_close(struct gm_study *study);
 
 const char *gm_study_words(const struct gm_study *study);
 
+/* Returns true while it measures or carries out an order. */
+bool gm_study_is_busy(struct gm_study *study);
+
 /* Returns a look that is new since the last call, or NULL. The caller may read it and lay out its picture
    until the next call. */
 struct gm_study_look *gm_study_take(struct gm_study *study);

@@ -325,9 +325,9 @@ int gm_screen_rows_below(const struct gm_cells *cells)
     return cells->rows >= GM_SCREEN_ROWS ? 2 : cells->rows >= 4 ? 1 : 0;
 }
 
-void gm_screen_rule(const struct gm_sheet *whole, int side)
+void gm_screen_rule(const struct gm_sheet *whole, int below, int side)
 {
-    int row = whole->height - 2, foot = whole->width - side;
+    int row = whole->height - below, foot = whole->width - side;
     for (int i = 0; i < whole->width; i++) {
         gm_sheet_glyph(whole, i, row, side && i == foot ? 0x2534 : 0x2500, GM_GRID, false);
     }
@@ -349,6 +349,20 @@ void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
     }
     const struct gm_sheet above = gm_sheet_part(whole, 1, first, whole->width - 2, rows);
     gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
+}
+
+void gm_screen_ask(const struct gm_sheet *whole, const char *loss)
+{
+    static const struct gm_hint hints[] = {
+        {"q", "quit", 'q'}, {"any other key", "stay", 27}, {NULL, NULL, 0}};
+    char text[160];
+    const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+    snprintf(text, sizeof text, "Quit? %s. q again quits, any other key stays", loss);
+    gm_screen_say_above(whole, text);
+    for (int column = 0; column < last.width; column++) {
+        gm_sheet_glyph(&last, column, 0, ' ', GM_INK, false);
+    }
+    gm_sheet_hints(&last, 1, hints);
 }
 
 static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)

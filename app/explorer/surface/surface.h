@@ -31,6 +31,9 @@ enum gm_choosing { GM_CHOOSE_NOTHING, GM_CHOOSE_SWITCH, GM_CHOOSE_FORK };
 /* The purpose of a typed line. */
 enum gm_prompt { GM_PROMPT_NONE, GM_PROMPT_AHEAD, GM_PROMPT_VALUE };
 
+/* The number of keys of ncurses. */
+enum { GM_KEY_NUMBERS = 1024 };
+
 /* The sections in the side panel. */
 enum gm_side_panel {
     GM_SIDE_ALL,
@@ -64,6 +67,10 @@ struct gm_face {
     unsigned long read;                         /* number of the last message that was dismissed */
     const struct gm_scene *watched;             /* the scene whose `watch` was shown last; it may be freed */
     int64_t watch_until;                        /* time (ms) at which the `watch` sentence ends; 0: it has */
+    char hint[80];                              /* on a key without a meaning */
+    int64_t hint_until;                         /* time (ms) at which it ends */
+    uint32_t hinted[GM_KEY_NUMBERS / 32];       /* a bit for every key that had its hint */
+    const char *loss;                           /* what would be lost by quitting, while that is asked */
     const struct gm_guide *guide;               /* the tour's guide; NULL without a tour */
     const struct gm_typed_prompt *typed_prompt; /* the prompt, if the screen has one, else NULL */
     struct gm_studies *studies;                 /* the background studies; NULL if not available */
@@ -83,6 +90,7 @@ enum gm_key_result {
     GM_KEY_TYPED,   /* asks for a user-defined system, or from the list of schemes for a scheme */
     GM_KEY_FILE,    /* saves the user-defined system to a file */
     GM_KEY_COPY,    /* copies the chosen command line to the clipboard */
+    GM_KEY_UNKNOWN, /* has no meaning here */
     GM_KEY_LEAVE,
 };
 
@@ -233,14 +241,17 @@ void gm_screen_close(struct gm_screen *screen);
 
 /* Clears the screen; returns a sheet of all of it. */
 struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face);
-/* The smallest screen with room for a panel, and for two rows below the rest. */
-enum { GM_SCREEN_COLUMNS = 60, GM_SCREEN_ROWS = 12 };
+/* The smallest screen with room for a panel and a rule, and for a row of keys that messages leave free. */
+enum { GM_SCREEN_COLUMNS = 60, GM_SCREEN_ROWS = 12, GM_SCREEN_ROWS_OF_KEYS = 20 };
 /* Returns the rows below the rest: 2 (a rule and the last row), 1 or 0. */
 int gm_screen_rows_below(const struct gm_cells *cells);
-/* Draws the rule, and the line at the left of a panel of `side` columns; 0: no panel. */
-void gm_screen_rule(const struct gm_sheet *whole, int side);
+/* Draws the rule with `below` - 1 rows below it, and the line at the left of a panel of `side` columns; 0:
+   no panel. */
+void gm_screen_rule(const struct gm_sheet *whole, int below, int side);
 /* Writes a text that does not fit beside the hints above the last row, in at most a third of the rows. */
 void gm_screen_say_above(const struct gm_sheet *whole, const char *text);
+/* Draws the question whether to quit, over the rows at the bottom. */
+void gm_screen_ask(const struct gm_sheet *whole, const char *loss);
 /* Paints the shot's picture, or leaves its cells to the pixels. */
 void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_shot *shot);
 

@@ -92,6 +92,8 @@ enum gm_colours { GM_COLOURS_NONE, GM_COLOURS_16, GM_COLOURS_256, GM_COLOURS_TRU
 /* The command line's options on the terminal; NULL: not given. */
 struct gm_overrides {
     const char *colours, *graphics, *theme;
+    const char *shot, *screen, *keys; /* the file of a picture of the explorer, the screen's size, a script */
+    const char *words;                /* the words with which `again` repeats it */
 };
 
 /* The way to show pictures: as pixels, or else as blocks. Text is ASCII if the blocks are. */
@@ -127,6 +129,10 @@ struct gm_terminal {
 /* Reads the options, the environment, the locale and terminfo, and asks the terminal if there is one.
    Returns false and fills message (GM_MESSAGE bytes) if an option is not understood. */
 bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message);
+
+/* Describes an imaginary terminal, whatever is at hand: the options, 80x24 cells, true colours, braille.
+   Returns false and fills message if an option is not understood. */
+bool gm_terminal_imagine(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message);
 
 /* Returns true if the explorer can run here; otherwise fills message with the reason. */
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message);

@@ -351,6 +351,36 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
     return true;
 }
 
+bool gm_terminal_imagine(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
+{
+    enum { LEAST_COLUMNS = 20, LEAST_ROWS = 6, MOST_COLUMNS = 400, MOST_ROWS = 120 };
+    struct demand theme, colours, graphics;
+    const char *size = overrides->screen ? overrides->screen : "80x24";
+    int used = 0;
+    *terminal = (struct gm_terminal){
+        .name = "", .input = true, .output = true, .known = true, .utf8 = true, .asked = -1};
+    if (sscanf(size, "%5dx%5d%n", &terminal->columns, &terminal->rows, &used) != 2 || size[used] ||
+        terminal->columns < LEAST_COLUMNS || terminal->columns > MOST_COLUMNS ||
+        terminal->rows < LEAST_ROWS || terminal->rows > MOST_ROWS) {
+        return gm_refuse(message, "--screen %.40s is not COLUMNSxROWS from %dx%d to %dx%d", size,
+                         LEAST_COLUMNS, LEAST_ROWS, MOST_COLUMNS, MOST_ROWS);
+    }
+    if (!find_demand(&theme, "--theme", overrides->theme, "", theme_names, message) ||
+        !find_demand(&colours, "--colours", overrides->colours, "", colours_names, message) ||
+        !find_demand(&graphics, "--graphics", overrides->graphics, "", graphics_names, message)) {
+        return false;
+    }
+    terminal->theme = theme.number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
+    terminal->colours = theme.number == MONO  ? GM_COLOURS_NONE
+                        : colours.number >= 0 ? (enum gm_colours)colours.number
+                                              : GM_COLOURS_TRUE;
+    decide_graphics(terminal, &graphics);
+    return !terminal->graphics.pixels || gm_refuse(message,
+                                                   "--graphics %s needs a terminal; --shot draws braille, "
+                                                   "quadrants, half or ascii",
+                                                   graphics.value);
+}
+
 void gm_terminal_reconsider(struct gm_terminal *terminal)
 {
     const struct demand none = {"", "", -1};

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "app/explorer/surface/surface.h"
+#include "render/cells/text.h"
 #include "render/clock.h"
 #include "render/files/images.h"
 
@@ -161,13 +162,8 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
 
 static void put_glyph(struct gm_writer *writer, uint32_t code)
 {
-    static const unsigned char lead[] = {0, 0xC0, 0xE0, 0xF0};
-    const int more = (code >= 0x80) + (code >= 0x800) + (code >= 0x10000); /* bytes after the first */
-    char bytes[4] = {(char)(lead[more] | code >> 6 * more)};
-    for (int i = 1; i <= more; i++) {
-        bytes[i] = (char)(0x80 | (code >> 6 * (more - i) & 0x3F));
-    }
-    put(writer, bytes, 1 + (size_t)more);
+    char bytes[GM_TEXT_BYTES];
+    put(writer, bytes, gm_text_put(code, bytes));
 }
 
 /* Queues a capability without its padding $<5>, which is for old terminals. */

@@ -27,6 +27,17 @@ static void put_wrapped(struct page *page, int column, const char *text, enum gm
     page->row += gm_sheet_wrapped(&page->sheet, column, page->row - page->scroll, 100, text, role);
 }
 
+/* Adds a title, in bold if it has room in a line. */
+static void put_title(struct page *page, const char *text, enum gm_role role)
+{
+    if (gm_sheet_width(&page->sheet, text) > page->sheet.width) {
+        put_wrapped(page, 0, text, role);
+    } else {
+        put(page, 0, text, role, true);
+        page->row++;
+    }
+}
+
 static void put_heading(struct page *page, const char *text)
 {
     if (page->row > 0) {
@@ -38,8 +49,7 @@ static void put_heading(struct page *page, const char *text)
 
 static void put_scene(struct page *page, const struct gm_scene *scene)
 {
-    put(page, 0, scene->title, GM_INK, true);
-    page->row++;
+    put_title(page, scene->title, GM_INK);
     put_wrapped(page, 0, scene->blurb ? scene->blurb : "", GM_INK);
     put_wrapped(page, 0, scene->watch ? scene->watch : "", GM_SECONDARY);
 }
@@ -103,10 +113,16 @@ static void put_lines(struct page *page, int column, const char *text, enum gm_r
 static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)
 {
     char text[32];
-    put(page, 0, scheme->title, role, true);
+    const int width = gm_sheet_width(&page->sheet, scheme->title) + 2;
     snprintf(text, sizeof text, scheme->order > 0 ? "order %d" : "chooses its order", scheme->order);
-    put(page, gm_sheet_width(&page->sheet, scheme->title) + 2, text, GM_SECONDARY, false);
-    page->row++;
+    put_title(page, scheme->title, role);
+    if (width + gm_sheet_width(&page->sheet, text) <= page->sheet.width) { /* beside the title */
+        page->row--;
+        put(page, width, text, GM_SECONDARY, false);
+        page->row++;
+    } else {
+        put_wrapped(page, 0, text, GM_SECONDARY);
+    }
     put_lines(page, 2, scheme->formula, GM_INK);
     put_wrapped(page, 0, scheme->reference ? scheme->reference : "", GM_SECONDARY);
 }
@@ -250,7 +266,7 @@ void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, con
     const struct gm_sheet page = gm_sheet_part(whole, 1, 0, whole->width - 2, whole->height - below);
     draw_page(&page, face, shot);
     if (below == 2) {
-        gm_screen_rule(whole, 0);
+        gm_screen_rule(whole, below, 0);
     }
     if (below > 0) {
         const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
@@ -295,6 +311,9 @@ enum gm_key_result gm_pages_press(int key, struct gm_face *face)
         break;
     default:
         break;
+    }
+    if (face->page == GM_PAGE_HELP) {
+        face->watched = NULL; /* the sentence on what to watch is shown again */
     }
     face->page = GM_PAGE_SCENE;
     return GM_KEY_DONE;

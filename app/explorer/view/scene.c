@@ -7,12 +7,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "render/clock.h"
 
 /* ---- the status line ---- */
 
 enum { MOST_HINTS = 40, FIRST_HINT = 14 };
+
+/* Returns the rows below a scene: on most screens a rule, a row for messages and one for keys. */
+static int rows_below(const struct gm_sheet *whole)
+{
+    return whole->height >= GM_SCREEN_ROWS_OF_KEYS ? 3 : gm_screen_rows_below(whole->cells);
+}
 
 static int by_rank(const void *a, const void *b)
 {
@@ -44,14 +51,19 @@ static const struct gm_hint chooser_hints[] = {{"enter", "take it", '\n'},
                                                {"esc", "back", 27},
                                                {NULL, NULL, 0}};
 /* the hints while a parameter is explained */
-static const struct gm_hint parameter_hints[] = {
-    {"enter", "type", '\n'},         {"- +", "finely", 0}, {"← →", "change", 0}, {"↑ ↓", "choose", 0},
-    {"⌫", "default", KEY_BACKSPACE}, {"?", "help", '?'},   {NULL, NULL, 0}};
+static const struct gm_hint parameter_hints[] = {{"enter", "type", '\n'},
+                                                 {"← →", "change", 0},
+                                                 {"↑ ↓", "choose", 0},
+                                                 {"?", "help", '?'},
+                                                 {"esc", "back", 27},
+                                                 {"- +", "finely", 0},
+                                                 {"⌫", "default", KEY_BACKSPACE},
+                                                 {NULL, NULL, 0}};
 static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
 static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
 
-/* steps per second below which single steps are visible */
-static const double slow_motion = 20;
+/* steps per second below which single steps are visible, and below which the picture seems to stand still */
+static const double slow_motion = 20, standstill = 0.1;
 
 /* Writes the speed, the state of the clock, and the length of a movie. */
 static void status_speed(const struct gm_shot *shot, char *text, size_t size)
@@ -96,6 +108,7 @@ static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
 /* Writes the text at the left of the status line. */
 static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
+    text[0] = '\0';
     const char *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
         face->parameter < shot->parameter_count ? &shot->parameters[face->parameter] : NULL;
@@ -109,10 +122,15 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
         gm_prompt_text(face, shot, text, size);
     } else if (shot->message[0] && shot->message_number != face->read) {
         snprintf(text, size, "%s", shot->message);
+    } else if (gm_clock_milliseconds() < face->hint_until) {
+        snprintf(text, size, "%s", face->hint);
     } else if (face->explaining && parameter) {
         explain(parameter, !side, text, size);
-    } else {
-        snprintf(text, size, "%s", is_watched(face, shot) ? shot->scene->watch : "");
+    } else if (is_watched(face, shot)) {
+        snprintf(text, size, "%s", shot->scene->watch);
+    } else if (!shot->paused && shot->pace < standstill) {
+        snprintf(text, size, "%.1g steps per second: press %s to shorten dt", shot->pace,
+                 parameter && strcmp(parameter->row->key, "dt") == 0 ? "←" : "↑ until dt is chosen, then ←");
     }
 }
 
@@ -120,7 +138,9 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
 static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
 {
     const struct gm_face *face = whole->face;
-    const struct gm_sheet sheet = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+    const bool apart = rows_below(whole) == 3;
+    const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1),
+                          sheet = gm_sheet_part(whole, 0, whole->height - 1 - apart, whole->width, 1);
     struct gm_hint keys[MOST_HINTS];
     char text[GM_MESSAGE];
     int column = 1;
@@ -137,17 +157,17 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
                                   : asks                                ? prompt_hints
                                   : face->explaining && !news           ? parameter_hints
                                                                         : keys;
-    const bool answers =
-        news || is_watched(face, shot) || face->choosing != GM_CHOOSE_NOTHING || face->explaining;
-    if (answers && gm_screen_rows_below(whole->cells) == 2 &&
-        column + gm_sheet_width(&sheet, text) + FIRST_HINT > sheet.width) {
+    const int reserved = apart ? 1 : FIRST_HINT;
+    if (text[0] && rows_below(whole) >= 2 && column + gm_sheet_width(&sheet, text) + reserved > sheet.width) {
         gm_screen_say_above(whole, text);
         text[0] = '\0';
     }
     /* the first hint has priority over the text */
     int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - FIRST_HINT;
-    int begin = gm_sheet_hints(&sheet, from < most ? from : most > column ? most : column, hints);
-    if (begin > column) {
+    int begin = gm_sheet_hints(&last, apart ? 1 : from < most ? from : most > column ? most : column, hints);
+    if (apart) {
+        gm_sheet_cut(&sheet, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
+    } else if (begin > column) {
         const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
         gm_sheet_cut(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
     }
@@ -186,7 +206,7 @@ static void draw_head(const struct gm_sheet *sheet, const struct gm_shot *shot)
 /* Draws the past on the rule below the picture, with a mark at the lanes' time. */
 static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, int width)
 {
-    const struct gm_sheet sheet = gm_sheet_part(whole, 1, whole->height - 2, width - 2, 1);
+    const struct gm_sheet sheet = gm_sheet_part(whole, 1, whole->height - rows_below(whole), width - 2, 1);
     if (sheet.width < 1) {
         return;
     }
@@ -200,15 +220,16 @@ static const struct gm_hint study_hints[] = {{"esc", "back", 27},  {"x", "stop",
                                              {"b", "blocks", 'b'}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
 
 /* Draws a study in `rows` rows of full width, and its progress. */
-static void draw_study(const struct gm_sheet *whole, int rows, int below)
+static void draw_study(const struct gm_sheet *whole, int rows)
 {
+    const int below = gm_screen_rows_below(whole->cells);
     char text[GM_MESSAGE];
     struct gm_studies *studies = whole->face->studies;
     const struct gm_sheet diagram = gm_sheet_part(whole, 0, 0, whole->width, rows);
     gm_studies_draw(&diagram, studies);
     gm_sheet_hit(&diagram, 0, 0, diagram.width, (struct gm_hit){.kind = GM_HIT_PICTURE, .height = rows});
     if (below == 2) {
-        gm_screen_rule(whole, 0);
+        gm_screen_rule(whole, below, 0);
     }
     if (below > 0) {
         struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
@@ -232,7 +253,7 @@ static void draw_news(const struct gm_sheet *whole, const struct gm_scene *scene
     }
     if (text[0]) {
         snprintf(framed, sizeof framed, " %s ", text);
-        gm_sheet_text(whole, 2, whole->height - 2, framed, GM_INK, true);
+        gm_sheet_text(whole, 2, whole->height - rows_below(whole), framed, GM_INK, true);
     }
 }
 
@@ -240,8 +261,8 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
                           bool fresh)
 {
     struct gm_cells *cells = &screen->cells;
-    int below = gm_screen_rows_below(cells), rows = cells->rows - below;
     const struct gm_sheet whole = gm_screen_clear(screen, face);
+    int below = rows_below(&whole), rows = cells->rows - below;
     if (fresh) {
         screen->picture.fresh = false;
     }
@@ -263,15 +284,15 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         rows -= told;
     }
     if (face->studies && face->studies->shown != GM_STUDY_NONE) {
-        draw_study(&whole, rows, below);
+        draw_study(&whole, rows + below - gm_screen_rows_below(cells));
         return;
     }
     int side = side_columns(cells, face), width = cells->columns - side;
     const struct gm_sheet picture = gm_sheet_part(&whole, 0, 0, width, rows);
     gm_screen_picture(screen, &picture, shot);
     gm_sheet_hit(&whole, 0, 0, width, (struct gm_hit){.kind = GM_HIT_PICTURE, .height = rows});
-    if (below == 2 && !asked) {
-        gm_screen_rule(&whole, face->guide ? 0 : side);
+    if (below >= 2 && !asked) {
+        gm_screen_rule(&whole, below, face->guide ? 0 : side);
         draw_past(&whole, shot, width);
         draw_news(&whole, shot->scene);
     }

@@ -156,44 +156,68 @@ static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_sh
     gm_sheet_text(sheet, whole < most ? whole : most, row, tail, gm_schemes_role(lane), bold);
 }
 
-/* Draws a lane's failure in the longest of three texts that fits. */
-static int lane_trouble(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
-                        const struct gm_shot_lane *lane, int title_end)
+enum { NOTES = 3, NOTE = 160, DIFFERENCE = 256 };
+
+/* Writes a lane's failure in the longest of three forms, number 0, or a shorter one; "" if all is well. */
+static void note_of(const struct gm_shot *shot, const struct gm_shot_lane *lane, int form, char text[NOTE])
 {
-    char texts[3][160];
-    int way = 0;
+    static const char *const failures[NOTES] = {"✕ %s, t = %.4g", "✕ %s", "✕"};
+    static const char *const losses[NOTES] = {"! %s %.1g", "! lost", "!"};
+    text[0] = '\0';
     if (lane->status != GM_OK) {
-        snprintf(texts[0], sizeof texts[0], "✕ %s, t = %.4g", gm_status_name(lane->status), lane->t);
-        snprintf(texts[1], sizeof texts[1], "✕ %s", gm_status_name(lane->status));
-        snprintf(texts[2], sizeof texts[2], "✕");
-    } else {
-        snprintf(texts[0], sizeof texts[0], "! %s %.1g", shot->scene->observables[lane->lost].title,
+        snprintf(text, NOTE, failures[form], gm_status_name(lane->status), lane->t);
+    } else if (lane->lost >= 0) {
+        snprintf(text, NOTE, losses[form], shot->scene->observables[lane->lost].title,
                  lane->values[lane->lost]);
-        snprintf(texts[1], sizeof texts[1], "! lost");
-        snprintf(texts[2], sizeof texts[2], "!");
     }
-    while (way < 2 && title_end >= sheet->width - gm_sheet_width(sheet, texts[way])) {
-        way++;
-    }
-    gm_sheet_right(sheet, sheet->width, row, texts[way], GM_INITIAL, true);
-    return sheet->width - gm_sheet_width(sheet, texts[way]) - 1;
 }
 
-static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
-                     const struct gm_shot_lane *lane, bool selected, unsigned columns)
+/* Returns the column at which a lane's title and its difference end. */
+static int title_end(const struct gm_sheet *sheet, const struct gm_shot *shot,
+                     const struct gm_shot_lane *lane, char *difference, size_t size)
 {
-    char difference[2 * sizeof lane->shown.panel_name];
+    lane_difference(lane, shot->overlaid, difference, size);
+    return title_column(sheet) + gm_sheet_width(sheet, lane->scheme->title) +
+           gm_sheet_width(sheet, difference);
+}
+
+/* Returns the first form for which the notes of all lanes have room: they are all of one form. */
+static int form_of_notes(const struct gm_sheet *sheet, const struct gm_shot *shot)
+{
+    char text[NOTE], difference[DIFFERENCE];
+    int form = 0;
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        const int end = title_end(sheet, shot, &shot->lanes[i], difference, sizeof difference);
+        for (;; form++) {
+            note_of(shot, &shot->lanes[i], form, text);
+            if (!text[0] || form + 1 == NOTES || end < sheet->width - gm_sheet_width(sheet, text)) {
+                break;
+            }
+        }
+    }
+    return form;
+}
+
+static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot *shot, size_t index,
+                     int form, unsigned columns)
+{
+    const struct gm_shot_lane *lane = &shot->lanes[index];
+    const bool selected = index == shot->selected;
+    char note[NOTE], difference[DIFFERENCE];
     const enum gm_role role = gm_schemes_role(lane);
     if (selected) {
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     }
     gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_schemes_dash(lane), role, false);
-    lane_difference(lane, shot->overlaid, difference, sizeof difference);
-    const int title_end =
-        title_column(sheet) + gm_sheet_width(sheet, lane->scheme->title) + gm_sheet_width(sheet, difference);
-    const int end = lane->status != GM_OK || lane->lost >= 0
-                        ? lane_trouble(sheet, row, shot, lane, title_end)
-                        : gm_schemes_facts(sheet, row, lane->scheme, title_end, columns, true, GM_INK);
+    const int whole = title_end(sheet, shot, lane, difference, sizeof difference);
+    int end = sheet->width;
+    note_of(shot, lane, form, note);
+    if (note[0]) {
+        gm_sheet_right(sheet, end, row, note, GM_INITIAL, true);
+        end -= gm_sheet_width(sheet, note) + 1;
+    } else {
+        end = gm_schemes_facts(sheet, row, lane->scheme, whole, columns, true, GM_INK);
+    }
     lane_title(sheet, row, lane, difference, end, selected);
 }
 
@@ -203,12 +227,13 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
     if (!plan->lanes) {
         return row;
     }
-    unsigned columns = gm_schemes_claims(shot);
+    const unsigned columns = gm_schemes_claims(shot);
+    const int form = form_of_notes(sheet, shot);
     char text[64];
     gm_schemes_heading(sheet, row++, "SCHEMES");
     for (size_t i = 0; i < shot->lane_count; i++) {
         gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_LANE, .index = i});
-        lane_row(sheet, row++, shot, &shot->lanes[i], i == shot->selected, columns);
+        lane_row(sheet, row++, shot, i, form, columns);
     }
     int shown = 0, unused = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {

@@ -250,7 +250,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         return;
     }
     if (below == 2) {
-        gm_screen_rule(&whole, 0);
+        gm_screen_rule(&whole, below, 0);
     }
     if (below > 0) {
         const struct gm_sheet last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);

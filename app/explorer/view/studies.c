@@ -10,6 +10,9 @@
 
 #include "app/base/arguments.h"
 #include "app/explorer/surface/surface.h"
+#include "render/clock.h"
+
+enum { NOTICE_MILLISECONDS = 20000 };
 
 /* the keys of the studies; 0: only a tour shows it */
 static const char keys[GM_STUDY_COUNT] = {
@@ -136,12 +139,39 @@ bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
     }
 }
 
+bool gm_studies_are_busy(const struct gm_studies *studies)
+{
+    bool busy = false;
+    for (int i = 0; i < GM_STUDY_COUNT; i++) {
+        busy = busy || (studies->studies[i] && gm_study_is_busy(studies->studies[i]));
+    }
+    return busy;
+}
+
+int64_t gm_studies_end(const struct gm_studies *studies, int64_t now)
+{
+    int64_t first = 0;
+    for (int i = 0; i < GM_STUDY_COUNT; i++) {
+        const int64_t end = studies->until[i];
+        first = end > now && (first == 0 || end < first) ? end : first;
+    }
+    return first;
+}
+
+void gm_studies_leave(struct gm_studies *studies)
+{
+    studies->shown = GM_STUDY_NONE;
+    memset(studies->until, 0, sizeof studies->until);
+}
+
 bool gm_studies_look(struct gm_studies *studies)
 {
     bool news = false;
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
         struct gm_study_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
         if (look) {
+            const bool first = look->finished && !(studies->looks[i] && studies->looks[i]->finished);
+            studies->until[i] = first ? gm_clock_milliseconds() + NOTICE_MILLISECONDS : studies->until[i];
             studies->looks[i] = look;
             studies->painting.fresh = studies->painting.fresh && studies->shown != (enum gm_study_kind)i;
             news = true;
@@ -208,16 +238,16 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
     for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
         const struct gm_study_look *look = studies->looks[i];
         if (!studies->studies[i] || studies->scenes[i] != scene || studies->shown == (enum gm_study_kind)i ||
-            (look && look->impossible)) {
+            (look &&
+             (look->impossible || (look->finished && gm_clock_milliseconds() >= studies->until[i])))) {
             continue;
         }
         const char *words = gm_study_words(studies->studies[i]); /* the scene is the first word */
         const int length = (int)strcspn(words, " ");
         if (look && look->finished) {
-            used +=
-                (size_t)snprintf(text + used, size - used,
-                                 keys[i] ? "%s of %.*s is finished: %c shows it" : "%s of %.*s is finished",
-                                 gm_study_rows[i]->name, length, words, keys[i]);
+            used += (size_t)snprintf(text + used, size - used,
+                                     keys[i] ? "%s of %.*s is ready: %c shows it" : "%s of %.*s is ready",
+                                     gm_study_rows[i]->name, length, words, keys[i]);
         } else {
             used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%", gm_study_rows[i]->name,
                                      length, words, percent(look));

@@ -128,6 +128,7 @@ struct gm_studies {
     const struct gm_scene *scenes[GM_STUDY_COUNT]; /* scenes open at the studies' start; they may be freed */
     enum gm_study_kind shown;                      /* GM_STUDY_NONE: the scene is shown */
     struct gm_painting painting;                   /* the painting of the shown picture */
+    int64_t until[GM_STUDY_COUNT];                 /* time (ms) at which the notice of a finished one ends */
     char notice[GM_MESSAGE];                       /* the reason of a failure; "" after the next key */
 };
 
@@ -151,6 +152,14 @@ char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, i
 
 /* Handles a key while a study is shown; returns false if it has another meaning. */
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme);
+
+/* Returns true while a study measures or carries out an order. */
+bool gm_studies_are_busy(const struct gm_studies *studies);
+
+/* Returns the time (ms) after `now` at which the first notice of a finished study ends, or 0. */
+int64_t gm_studies_end(const struct gm_studies *studies, int64_t now);
+/* Hides the studies and their notices: the scene is left. */
+void gm_studies_leave(struct gm_studies *studies);
 
 /* Takes new looks; returns true if the screen must be composed again. */
 bool gm_studies_look(struct gm_studies *studies);

@@ -2,9 +2,60 @@
 /* Carries out orders on a session, in the thread that steps. The next shot reports what failed. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "app/explorer/worker/session.h"
 #include "core/basics.h"
+
+/* ---- undoing ---- */
+
+/* Stores the order that undoes a change of the selected lane; the oldest one gives way. A dragged slider
+   makes one change. */
+static void note_undo(struct gm_play *play, struct gm_order order)
+{
+    const struct gm_order *last = play->undo_count > 0 ? &play->undos[play->undo_count - 1] : NULL;
+    order.value = (double)play->selected;
+    if (last && order.amount && last->amount && last->row == order.row && last->value == order.value) {
+        return;
+    }
+    if (play->undo_count == GM_UNDOS) {
+        memmove(play->undos, play->undos + 1, --play->undo_count * sizeof *play->undos);
+    }
+    play->undos[play->undo_count++] = order;
+}
+
+static bool undo(struct gm_play *play, char *message)
+{
+    if (play->undo_count == 0) {
+        return gm_refuse(message, "There is nothing to undo.");
+    }
+    const struct gm_order *order = &play->undos[--play->undo_count];
+    const size_t lane = (size_t)order->value;
+    const bool scheme = order->kind == GM_ORDER_SWITCH;
+    char sentence[GM_MESSAGE];
+    if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
+               : !gm_session_set(&play->session, lane, order->row, order->of_scheme, order->text,
+                                 &play->restart, message)) {
+        return false;
+    }
+    snprintf(sentence, sizeof sentence, "Undone: %s is %.300s again.",
+             scheme ? "the scheme" : order->row->key, scheme ? order->scheme->title : order->text);
+    gm_play_say(play, sentence);
+    return true;
+}
+
+/* Forgets the changes of a lane that was removed. */
+static void forget_undos(struct gm_play *play, size_t lane)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < play->undo_count; i++) {
+        if (play->undos[i].value != (double)lane) {
+            play->undos[count] = play->undos[i];
+            play->undos[count++].value -= play->undos[i].value > (double)lane;
+        }
+    }
+    play->undo_count = count;
+}
 
 static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {
@@ -27,10 +78,30 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
         gm_play_say(play, message);
         return;
     }
+    struct gm_order back = {.kind = GM_ORDER_TYPE,
+                            .amount = order->kind == GM_ORDER_SLIDE,
+                            .row = row,
+                            .of_scheme = order->of_scheme};
+    gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, order->of_scheme, text, &play->restart,
                         message)) {
         gm_play_say(play, message);
+    } else if (strcmp(back.text, text) != 0) {
+        note_undo(play, back);
     }
+}
+
+/* Switches the selected lane, unless it has the scheme. */
+static bool switch_scheme(struct gm_play *play, const struct gm_scheme *scheme, char *message)
+{
+    const struct gm_scheme *before = play->session.lanes[play->selected]->scheme;
+    if (!gm_session_switch(&play->session, play->selected, scheme, message)) {
+        return false;
+    }
+    if (before != scheme) {
+        note_undo(play, (struct gm_order){.kind = GM_ORDER_SWITCH, .scheme = before});
+    }
+    return true;
 }
 
 /* Moves the camera: the azimuth wraps around, elevation and zoom stop at their limits. */
@@ -206,7 +277,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         move_parameter(play, order);
         break;
     case GM_ORDER_SWITCH:
-        ok = gm_session_switch(session, play->selected, order->scheme, message);
+        ok = switch_scheme(play, order->scheme, message);
         break;
     case GM_ORDER_FORK:
         ok = gm_session_fork(session, play->selected, order->scheme, message);
@@ -220,10 +291,16 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     case GM_ORDER_REMOVE:
         ok = gm_session_remove(session, play->selected, message);
+        if (ok) {
+            forget_undos(play, play->selected);
+        }
         play->selected = play->selected < session->count ? play->selected : session->count - 1;
         break;
     case GM_ORDER_RECORD:
         gm_capture_record(capture, play, (enum gm_theme)order->amount);
+        break;
+    case GM_ORDER_UNDO:
+        ok = undo(play, message);
         break;
     case GM_ORDER_TELL:
         gm_capture_tell(capture, session, (enum gm_theme)order->amount);

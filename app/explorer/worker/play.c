@@ -16,7 +16,7 @@ static const double AHEAD_NEWS = 0.25;
 /* seconds of stepping between two looks for orders; waking more often gains nothing */
 static const double SLICE = 0.008;
 /* seconds between two restarts, at least */
-static const double RESTART_PAUSE = 1.0 / 30;
+static const double RESTART_PAUSE = 0.033;
 /* initial wall time of the scene's time span, in seconds */
 static const double FIRST_SECONDS = 6;
 
@@ -311,6 +311,7 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_MESH_CROSSING] = "tangled its mesh",
             [GM_STEP_COLLAPSE] = "found no time step",
             [GM_OUT_OF_MEMORY] = "found no memory",
+            [GM_STEP_TOO_SMALL] = "needs steps below round-off",
         };
         char sentence[GM_MESSAGE];
         snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,

@@ -44,7 +44,7 @@ struct gm_worker {
 static void announce(struct gm_worker *worker)
 {
     const uint64_t one = 1;
-    if (write(worker->wake, &one, sizeof one) < 0) {
+    if (worker->wake >= 0 && write(worker->wake, &one, sizeof one) < 0) {
         worker->leave = errno != EAGAIN; /* the screen is gone */
     }
 }
@@ -139,8 +139,8 @@ static void obey_next(struct gm_worker *worker)
     worker->owed -= is_owed(&order);
 }
 
-/* One round: the orders, then some steps, then a shot or a rest. Called with the lock held. */
-static void go_round(struct gm_worker *worker)
+/* Carries out the orders, then makes some steps. Called with the lock held; returns true after a step. */
+static bool go_on(struct gm_worker *worker)
 {
     struct gm_play *play = &worker->play;
     struct gm_capture *capture = &worker->capture;
@@ -152,29 +152,39 @@ static void go_round(struct gm_worker *worker)
     const bool worked = worker->shown && gm_play_step(play);
     capture->unrecorded = capture->unrecorded || worked;
     gm_capture_take_frame(capture, &play->session);
-    gm_play_keep_agenda(play);
+    const bool changed = gm_play_keep_agenda(play);
     gm_play_watch_frozen(play);
     pthread_mutex_lock(&worker->lock);
-    if (worker->wanted && play->changed) {
+    return worked || changed;
+}
+
+/* One round, then a shot or a rest. Called with the lock held. */
+static void go_round(struct gm_worker *worker)
+{
+    const bool worked = go_on(worker);
+    if (worker->wanted && worker->play.changed) {
         take_shot(worker);
     } else if (!worked && worker->count == 0 && !worker->leave) {
         rest(worker);
     }
 }
 
+/* Opens the scene that has only a name yet. Returns false with a message in play if that fails. */
+static bool begin(struct gm_worker *worker)
+{
+    char message[GM_MESSAGE] = "";
+    if (worker->name && !open_named(worker, message)) {
+        snprintf(worker->play.message, sizeof worker->play.message, "%s", message);
+        return false;
+    }
+    gm_play_begin(&worker->play);
+    return true;
+}
+
 static void *work(void *self)
 {
     struct gm_worker *worker = self;
-    bool ok = true;
-    if (worker->name) {
-        char message[GM_MESSAGE] = "";
-        ok = open_named(worker, message);
-        if (ok) {
-            gm_play_begin(&worker->play);
-        } else {
-            snprintf(worker->play.message, sizeof worker->play.message, "%s", message);
-        }
-    }
+    const bool ok = begin(worker);
     pthread_mutex_lock(&worker->lock);
     worker->failed = !ok;
     if (!ok) {
@@ -221,9 +231,14 @@ static struct gm_worker *make(int wake, char *message)
     return worker;
 }
 
-/* Starts the thread and returns the worker. On failure releases it, fills message and returns NULL. */
+/* Starts the thread, if there is one to wake, and returns the worker. On failure releases it, fills message
+   and returns NULL. */
 static struct gm_worker *start(struct gm_worker *worker, char *message)
 {
+    if (worker->wake < 0) {
+        worker->failed = !begin(worker);
+        return worker;
+    }
     const int error = gm_thread_start(&worker->thread, work, worker);
     if (error == 0) {
         return worker;
@@ -244,7 +259,6 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, con
         release(worker);
         return NULL;
     }
-    gm_play_begin(&worker->play);
     if (first) {
         worker->queue[worker->count++] = *first;
     }
@@ -291,7 +305,9 @@ void gm_worker_close(struct gm_worker *worker, char *parting)
     worker->leave = true;
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);
-    pthread_join(worker->thread, NULL);
+    if (worker->wake >= 0) {
+        pthread_join(worker->thread, NULL);
+    }
     if (owed) {
         snprintf(parting, GM_MESSAGE, "%s", worker->play.message);
     }
@@ -307,7 +323,7 @@ void gm_worker_abandon(struct gm_worker *worker, char *parting)
 {
     parting[0] = '\0';
     pthread_mutex_lock(&worker->lock);
-    if (worker->recorded || worker->owed > 0) {
+    if (worker->wake < 0 || worker->recorded || worker->owed > 0) {
         pthread_mutex_unlock(&worker->lock);
         gm_worker_close(worker, parting);
         return;
@@ -351,4 +367,16 @@ struct gm_shot *gm_worker_take(struct gm_worker *worker)
     }
     pthread_mutex_unlock(&worker->lock);
     return shot;
+}
+
+struct gm_shot *gm_worker_play(struct gm_worker *worker, bool wanted)
+{
+    pthread_mutex_lock(&worker->lock);
+    while (!worker->failed && go_on(worker)) {
+    }
+    if (!worker->failed && worker->play.changed && (wanted || !worker->shown)) {
+        take_shot(worker);
+    }
+    pthread_mutex_unlock(&worker->lock);
+    return gm_worker_take(worker);
 }

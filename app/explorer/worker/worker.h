@@ -11,8 +11,8 @@
 struct gm_worker;
 
 /* Opens the lanes and starts the thread. Returns the worker, which gm_worker_close frees; on failure fills
-   message (GM_MESSAGE bytes) and returns NULL. `wake` is an eventfd, written when a shot is finished.
-   `first` (may be NULL) is obeyed before the first step. */
+   message (GM_MESSAGE bytes) and returns NULL. `wake` is an eventfd, written when a shot is finished;
+   with -1 there is no thread, and gm_worker_play does its work. `first` (may be NULL) is obeyed before the first step. */
 struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
                                  char *message);
 /* Writes the requested files, finishes a movie and frees the worker. `parting` (GM_MESSAGE bytes) receives
@@ -30,6 +30,10 @@ bool gm_worker_failed(struct gm_worker *worker, char *message);
 void gm_worker_abandon(struct gm_worker *worker, char *parting);
 
 void gm_worker_order(struct gm_worker *worker, struct gm_order order);
+
+/* Without a thread: carries out the orders and makes the steps that are due by the clock. Returns a shot if one
+   is wanted and something has changed, and the first one; else NULL. */
+struct gm_shot *gm_worker_play(struct gm_worker *worker, bool wanted);
 
 /* Asks for the next shot with changes, and returns the previous one to the thread. */
 void gm_worker_want(struct gm_worker *worker);

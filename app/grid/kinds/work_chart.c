@@ -111,34 +111,43 @@ static double covered(const struct gm_panel *panel, const struct drawn *line, co
     return steps;
 }
 
-/* The place for the name of line `own` among those drawn, that covers least and touches no other name: beside
-   one of its points, right or left, above or below. */
-static struct place name_place(const struct gm_panel *panel, const struct drawn *lines, size_t line_count,
-                               size_t own, const struct place *taken, size_t taken_count, size_t letters)
+/* The coloured lines of a panel, and the places of their names. */
+struct names {
+    const struct gm_panel *panel;
+    struct drawn lines[NAMED];
+    size_t line_count;
+    struct place taken[NAMED];
+    size_t taken_count;
+};
+
+/* The place for the name of a line, that covers least and touches no other name: beside one of its points, right
+   or left, above or below. */
+static struct place name_place(const struct names *names, const struct drawn *own, size_t letters)
 {
+    const struct gm_panel *panel = names->panel;
     /* a letter, and a line of text, in a picture of usual size */
     const double wide = 0.016 * (double)letters, tall = 0.042, aside = 0.012;
     struct place best = {0};
     double least = INFINITY;
-    for (size_t k = 0; k < lines[own].count; k++) {
-        const double u = across(&panel->x, lines[own].points[2 * k]);
-        const double v = across(&panel->y, lines[own].points[2 * k + 1]);
+    for (size_t k = 0; k < own->count; k++) {
+        const double u = across(&panel->x, own->points[2 * k]);
+        const double v = across(&panel->y, own->points[2 * k + 1]);
         for (int side = 0; side < 4; side++) {
             const double left = side & 1 ? u - aside - wide : u + aside;
             const double low = side & 2 ? v - 0.8 * tall : v - 0.2 * tall;
             const struct place place = {left, low, left + wide, low + tall};
             /* later points are lower, and lines separate there */
-            double cost =
-                0.2 * (double)side + 0.5 * (double)(lines[own].count - k) / (double)lines[own].count;
+            double cost = 0.2 * (double)side + 0.5 * (double)(own->count - k) / (double)own->count;
             cost += place.left < 0 || place.right > 1 ? 40 : 0;
             cost += place.low < 0 || place.high > 1.02 ? 40 : 0;
-            for (size_t i = 0; i < taken_count; i++) {
-                const bool apart = place.left > taken[i].right || place.right < taken[i].left ||
-                                   place.low > taken[i].high || place.high < taken[i].low;
+            for (size_t i = 0; i < names->taken_count; i++) {
+                const struct place *taken = &names->taken[i];
+                const bool apart = place.left > taken->right || place.right < taken->left ||
+                                   place.low > taken->high || place.high < taken->low;
                 cost += apart ? 0 : 100;
             }
-            for (size_t i = 0; i < line_count; i++) {
-                cost += covered(panel, &lines[i], &place);
+            for (size_t i = 0; i < names->line_count; i++) {
+                cost += covered(panel, &names->lines[i], &place);
             }
             if (cost < least) {
                 least = cost;
@@ -202,7 +211,8 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
                          false);
         }
     }
-    struct drawn lines[NAMED];
+    struct names names = {.panel = panel, .line_count = chosen_count};
+    struct drawn *lines = names.lines;
     for (size_t i = 0; i < chosen_count; i++) {
         const size_t most = grid->steps.count * grid->values.count;
         double *own = gm_picture_memory(picture, 2 * most * sizeof *own);
@@ -212,16 +222,13 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,
                        lines[i].count);
     }
-    struct place taken[NAMED];
-    size_t taken_count = 0;
     for (size_t i = 0; i < chosen_count; i++) {
         const char *name = chosen[i]->scheme->title;
         if (lines[i].count == 0) {
             continue;
         }
-        const struct place place =
-            name_place(panel, lines, chosen_count, i, taken, taken_count, (size_t)gm_text_width(name, false));
-        taken[taken_count++] = place;
+        const struct place place = name_place(&names, &lines[i], (size_t)gm_text_width(name, false));
+        names.taken[names.taken_count++] = place;
         gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(i), .alpha = 1, .width = 1},
                      panel->x.low * pow(panel->x.high / panel->x.low, place.left),
                      panel->y.low * pow(panel->y.high / panel->y.low, 0.5 * (place.low + place.high)),

@@ -10,6 +10,7 @@
 #include "app/grid/chart.h"
 #include "app/grid/sweep.h"
 #include "app/output/row.h"
+#include "core/arena.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
 #include "scenes/common/symbol.h"
@@ -142,22 +143,19 @@ void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *r
     }
 }
 
-struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, char *message)
+struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct gm_sweep *sweep)
 {
-    struct gm_sweep_chart *chart = calloc(1, sizeof *chart);
-    bool good = (chart || gm_refuse(message, "not enough memory")) && plan(chart, sweep, message);
-    for (const char *at = good ? strstr(sweep->head, ",status,") : sweep->head; at > sweep->head; at--) {
+    char message[GM_MESSAGE];
+    struct gm_sweep_chart *chart = gm_arena_take(arena, 1, sizeof *chart);
+    if (!plan(chart, sweep, message)) {
+        gm_arena_refuse(arena, "%s", message);
+    }
+    for (const char *at = strstr(sweep->head, ",status,"); at > sweep->head; at--) {
         chart->status += *at == ',';
     }
-    if (good) {
-        chart->cells =
-            calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);
-        good = chart->cells || gm_refuse(message, "not enough memory");
-    }
-    if (!good) {
-        gm_sweep_chart_close(chart);
-    }
-    return good ? chart : NULL;
+    chart->cells = gm_arena_take(arena, chart->shown * chart->lines * chart->bins[0] * chart->bins[1],
+                                 sizeof *chart->cells);
+    return chart;
 }
 
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message)
@@ -172,15 +170,6 @@ bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *m
     }
     gm_csv_close(&table);
     return true;
-}
-
-void gm_sweep_chart_close(void *self)
-{
-    struct gm_sweep_chart *chart = self;
-    if (chart) {
-        free(chart->cells);
-        free(chart);
-    }
 }
 
 /* ---- drawing ---- */
@@ -478,8 +467,9 @@ static const char *fixed_words(const struct gm_sweep *sweep, struct gm_picture *
     return text;
 }
 
-void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture)
+void gm_sweep_chart_draw(const void *data, struct gm_picture *picture)
 {
+    const struct gm_sweep_chart *chart = data;
     const struct gm_sweep *sweep = chart->sweep;
     const size_t last = chart->key_count - 1;
     picture->title = gm_picture_text(picture, "%s: %s over %s%s%s", sweep->scene->title,

@@ -12,36 +12,36 @@
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
+#include "core/arena.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 
 enum { LONGEST_NOTE = 1 << 20 };
 
-bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message)
+void gm_sweep_note(const struct gm_sweep *sweep, const char *path)
 {
     size_t size;
-    char reason[GM_REGULAR_REASON];
-    char *note = gm_text("%s.sweep", path);
+    char reason[GM_REGULAR_REASON], message[GM_MESSAGE];
+    const char *note = gm_arena_print(sweep->arena, "%s.sweep", path);
     /* the words as gm_arguments_split reads them */
-    char *text = gm_text("geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n", sweep->arguments,
-                         sweep->measure ? sweep->measure : "", sweep->shards);
-    bool good = note && text;
-    if (!good) {
-        gm_refuse(message, "%.360s could not be opened: not enough memory", path);
-    } else if (!gm_folder_make_for(path, message)) {
-        good = false;
-    } else if (access(note, F_OK) != 0) {
-        const int error = gm_temporary_write(note, text, strlen(text));
-        good = error == 0 || gm_refuse(message, "%.360s could not be written: %s", note, strerror(error));
-    } else {
-        char *before = gm_regular_read(note, LONGEST_NOTE, &size, reason);
-        good = (before && strcmp(before, text) == 0) ||
-               gm_refuse(message, "%.360s tells of another sweep; its tables are left as they are", note);
-        free(before);
+    const char *text = gm_arena_print(sweep->arena, "geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n",
+                                      sweep->arguments, sweep->measure ? sweep->measure : "", sweep->shards);
+    if (!gm_folder_make_for(path, message)) {
+        gm_arena_refuse(sweep->arena, "%s", message);
     }
-    free(note);
-    free(text);
-    return good;
+    if (access(note, F_OK) != 0) {
+        const int error = gm_temporary_write(note, text, strlen(text));
+        if (error != 0) {
+            gm_arena_refuse(sweep->arena, "%.360s could not be written: %s", note, strerror(error));
+        }
+        return;
+    }
+    char *before = gm_regular_read(note, LONGEST_NOTE, &size, reason);
+    const bool same = before && strcmp(before, text) == 0;
+    free(before);
+    if (!same) {
+        gm_arena_refuse(sweep->arena, "%.360s tells of another sweep; its tables are left as they are", note);
+    }
 }
 
 /* The text after a word that begins a line, or NULL. */
@@ -51,31 +51,27 @@ static char *find(char *note, const char *word)
     return at ? at + strlen(word) : NULL;
 }
 
-bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message)
+void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char *path)
 {
-    struct gm_arguments arguments = {0};
     size_t size;
-    char reason[GM_REGULAR_REASON] = "not enough memory", *name = gm_text("%s.sweep", path);
-    char *note = name ? gm_regular_read(name, LONGEST_NOTE, &size, reason) : NULL;
+    int status;
+    char reason[GM_REGULAR_REASON];
+    struct gm_arguments *arguments = gm_arguments_in(arena);
+    char *note = gm_regular_read(gm_arena_print(arena, "%s.sweep", path), LONGEST_NOTE, &size, reason);
+    if (note) {
+        gm_arena_keep(arena, note, free);
+    }
     char *words = find(note, "\nsweep: "), *measure = find(note, "\nmeasure: "),
          *shares = find(note, "\nshares: ");
-    *sweep = (struct gm_sweep){0};
-    bool good =
-        words && measure && shares && strncmp(note, "geomint: 1\n", 11) == 0 && strtoul(shares, NULL, 10) > 0;
-    if (!good) {
-        gm_refuse(message, "%.300s.sweep, which tells what the shares are of, could not be read%s%s", path,
-                  note ? "" : ": ", note ? "" : reason);
-    } else {
-        words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
-        good = (gm_arguments_split(&arguments, words) ||
-                gm_refuse(message, "%.360s could not be read: not enough memory", name)) &&
-               gm_sweep_open(sweep, &arguments, measure[0] ? measure : NULL, message);
-        sweep->shards = strtoul(shares, NULL, 10);
+    if (!words || !measure || !shares || strncmp(note, "geomint: 1\n", 11) != 0 ||
+        strtoul(shares, NULL, 10) == 0) {
+        gm_arena_refuse(arena, "%.300s.sweep, which tells what the shares are of, could not be read%s%s",
+                        path, note ? "" : ": ", note ? "" : reason);
     }
-    gm_arguments_close(&arguments);
-    free(note);
-    free(name);
-    return good;
+    words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
+    gm_arena_need(arena, gm_arguments_split(arguments, words));
+    gm_sweep_open(arena, sweep, arguments, measure[0] ? measure : NULL, &status);
+    sweep->shards = strtoul(shares, NULL, 10);
 }
 
 /* ---- joining ---- */

@@ -12,11 +12,12 @@
 #include "app/grid/sweep.h"
 #include "app/output/row.h"
 #include "app/words/drive.h"
+#include "core/arena.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 
 const char gm_sweep_statuses[] =
-    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused, warning";
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, step-too-small, out-of-memory, refused, warning";
 
 /* Returns true if a word determines the list of runs and is not a key of a run. */
 static bool is_of_the_list(const struct gm_word *word)
@@ -138,26 +139,26 @@ static bool ask(const struct gm_sweep *sweep, size_t run, const char *key, const
     return good;
 }
 
-static bool try_run(struct gm_sweep *sweep, size_t run, const char *key, const char *value, char *message)
+static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value, int *status,
+                    char *message)
 {
     struct gm_request request;
     const bool good = ask(sweep, run, key, value, &request, message);
-    sweep->unreadable = request.refusal == GM_EXIT_FILE;
+    *status = !good && request.refusal == GM_EXIT_FILE ? GM_EXIT_FILE : GM_EXIT_USAGE;
     gm_request_close(&request);
     return good;
 }
 
-/* Returns true if the first run can be made with another value of a key, or else the middle one: a corner
-   of ranges may have no run. Returns false with a sentence on the first. */
-static bool try_some(struct gm_sweep *sweep, const char *key, const char *value, char *message)
+/* Refuses a value of a key if neither the first run nor the middle one can be made with it, with the sentence on
+   the first: a corner of ranges may have no run. */
+static void try_some(const struct gm_sweep *sweep, const char *key, const char *value, int *status)
 {
-    char ignored[GM_MESSAGE];
-    if (try_run(sweep, 0, key, value, message)) {
-        return true;
+    char message[GM_MESSAGE], ignored[GM_MESSAGE];
+    int other;
+    if (!try_run(sweep, 0, key, value, status, message) &&
+        !try_run(sweep, middle_of(sweep), key, value, &other, ignored)) {
+        gm_arena_refuse(sweep->arena, "%s", message);
     }
-    const bool unreadable = sweep->unreadable, good = try_run(sweep, middle_of(sweep), key, value, ignored);
-    sweep->unreadable = unreadable && !good;
-    return good;
 }
 
 /* Returns true if the key can have this value. */
@@ -176,20 +177,16 @@ static bool fits(const struct gm_scene *scene, const char *key, const char *valu
 }
 
 /* Checks a run with each scheme, and that every list holds values of its key: for a range, both ends. */
-static bool check(struct gm_sweep *sweep, char *message)
+static void check(const struct gm_sweep *sweep, int *status)
 {
     char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
     for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
         if (strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0) {
-            return gm_refuse(message, "%s= is of lanes beside each other; a sweep has none", word->key);
+            gm_arena_refuse(sweep->arena, "%s= is of lanes beside each other; a sweep has none", word->key);
         }
-        if (strcmp(word->key, "scheme") == 0) {
-            for (size_t k = 0; k < word->count; k++) {
-                if (!try_some(sweep, "scheme", gm_word_value(word, k, first), message)) {
-                    return false;
-                }
-            }
+        for (size_t k = 0; strcmp(word->key, "scheme") == 0 && k < word->count; k++) {
+            try_some(sweep, "scheme", gm_word_value(word, k, first), status);
         }
         size_t value = 0;
         for (size_t k = 0; is_column(word) && k < word->piece_count; k++) {
@@ -197,22 +194,14 @@ static bool check(struct gm_sweep *sweep, char *message)
             const char *ends[] = {gm_word_value(word, value, first),
                                   gm_word_value(word, value + values - 1, last)};
             for (size_t end = 0; end < 2; end++) {
-                if (!fits(sweep->scene, word->key, ends[end]) &&
-                    !try_some(sweep, word->key, ends[end], message)) {
-                    return false;
+                if (!fits(sweep->scene, word->key, ends[end])) {
+                    try_some(sweep, word->key, ends[end], status);
                 }
             }
             value += values;
         }
     }
-    return true;
-}
-
-static bool choose_observables(struct gm_sweep *sweep, const char *measure, char *message)
-{
-    sweep->measure = measure ? strdup(measure) : NULL;
-    return (!measure || sweep->measure || gm_refuse(message, "not enough memory")) &&
-           gm_chosen_open(&sweep->chosen, sweep->scene, measure, message);
+    *status = GM_EXIT_USAGE;
 }
 
 static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
@@ -234,39 +223,37 @@ static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
     return true;
 }
 
-bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
-                   char *message)
+static void close_sweep(void *data)
 {
-    *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
-    if (arguments->count == 0) {
-        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
-    }
-    int status;
-    sweep->scene = gm_request_scene(arguments->count, arguments->words, &status, message);
-    if (!sweep->scene) {
-        sweep->unreadable = status == GM_EXIT_FILE;
-        return false;
-    }
-    if (!gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
-                       GM_RUN_SCHEMES, message) ||
-        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
-        !choose_observables(sweep, measure, message) || !check(sweep, message)) {
-        return false;
-    }
-    sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
-    sweep->head = text_of(sweep, 0, put_head);
-    return (sweep->arguments && sweep->head) || gm_refuse(message, "not enough memory");
+    struct gm_sweep *sweep = data;
+    gm_words_close(&sweep->words);
+    gm_chosen_close(&sweep->chosen);
 }
 
-void gm_sweep_close(void *self)
+void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
+                   const char *measure, int *status)
 {
-    struct gm_sweep *sweep = self;
-    gm_words_close(&sweep->words);
-    free(sweep->arguments);
-    free(sweep->head);
-    free(sweep->measure);
-    gm_chosen_close(&sweep->chosen);
-    *sweep = (struct gm_sweep){0};
+    char message[GM_MESSAGE];
+    *status = GM_EXIT_USAGE;
+    *sweep = (struct gm_sweep){.arena = arena,
+                               .measure = measure ? gm_arena_print(arena, "%s", measure) : NULL,
+                               .shard = 1,
+                               .shards = 1};
+    gm_arena_keep(arena, sweep, close_sweep);
+    if (arguments->count == 0) {
+        gm_arena_refuse(arena, "sweep of which scene? See geomint list scenes");
+    }
+    sweep->scene = gm_request_scene(arguments->count, arguments->words, status, message);
+    if (!sweep->scene ||
+        !gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                       GM_RUN_SCHEMES, message) ||
+        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
+        !gm_chosen_open(&sweep->chosen, sweep->scene, measure, message)) {
+        gm_arena_refuse(arena, "%s", message);
+    }
+    check(sweep, status);
+    sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
+    sweep->head = gm_arena_keep(arena, text_of(sweep, 0, put_head), free);
 }
 
 size_t gm_sweep_share(const struct gm_sweep *sweep)

@@ -16,19 +16,21 @@
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
+#include "core/arena.h"
 #include "core/expression/reader.h"
 #include "render/clock.h"
 
 struct gm_sweep_table {
+    struct gm_arena *arena; /* closes the table */
     const struct gm_sweep *sweep;
-    char *path;              /* NULL: standard output */
+    const char *path;        /* NULL: standard output */
     int fd;                  /* the file of new rows */
     bool unheard;            /* the output has no reader */
     off_t size;              /* size of the whole rows, in bytes */
     size_t there;            /* number of rows: the first runs of the shard */
     struct gm_csv_lines old; /* the table before this run; its stream has the lock too */
     /* the file PATH.part, if rows are recomputed: it gets all rows in their order */
-    char *part;
+    const char *part;
     size_t *again; /* the numbers of these rows */
     size_t again_count;
     size_t copied; /* rows of `old` that were copied to the other file, or recomputed */
@@ -85,7 +87,7 @@ static bool is_older_head(const char *line, const char *head)
 
 /* A row that is not that of the next run: of a later one in a table that was joined before its shares had all
    rows, else of another sweep. */
-static bool refuse_row(const struct gm_sweep_table *table, const char *line, char *message)
+static void refuse_row(const struct gm_sweep_table *table, const char *line)
 {
     const struct gm_sweep *sweep = table->sweep;
     const size_t runs = gm_sweep_share(sweep), row = table->there;
@@ -94,63 +96,51 @@ static bool refuse_row(const struct gm_sweep_table *table, const char *line, cha
         later++;
     }
     if (later < runs) {
-        return gm_refuse(
-            message,
+        gm_arena_refuse(
+            table->arena,
             "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shares "
             "gets its rows by its shares and --join)",
             table->path, row + 1, gm_sweep_run(sweep, later));
     }
-    return gm_refuse(
-        message,
+    gm_arena_refuse(
+        table->arena,
         "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
         table->path, row + 1, gm_sweep_run(sweep, row));
 }
 
-/* Reads the head; an empty table or an incomplete head has none. Returns false with a sentence for another
-   head. */
-static bool read_head(struct gm_sweep_table *table, char *message)
+/* Reads the head; an empty table or an incomplete head has none. Refuses another head. */
+static void read_head(struct gm_sweep_table *table)
 {
     const char *head = table->sweep->head;
     const char *line = gm_csv_next(&table->old), *torn = table->old.line ? table->old.line : "";
     if (line && strcmp(line, head) == 0) {
         table->size = (off_t)strlen(head);
-        return true;
+    } else if (line || strncmp(torn, head, strlen(torn)) != 0) {
+        gm_arena_refuse(table->arena, "%.360s is not a table of this sweep: %s; it is left as it is",
+                        table->path,
+                        is_older_head(torn, head) ? "it has no column warning, so another geomint made it"
+                                                  : "its columns are others");
     }
-    return (!line && strncmp(torn, head, strlen(torn)) == 0) ||
-           gm_refuse(message, "%.360s is not a table of this sweep: %s; it is left as it is", table->path,
-                     is_older_head(torn, head) ? "it has no column warning, so another geomint made it"
-                                               : "its columns are others");
 }
 
-/* Notes a row to recompute. */
-static bool add_again(struct gm_sweep_table *table, size_t k, char *message)
-{
-    size_t *again = realloc(table->again, (table->again_count + 1) * sizeof *again);
-    if (!again) {
-        return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
-    }
-    table->again = again;
-    again[table->again_count++] = k;
-    return true;
-}
-
-/* Reads the existing rows, and notes their number and the end of the last one. Returns false with a
-   sentence if a line is not a row. */
-static bool read_rows(struct gm_sweep_table *table, const char *retry, char *message)
+/* Reads the existing rows, and notes their number, the end of the last one, and those to recompute. Refuses a line
+   that is not a row. */
+static void read_rows(struct gm_sweep_table *table, const char *retry)
 {
     const size_t runs = gm_sweep_share(table->sweep);
-    bool good = read_head(table, message);
-    for (const char *line; good && (line = gm_csv_next(&table->old));) {
+    read_head(table);
+    for (const char *line; (line = gm_csv_next(&table->old)); table->there++) {
         const size_t run = gm_sweep_run(table->sweep, table->there);
         if (table->there == runs || !is_row_of(table->sweep, run, line)) {
-            return refuse_row(table, line, message);
+            refuse_row(table, line);
         }
-        good =
-            !retry || !has_status(table->sweep, run, line, retry) || add_again(table, table->there, message);
+        if (retry && has_status(table->sweep, run, line, retry)) {
+            table->again =
+                gm_arena_resize(table->arena, table->again, table->again_count + 1, sizeof *table->again);
+            table->again[table->again_count++] = table->there;
+        }
         table->size += (off_t)strlen(line);
-        table->there++;
     }
-    return good;
 }
 
 /* A row, or the head, whole or not at all. */
@@ -176,13 +166,11 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
     return true;
 }
 
-/* Begins the other file for a table with recomputed rows; in the end it replaces the table. */
+/* Begins the other file for a table with recomputed rows; in the end it replaces the table. Returns false with a
+   sentence. */
 static bool begin_anew(struct gm_sweep_table *table, char *message)
 {
-    table->part = gm_text("%s.part", table->path);
-    if (!table->part) {
-        return gm_refuse(message, "%.360s could not be opened: not enough memory", table->path);
-    }
+    table->part = gm_arena_print(table->arena, "%s.part", table->path);
     const int part = open(table->part, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
     if (part < 0) {
         return refuse_writing(message, table->part);
@@ -195,71 +183,62 @@ static bool begin_anew(struct gm_sweep_table *table, char *message)
 }
 
 /* The file, locked, read and made ready for the next row. */
-static bool open_file(struct gm_sweep_table *table, const char *retry, char *message)
+static void open_file(struct gm_sweep_table *table, const char *retry)
 {
+    char message[GM_MESSAGE];
     if (!gm_folder_make_for(table->path, message)) {
-        return false;
+        gm_arena_refuse(table->arena, "%s", message);
     }
     table->fd = open(table->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     struct stat found = {0};
     if (table->fd < 0 || fstat(table->fd, &found) != 0) {
-        return gm_refuse(message, "%.360s could not be written: %s", table->path, strerror(errno));
+        gm_arena_refuse(table->arena, "%.360s could not be written: %s", table->path, strerror(errno));
     }
     if (!S_ISREG(found.st_mode)) {
-        return gm_refuse(message, "%.360s is not a regular file", table->path);
+        gm_arena_refuse(table->arena, "%.360s is not a regular file", table->path);
     }
     if (flock(table->fd, LOCK_EX | LOCK_NB) != 0) {
-        return gm_refuse(message, "%.360s is being written by another process", table->path);
+        gm_arena_refuse(table->arena, "%.360s is being written by another process", table->path);
     }
     const int copy = dup(table->fd);
     table->old.stream = copy >= 0 ? fdopen(copy, "r") : NULL;
     if (!table->old.stream) {
-        if (copy >= 0) {
-            close(copy);
-        }
-        return gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
+        close(copy);
+        gm_arena_need(table->arena, false);
     }
-    if (!read_rows(table, retry, message)) {
-        return false;
-    }
+    read_rows(table, retry);
+    bool good = true;
     if (table->again_count > 0) {
-        return begin_anew(table, message);
+        good = begin_anew(table, message);
+    } else if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
+        good = refuse_writing(message, table->path);
+    } else if (table->size == 0) {
+        good = append(table, table->sweep->head, message);
     }
-    if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
-        return refuse_writing(message, table->path);
+    if (!good) {
+        gm_arena_refuse(table->arena, "%s", message);
     }
-    return table->size > 0 || append(table, table->sweep->head, message);
 }
 
-static void free_table(struct gm_sweep_table *table)
+static void close_table(void *data)
 {
+    struct gm_sweep_table *table = data;
     gm_csv_close(&table->old);
     if (table->path && table->fd >= 0) {
         close(table->fd);
     }
-    free(table->again);
-    free(table->part);
-    free(table->path);
-    free(table);
 }
 
-struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const char *path, const char *retry,
-                                           char *message)
+struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct gm_sweep *sweep,
+                                           const char *path, const char *retry)
 {
-    struct gm_sweep_table *table = calloc(1, sizeof *table);
-    if (table) {
-        *table = (struct gm_sweep_table){.sweep = sweep, .fd = path ? -1 : STDOUT_FILENO};
-        table->path = path ? gm_sweep_share_path(path, sweep->shard, sweep->shards) : NULL;
-    }
-    if (!table || (path && !table->path)) {
-        gm_refuse(message, "%.360s could not be opened: not enough memory", path ? path : "standard output");
-        free(table);
-        return NULL;
-    }
+    struct gm_sweep_table *table = gm_arena_take(arena, 1, sizeof *table);
+    *table = (struct gm_sweep_table){.arena = arena, .sweep = sweep, .fd = path ? -1 : STDOUT_FILENO};
+    gm_arena_keep(arena, table, close_table);
     fflush(stdout);
-    if (path && !open_file(table, retry, message)) {
-        free_table(table);
-        return NULL;
+    if (path) {
+        table->path = gm_arena_keep(arena, gm_sweep_share_path(path, sweep->shard, sweep->shards), free);
+        open_file(table, retry);
     }
     return table;
 }
@@ -407,10 +386,7 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
 
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message)
 {
-    bool good = !table->path || fsync(table->fd) == 0;
-    if (!good) {
-        refuse_writing(message, table->path);
-    }
-    free_table(table);
+    const bool good = !table->path || fsync(table->fd) == 0 || refuse_writing(message, table->path);
+    gm_arena_drop(table->arena, table);
     return good;
 }

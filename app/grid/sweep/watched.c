@@ -19,21 +19,16 @@ static const char *path_of(const struct gm_grid *grid, char path[PATH])
     return path;
 }
 
-static void close_sweep(void *data)
+static void close_table(void *grid)
 {
-    struct gm_grid *grid = data;
-    gm_sweep_chart_close(grid->chart);
-    gm_sweep_close(&grid->sweep);
-    if (grid->table >= 0) {
-        close(grid->table);
-    }
+    close(((const struct gm_grid *)grid)->table);
 }
 
 static void open_grid(struct gm_grid *grid)
 {
     const struct gm_arguments *typed = grid->typed;
     const char *measure = grid->requested;
-    char message[GM_MESSAGE];
+    int status;
     struct gm_arguments *others = gm_arguments_in(grid->arena);
     for (int i = 0; i < typed->count; i++) { /* --measure LIST is among the words */
         if (strcmp(typed->words[i], "--measure") == 0 && i + 1 < typed->count) {
@@ -42,12 +37,8 @@ static void open_grid(struct gm_grid *grid)
             gm_arena_need(grid->arena, gm_arguments_add(others, typed->words[i]));
         }
     }
-    grid->table = -1;
-    gm_arena_keep(grid->arena, grid, close_sweep);
-    if (!gm_sweep_open(&grid->sweep, others, measure, message) ||
-        !(grid->chart = gm_sweep_chart_open(&grid->sweep, message))) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_sweep_open(grid->arena, &grid->sweep, others, measure, &status);
+    grid->chart = gm_sweep_chart_open(grid->arena, &grid->sweep);
     if (grid->sweep.count > MOST_RUNS) {
         gm_arena_refuse(grid->arena,
                         "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
@@ -57,18 +48,18 @@ static void open_grid(struct gm_grid *grid)
     if (grid->table < 0) {
         gm_arena_refuse(grid->arena, "no room for a table: %s", strerror(errno));
     }
+    gm_arena_keep(grid->arena, grid, close_table);
 }
 
-static bool measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
+static void measure(struct gm_grid *grid)
 {
-    char path[PATH], unwritten[GM_MESSAGE];
+    char path[PATH], message[GM_MESSAGE];
     struct gm_sweep_sum sum;
-    struct gm_sweep_table *table = gm_sweep_table_open(&grid->sweep, path_of(grid, path), NULL, message);
-    bool good = table && gm_sweep_table_fill(table, 0, grid->chart, listener, &sum, message);
-    if (table) {
-        good = gm_sweep_table_close(table, unwritten) && good;
+    struct gm_sweep_table *table = gm_sweep_table_open(grid->arena, &grid->sweep, path_of(grid, path), NULL);
+    if (!gm_sweep_table_fill(table, 0, grid->chart, grid->listener, &sum, message) ||
+        !gm_sweep_table_close(table, message)) {
+        gm_arena_refuse(grid->arena, "%s", message);
     }
-    return good;
 }
 
 static void draw(const struct gm_grid *grid, struct gm_picture *picture)
@@ -76,19 +67,13 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
     gm_sweep_chart_draw(grid->chart, picture);
 }
 
-static bool write_table(const struct gm_grid *grid, const char *path)
+static void write_table(const struct gm_grid *grid, FILE *file)
 {
-    char from[PATH], block[1 << 14];
-    FILE *table = fopen(path_of(grid, from), "r"), *file = table ? fopen(path, "w") : NULL;
-    size_t got = 0;
-    bool good = file != NULL;
-    while (good && (got = fread(block, 1, sizeof block, table)) > 0) {
-        good = fwrite(block, 1, got, file) == got;
+    char block[1 << 14];
+    ssize_t got = 0;
+    for (off_t at = 0; (got = pread(grid->table, block, sizeof block, at)) > 0; at += got) {
+        fwrite(block, 1, (size_t)got, file);
     }
-    if (table) {
-        fclose(table);
-    }
-    return file && fclose(file) == 0 && good;
 }
 
 static char *pick(const struct gm_grid *grid, size_t panel, double x, double y)

@@ -7,7 +7,6 @@
    T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018). */
 #include <math.h>
 
-#include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/linear/sine.h"
 
@@ -99,7 +98,6 @@ const struct gm_problem gm_problem_sine_gordon = {
     .facets = &(const struct gm_field){.form = &gm_form_of_waves, .wave = &sine_gordon},
     .m = 1,
     .bound = 1e3,
-    .exact = &gm_sine_gordon_solution,
 };
 const struct gm_problem gm_problem_wave = {
     .name = "wave equation",

@@ -6,8 +6,7 @@
 #include "core/field/field.h"
 
 /* u_tt - u_xx + V'(u) = 0, V = -cos u or V = 0: the caller sets line and n = gm_wave_size(line.points). */
-extern const struct gm_problem gm_problem_sine_gordon; /* parameters: struct gm_sine_gordon */
-extern const struct gm_problem gm_problem_wave;
+extern const struct gm_problem gm_problem_sine_gordon, gm_problem_wave;
 
 /* The form of every wave equation, in s = (u, u_t, u_x). */
 extern const struct gm_form gm_form_of_waves;

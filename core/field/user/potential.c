@@ -148,6 +148,15 @@ static bool jump_of(const struct gm_user_system *system, const gm_node_id *node,
     return good;
 }
 
+/* Returns true for V = 1 - cos(u). */
+static bool is_sine_gordon(const struct gm_user_system *system)
+{
+    const struct gm_node *nodes = system->graph.nodes, *V = &nodes[system->energy];
+    return V->operation == GM_OPERATION_SUBTRACT && gm_is_constant(&system->graph, V->a, 1) &&
+           nodes[V->b].operation == GM_OPERATION_COS && nodes[nodes[V->b].a].operation == GM_VARIABLE &&
+           nodes[nodes[V->b].a].a == 0;
+}
+
 bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_grid1 *grid)
 {
@@ -163,13 +172,18 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
         return false;
     }
     self->facets = (struct gm_field){.form = &gm_form_of_waves, .wave = &formulas};
+    if (is_sine_gordon(system)) { /* loops of the program */
+        self->facets.wave = gm_field_of(&gm_problem_sine_gordon)->wave;
+        problem->bound = gm_problem_sine_gordon.bound;
+    }
     problem->facets = &self->facets;
     problem->parameters = self;
     self->brief = wave->degree <= EXACT;
     return gm_tape_open(&self->potential, &system->graph, &system->energy, 1, 1, values) &&
            gm_tape_open(&self->slope, &system->graph, &wave->by_u[0], 1, 1, values) &&
            gm_tape_open(&self->curvature, &system->graph, &wave->by_u[1], 1, 1, values) &&
-           gm_user_line_open(&self->line, system, wave->start, GM_TYPED_START, &wave->exact, values) &&
+           gm_user_line_open(&self->line, system, wave->start, gm_wave_start_count(wave), &wave->exact,
+                             values) &&
            (!jump || jump_of(system, jump->nodes, values, &problem->line.jump));
 }
 
@@ -203,14 +217,18 @@ void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y
 {
     const struct own *self = own_of(problem);
     const size_t points = problem->line.points;
-    double rates[GM_LINE_BLOCK];
+    const bool known = self->line.exact.outputs > 0;
+    double rates[GM_LINE_BLOCK], places[2 * GM_LINE_ROOM];
     for (size_t first = 0, some; first < points; first += some) {
         some = gm_user_line_block(&self->line, &problem->line, first, rates);
         for (size_t i = 0; i < some; i++) {
-            const double x = gm_grid1_node(&problem->line, first + i);
             y[first + i] = rates[i];
-            y[points + first + i] = self->line.exact.outputs > 0 ? gm_user_line_exact(&self->line, 0, x, gap)
-                                                                 : taylor(rates + i, some, gap);
+            y[points + first + i] = known ? 0 : taylor(rates + i, some, gap);
+            places[i] = gm_grid1_node(&problem->line, first + i);
+            places[some + i] = gap;
+        }
+        if (known) {
+            gm_tape_values(&self->line.exact, places, y + points + first, some);
         }
     }
     y[2 * points] = gap;

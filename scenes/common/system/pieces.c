@@ -30,6 +30,9 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
             known[system_scene->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
         }
     }
+    if (known && gm_system_is_field(&system_scene->system)) {
+        known[system_scene->system.velocities - 1] = (double)lane->grid.points;
+    }
     double *values = known ? gm_equations_start(&system_scene->system, known) : NULL;
     free(known);
     return values;

@@ -54,15 +54,21 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_WORK, 0);
     struct gm_work *work = &system_scene->work;
     system_scene->scene.work = work;
-    work->coarsest = system_scene->radian;
-    work->halvings = 8;
+    if (system_scene->radian > 0) { /* a field has a work of its own */
+        work->coarsest = system_scene->radian;
+        work->halvings = 8;
+    }
+    if (!item && system_scene->radian == 0) {
+        return true;
+    }
     if (!item) {
         const double until = atof(gm_scene_parameter(&system_scene->scene, "until")->standard);
         work->arguments = gm_system_kept_text(system_scene, "until=%.17g",
                                               fmin(until, gm_written_rounded(20 * system_scene->radian)));
         return work->arguments != NULL;
     }
-    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS);
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
+                                  *points = gm_system_option(item, GM_OPTION_POINTS);
     const char *solves = gm_system_option_text(item, GM_OPTION_SOLVES, NULL),
                *reference = gm_system_option_text(item, GM_OPTION_REFERENCE, NULL);
     const char *const known[] = {solves, reference};
@@ -79,9 +85,14 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     work->measure = gm_system_option_text(item, GM_OPTION_MEASURE, work->measure);
     work->coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, work->coarsest);
     work->halvings = (int)gm_system_option_number(item, GM_OPTION_HALVINGS, work->halvings);
-    work->reference = reference;
+    work->reference = reference ? reference : work->reference;
     work->is_exact = solves;
-    work->errors = errors ? errors->numbers : NULL;
+    work->errors = errors ? errors->numbers : work->errors;
+    if (points) {
+        work->resolution = "points";
+        work->resolutions = points->numbers;
+        work->resolution_count = points->count;
+    }
     if (!(work->coarsest > 0) || work->halvings < 1 || work->halvings > 30) {
         return gm_refuse(sentence, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");
     }
@@ -183,6 +194,11 @@ static bool read_map(struct gm_system_scene *system_scene, const struct gm_probl
         map->steps = steps->numbers;
         map->step_count = steps->count;
     }
+    if (!map->unit || !map->steps) {
+        return gm_refuse(sentence,
+                         "stability: a field needs a unit and steps: unit 2*half_length/points = Δt / Δx; "
+                         "steps 0.5, 1, 2");
+    }
     map->throughout = gm_system_option(item, GM_OPTION_LARGEST) != NULL;
     map->settle = (int64_t)gm_system_option_number(item, GM_OPTION_SETTLE, 0);
     map->kept = gm_system_option_text(item, GM_OPTION_LOST, NULL);
@@ -209,7 +225,8 @@ bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct g
         return system_scene->scene.no_stability && make_figures(system_scene) &&
                make_work(system_scene, problem, sentence);
     }
-    system_scene->scene.stability = &system_scene->stability;
+    system_scene->scene.stability = item || radian ? &system_scene->stability : NULL;
     return make_figures(system_scene) && make_work(system_scene, problem, sentence) &&
-           make_usual_map(system_scene, radian) && (!item || read_map(system_scene, problem, item, sentence));
+           (!radian || make_usual_map(system_scene, radian)) &&
+           (!item || read_map(system_scene, problem, item, sentence));
 }

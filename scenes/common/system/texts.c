@@ -170,7 +170,7 @@ bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const bool is_text = item->text && item->word != GM_WORD_LEVEL;
-        if (item->text || item->word == GM_WORD_STABILITY) {
+        if (item->text || item->word == GM_WORD_STABILITY || item->word == GM_WORD_COLOURS) {
             good = (!is_text || check_keys(system_scene, item, sentence)) &&
                    open_item(system_scene, item, &system_scene->of_items[i]);
         }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/memory.h"
+#include "core/model/equations.h"
 #include "scenes/common/system/pieces.h"
 
 enum { MOST_BUILDING = 16 };
@@ -19,7 +20,7 @@ static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
 struct tables {
     struct gm_parameter *rows; /* the common ones follow */
     struct gm_observable *observables;
-    size_t row_count, observable_count;
+    size_t row_count, common_count, observable_count;
 };
 
 /* Returns the number of the row of `size` bytes that begins with the key; `count` if it is missing. */
@@ -84,7 +85,7 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
                  size = sizeof *own->initial + rows * (sizeof(double) + 1);
     const struct gm_system_scene before = *own;
     char text[GM_CHOICE_SIZE + 32];
-    own->rows = calloc(rows + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *own->rows);
+    own->rows = calloc(rows + tables->common_count, sizeof *own->rows);
     own->variables = calloc(rows, sizeof *own->variables);
     own->initial = calloc(1, size);
     own->observables = calloc(count + 1, sizeof *own->observables);
@@ -125,8 +126,9 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
     struct gm_system_scene gone = good ? before : *own;
     if (good) {
         memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
-        memcpy(own->rows, tables->rows, (rows + GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *own->rows);
+        memcpy(own->rows, tables->rows, (rows + tables->common_count) * sizeof *own->rows);
         own->common = own->rows + rows;
+        own->common_count = tables->common_count;
         own->scene.parameter_count += rows - own->row_count;
         own->row_count = rows;
         own->observable_count = own->scene.observable_count = count;
@@ -155,10 +157,37 @@ static bool join(struct gm_system_scene *own, struct gm_system_scene *first, con
     return own->first != NULL;
 }
 
-bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value)
+/* Notes the value by which a system lacks rows of the others. False when out of memory. */
+static bool lack(struct gm_system_scene *own, const char *key, const char *value)
 {
     own->lacks = gm_system_kept_text(own, "with %s=%s there is none", key, value);
     return own->lacks != NULL;
+}
+
+/* Opens the system of the text of `first` with other values, and adds it to its list. */
+static struct gm_system_scene *open_other(struct gm_system_scene *first, const struct gm_system_value *values,
+                                          size_t count, const struct gm_system_opening *opening)
+{
+    struct gm_user_system system;
+    const char *text = first->system.source;
+    const struct gm_system_value *last = &values[count - 1];
+    const bool field = gm_system_is_field(&first->system);
+    if (!gm_equations_open(&system, text, first->system.length, values, count, opening->fault)) {
+        gm_refuse(opening->sentence, "%s",
+                  opening->fault->sentence[0] ? opening->fault->sentence : "not enough memory");
+    } else if (field ? system.kind != first->system.kind : gm_system_is_field(&system)) {
+        gm_refuse(opening->sentence, "choice: %s=%s is %s, and other words are %s", last->name, last->text,
+                  field ? "another equation" : "a field", field ? "of one kind" : "none");
+    } else {
+        struct gm_system_scene *made = opening->open(&system, first, opening->sentence);
+        if (made) {
+            made->next = first->next;
+            first->next = made;
+        }
+        return made && lack(made, last->name, last->text) ? made : NULL;
+    }
+    gm_system_close(&system);
+    return NULL;
 }
 
 /* Collects the views of all systems of a file: all, the section, planes, and the modified Hamiltonian. False
@@ -189,11 +218,10 @@ static bool unite_shows(struct gm_system_scene *first)
     return first->all_shows != NULL;
 }
 
-bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
-                     char *sentence)
+bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
 {
     const struct gm_written_choices *choices = &first->system.choices;
-    size_t building = 0, rows = first->row_count + GM_COMMON_ROWS + GM_CAMERA_KEYS,
+    size_t building = 0, rows = first->row_count + first->common_count,
            observables = first->observable_count + 1;
     for (size_t row = 0; row < first->row_count; row++) {
         building += builds(first, row);
@@ -202,11 +230,9 @@ bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct
         const struct gm_written_choice *choice = &choices->list[i];
         for (size_t k = 0; k < choice->count; k++) {
             const struct gm_system_value word = {choice->name, choice->words[k]};
-            struct gm_system_scene *other =
-                k != choice->chosen ? make(first, &word, 1, fault, sentence) : NULL;
+            const struct gm_system_scene *other =
+                k != choice->chosen ? open_other(first, &word, 1, opening) : NULL;
             if (other) {
-                other->next = first->next;
-                first->next = other;
                 rows += other->row_count;
                 observables += other->observable_count;
             } else if (k != choice->chosen) {
@@ -215,16 +241,17 @@ bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct
         }
     }
     struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
+                            .common_count = first->common_count,
                             .observables = calloc(observables, sizeof *tables.observables)};
     const struct gm_written_choice *usual = choices->list;
-    bool good =
-        tables.rows && tables.observables && gm_system_lack(first, usual->name, usual->words[usual->chosen]);
+    bool good = tables.rows && tables.observables && lack(first, usual->name, usual->words[usual->chosen]);
     for (const struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
         add(&tables, other);
     }
     if (good) {
-        memcpy(tables.rows + tables.row_count, first->common,
-               (GM_COMMON_ROWS + GM_CAMERA_KEYS) * sizeof *tables.rows);
+        memcpy(tables.rows + tables.row_count, first->common, first->common_count * sizeof *tables.rows);
+    }
+    if (good && first->shows) {
         good = unite_shows(first);
         tables.rows[tables.row_count + GM_ROW_SHOW - gm_system_skipped(first)].choices = first->all_shows;
     }
@@ -233,7 +260,7 @@ bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct
     }
     free(tables.rows);
     free(tables.observables);
-    return good || gm_refuse(sentence, "not enough memory");
+    return good || gm_refuse(opening->sentence, "not enough memory");
 }
 
 /* Returns true if a system has a lane's values. */
@@ -250,12 +277,11 @@ static bool is_of(const struct gm_system_scene *other, const struct gm_system_la
 
 /* Makes a missing system. */
 static struct gm_system_scene *add_variant(struct gm_system_scene *first, const struct gm_system_lane *lane,
-                                           gm_system_maker make, char *sentence)
+                                           const struct gm_system_opening *opening)
 {
     struct gm_system_value values[MOST_BUILDING];
     char texts[MOST_BUILDING][GM_CHOICE_SIZE + 32];
     size_t count = 0;
-    struct gm_fault fault;
     const unsigned long refusals = gm_memory_refusals();
     for (size_t row = 0; row < first->row_count && count < MOST_BUILDING; row++) {
         if (builds(first, row)) {
@@ -265,17 +291,16 @@ static struct gm_system_scene *add_variant(struct gm_system_scene *first, const 
             count++;
         }
     }
-    struct gm_system_scene *made = make(first, values, count, &fault, sentence);
-    const struct tables tables = {first->rows, first->observables, first->row_count, first->observable_count};
-    if (made) {
-        made->next = first->next;
-        first->next = made;
-    }
+    struct gm_system_scene *made = open_other(first, values, count, opening);
+    const struct tables tables = {first->rows, first->observables, first->row_count, first->common_count,
+                                  first->observable_count};
     return made && join(made, first, &tables) && gm_memory_refusals() == refusals ? made : NULL;
 }
 
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence)
+bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence)
 {
+    struct gm_fault fault;
+    const struct gm_system_opening opening = {open, &fault, sentence};
     struct gm_system_scene *first = lane->owner->first, *other = first;
     if (!first) {
         return true;
@@ -284,8 +309,10 @@ bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *s
     while (other && !is_of(other, lane)) {
         other = other->next;
     }
-    gm_refuse(sentence, "not enough memory");
-    other = other ? other : add_variant(first, lane, make, sentence);
+    if (!other) {
+        gm_refuse(sentence, "not enough memory");
+        other = add_variant(first, lane, &opening);
+    }
     pthread_mutex_unlock(&listing);
     lane->owner = other ? other : lane->owner;
     return other != NULL;

@@ -6,18 +6,21 @@
 
 #include "scenes/common/system/look.h"
 
-/* Makes the scene of the text with these values; NULL with a fault, or only a sentence. */
-typedef struct gm_system_scene *(*gm_system_maker)(const struct gm_system_scene *first,
-                                                   const struct gm_system_value *values, size_t count,
-                                                   struct gm_fault *fault, char *sentence);
+/* Opens the scene of a system, which it takes, beside the first one of a file; NULL with a sentence. */
+typedef struct gm_system_scene *(*gm_system_opener)(struct gm_user_system *system,
+                                                    const struct gm_system_scene *first, char *sentence);
 
-/* Makes the systems of all words of the choices, and gives all of them, and the first, the same rows. False
+/* Opens the other systems of a file, and takes a fault of its text, or only a sentence. */
+struct gm_system_opening {
+    gm_system_opener open;
+    struct gm_fault *fault;
+    char *sentence;
+};
+
+/* Opens the systems of all words of the choices, and gives all of them, and the first, the same rows. False
    with a fault, or only a sentence. */
-bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
-                     char *sentence);
-/* Notes the value by which a system lacks rows of the others. False when out of memory. */
-bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value);
+bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening);
 /* Gives a lane the system of its values. False with a sentence on failure. */
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence);
+bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence);
 
 #endif

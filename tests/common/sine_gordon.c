@@ -2,7 +2,7 @@
 /* Breathers, kinks and their meetings, exact on the line; on a ring their images are added. M.J. Ablowitz,
    D.J. Kaup, A.C. Newell & H. Segur, Phys. Rev. Lett. 30 (1973) 1262; P.G. Drazin & R.S. Johnson, Solitons
    (1989). */
-#include "core/field/problems/sine_gordon.h"
+#include "tests/common/sine_gordon.h"
 
 #include <math.h>
 
@@ -91,12 +91,3 @@ void gm_sine_gordon_levels(const struct gm_problem *problem, double t, double ga
     }
     y[2 * grid->points] = gap;
 }
-
-/* The state that a run leaves: the other level is the one before. */
-static void solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
-{
-    (void)m;
-    gm_sine_gordon_levels(problem, t, -fabs(y0[2 * problem->line.points]), y);
-}
-
-const struct gm_exact gm_sine_gordon_solution = {solution};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_PROBLEMS_SINE_GORDON_H
-#define GM_CORE_FIELD_PROBLEMS_SINE_GORDON_H
+#ifndef GM_TESTS_COMMON_SINE_GORDON_H
+#define GM_TESTS_COMMON_SINE_GORDON_H
 
 #include "core/problem.h"
 
@@ -32,9 +32,7 @@ bool gm_sine_gordon_is_known(const struct gm_sine_gordon *solution, double half_
 /* u(x + 2 half_length) - u(x) */
 double gm_sine_gordon_jump(const struct gm_sine_gordon *solution);
 
-/* Writes the levels t and t + gap and the gap as the state of a wave problem. */
+/* Writes the levels t and t + gap and the gap as the state of a wave problem, whose parameters are a solution. */
 void gm_sine_gordon_levels(const struct gm_problem *problem, double t, double gap, double *y);
-
-extern const struct gm_exact gm_sine_gordon_solution;
 
 #endif

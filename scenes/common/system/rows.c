@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The keys of a system's scene, and the values that follow from others. */
+#include "scenes/common/system/rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/equations.h"
+#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/texts.h"
+#include "scenes/common/written.h"
+
+enum { DT, UNTIL };
+
+/* Returns the bytes after the values: 1 if the row was given. */
+static char *given_of(struct gm_system_lane *lane)
+{
+    return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
+}
+
+bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
+                      gm_system_opener open, char *sentence)
+{
+    if (!gm_system_choose(lane, open, sentence)) {
+        return false;
+    }
+    const struct gm_system_scene *system_scene = lane->owner;
+    char *given = given_of(lane);
+    bool by_steps = false;
+    for (size_t i = 0; i < count; i++) {
+        by_steps |= strcmp(keys[i], "steps") == 0;
+        for (size_t row = 0; row < system_scene->row_count; row++) {
+            given[row] |= strcmp(keys[i], system_scene->rows[row].key) == 0;
+        }
+    }
+    double *values = gm_system_start_values(lane, given);
+    if (!values) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    bool good = gm_system_is_admitted(lane, values, sentence);
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
+        if (system_scene->variables[row] == GM_NO_VARIABLE) {
+            continue;
+        }
+        const double value = values[system_scene->variables[row]];
+        lane->values[row - GM_SYSTEM_ROWS] = value;
+        const struct gm_parameter *bounds = &system_scene->rows[row];
+        good = isfinite(value) || gm_refuse(sentence, "%s is not finite with these values", bounds->key);
+        good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
+                        gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g",
+                                  bounds->key, value, bounds->lowest, bounds->highest));
+    }
+    for (size_t i = 0; i < GM_COUNT(system_scene->timing) && good; i++) {
+        double number = NAN;
+        const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
+        if (gm_system_item_of(&system_scene->system, word, 0)) {
+            gm_tape_values(&system_scene->timing[i], values, &number, 1);
+        }
+        if (word == GM_WORD_DT && !given[DT] && number > 0) {
+            lane->timing.dt = number;
+        } else if (word == GM_WORD_UNTIL && !given[UNTIL] && number >= 0) {
+            lane->timing.until = number;
+        } else if (word == GM_WORD_STEPS && !given[UNTIL] && !by_steps && number >= 0) {
+            lane->timing.until = number * lane->timing.dt;
+        }
+    }
+    free(values);
+    return good;
+}
+
+const struct gm_scene *gm_system_variant(const void *parameters)
+{
+    return &((const struct gm_system_lane *)parameters)->owner->scene;
+}
+
+const char *gm_system_idle(const void *parameters, const char *key)
+{
+    const struct gm_system_scene *owner = ((const struct gm_system_lane *)parameters)->owner;
+    for (size_t row = GM_SYSTEM_ROWS; row < owner->row_count; row++) {
+        const struct gm_parameter *at = &owner->rows[row];
+        if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE && owner->variables[row] == GM_NO_VARIABLE) {
+            return owner->lacks;
+        }
+    }
+    return NULL;
+}
+
+/* Makes the row of a choice, whose values are its words. */
+static bool make_choice(struct gm_system_scene *system_scene, size_t i)
+{
+    const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
+    for (size_t k = 0; k < choice->count; k++) {
+        system_scene->words[i][k] = choice->words[k];
+    }
+    system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
+    struct gm_parameter *row = &system_scene->rows[GM_SYSTEM_ROWS + i];
+    *row = (struct gm_parameter){
+        .key = choice->name,
+        .unit = "",
+        .help = gm_kept_texts_add(&system_scene->texts,
+                                  gm_span_words(system_scene->system.source, choice->meaning)),
+        .type = GM_CHOICE,
+        .offset = offsetof(struct gm_system_lane, values) + i * sizeof(double),
+        .standard = choice->words[choice->chosen],
+        .choices = system_scene->words[i],
+    };
+    return row->help != NULL;
+}
+
+bool gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
+                         const struct gm_parameter *common, size_t count, bool typed)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters,
+                 starts = gm_system_is_field(system) ? 0 : n;
+    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + starts;
+    system_scene->rows = calloc(most + count, sizeof *system_scene->rows);
+    system_scene->variables = calloc(most, sizeof *system_scene->variables);
+    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
+    double *start = gm_equations_start(system, NULL);
+    bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
+    for (size_t i = 0; good && i < choices; i++) {
+        good = make_choice(system_scene, i);
+    }
+    size_t row = GM_SYSTEM_ROWS + choices;
+    for (size_t i = 0; good && i < parameters + starts; i++) {
+        const bool is_start = i >= parameters;
+        size_t number = is_start ? i - parameters : system->parameters + i;
+        if (is_start && system->variables[number].start == GM_NO_NODE) {
+            number = system->velocities + number - half; /* it is the velocity that the file gives */
+        }
+        const struct gm_system_variable *variable = &system->variables[number];
+        if (variable->derived) {
+            continue;
+        }
+        system_scene->variables[row] = number;
+        system_scene->rows[row] = gm_written_row(
+            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
+            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].required = typed;
+        good = system_scene->rows[row++].standard != NULL;
+    }
+    system_scene->row_count = row;
+    if (good) {
+        system_scene->common = system_scene->rows + row;
+        system_scene->common_count = count;
+        memcpy(system_scene->rows, timing, GM_SYSTEM_ROWS * sizeof *timing);
+        memcpy(system_scene->common, common, count * sizeof *common);
+        system_scene->initial->owner = system_scene;
+    }
+    free(start);
+    return good;
+}
+
+bool gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES],
+                           char *sentence)
+{
+    double *values = gm_system_start_values(system_scene->initial, NULL);
+    bool good = values || gm_refuse(sentence, "not enough memory");
+    for (size_t i = 0; good && i < GM_SYSTEM_TIMES; i++) {
+        const struct gm_system_item *item =
+            gm_system_item_of(&system_scene->system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
+        numbers[i] = NAN;
+        if (item && gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
+            gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
+        }
+    }
+    free(values);
+    const double steps = good ? numbers[GM_SYSTEM_TIMES - 1] : NAN;
+    if (steps < 0 || (isfinite(steps) && steps != floor(steps))) {
+        return gm_refuse(sentence, "steps: %.10g is no whole number", steps);
+    }
+    return good;
+}
+
+void gm_system_close_rows(struct gm_system_scene *system_scene)
+{
+    for (size_t i = 0; system_scene->formulas && i < system_scene->observable_count; i++) {
+        gm_tape_close(&system_scene->formulas[i]);
+    }
+    for (size_t i = 0; system_scene->terms && i < system_scene->observable_count; i++) {
+        gm_tape_close(&system_scene->terms[i]);
+    }
+    for (size_t i = 0; system_scene->of_items && i < system_scene->system.item_count; i++) {
+        gm_tape_close(&system_scene->of_items[i]);
+    }
+    for (size_t i = 0; i < GM_SYSTEM_TIMES; i++) {
+        gm_tape_close(&system_scene->timing[i]);
+    }
+    gm_kept_texts_close(&system_scene->texts);
+    gm_system_close(&system_scene->system);
+    free(system_scene->of_items);
+    free(system_scene->figures);
+    free(system_scene->observables);
+    free(system_scene->formulas);
+    free(system_scene->terms);
+    free(system_scene->variables);
+    free(system_scene->rows);
+    free(system_scene->initial);
+}

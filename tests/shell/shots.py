@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The explorer without a terminal: what each key does, at 60, 80, 120 and 200 columns, read from text files that
+`--shot` writes. Usage: shots.py GEOMINT SOURCE"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+GEOMINT, SOURCE = map(os.path.realpath, sys.argv[1:3])
+COLUMNS = (60, 80, 120, 200)
+faults = 0
+
+
+def check(holds, what, lines=()):
+    global faults
+    if not holds:
+        faults += 1
+        print(f"shots: {what}", *[f"    |{line}" for line in lines], sep="\n", file=sys.stderr)
+
+
+def run(*words):
+    return subprocess.run([GEOMINT, *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300,
+                          env={"PATH": os.environ["PATH"], **{k: v for k, v in os.environ.items() if "SAN" in k or "GEOMINT_" in k}})
+
+
+def shot(words, keys, columns=80, rows=24):
+    """Returns the lines of the screen after the keys."""
+    done = run("tui", *words.split(), "--shot", "a.txt", "--screen", f"{columns}x{rows}", "--keys", keys)
+    check(done.returncode == 0 and not done.stderr, f"{words} --keys '{keys}': {done.returncode} {done.stderr}")
+    return open("a.txt", encoding="utf-8").read().split("\n")[:-1]
+
+
+def has(pattern, words, keys, columns=80, rows=24):
+    lines = shot(words, keys, columns, rows)
+    check(re.search(pattern, "\n".join(lines), re.M), f"{words} {columns}x{rows} --keys '{keys}': no {pattern}", lines)
+
+
+def lacks(pattern, words, keys, columns=80, rows=24):
+    lines = shot(words, keys, columns, rows)
+    check(not re.search(pattern, "\n".join(lines), re.M), f"{words} {columns}x{rows} --keys '{keys}': {pattern}", lines)
+
+
+def same(one, other, words, what, columns=80):
+    """Both scripts lead to one screen, which another one differs from."""
+    first, second = shot(words, one, columns), shot(words, other, columns)
+    check(first == second, f"{what}: the screens differ", [*first, "", *second])
+
+
+def files():
+    for ending in ("txt", "svg", "png"):
+        texts = []
+        for name in (f"one.{ending}", f"other.{ending}"):
+            done = run("tui", "kepler", "--shot", name, "--keys", "2s SPACE s rk4 ENTER 1s")
+            check(done.returncode == 0, f"{name}: {done.returncode} {done.stderr}")
+            texts.append(open(name, "rb").read())
+        check(texts[0] == texts[1], f"two files {ending} differ")
+    lines = open("one.txt", encoding="utf-8").read().split("\n")
+    check(len(lines) == 25 and {len(line) for line in lines[:-1]} == {80}, "not 24 lines of 80 cells", lines)
+    check("RK4" in "".join(lines) and "space go on" in lines[23], "RK4 or the keys are missing", lines)
+    check(b"geomint:command" in texts[0], "a PNG does not store its command")
+    again = run("again", "one.png", "-o", "again.png")
+    check(again.returncode == 0 and open("again.png", "rb").read() == texts[0], f"again: {again.stderr}")
+    svg = open("one.svg", encoding="utf-8").read()
+    check(">RK4<" in svg and "<circle" in svg, "the SVG has no letters or no dots")
+    run("tui", "kepler", "--shot", "light.svg", "--theme", "light")
+    check(open("light.svg", encoding="utf-8").read() != svg, "a light theme changes nothing")
+
+
+def refusals():
+    for words, sentence in (
+            (["--shot", "a.pdf"], r"--shot a\.pdf is not a \.txt, \.svg or \.png file"),
+            (["--shot", "a"], r"--shot a is not a \.txt, \.svg or \.png file"),
+            (["--shot", "b.txt", "--screen", "5x5"], r"--screen 5x5 is not COLUMNSxROWS from 20x6 to 400x120"),
+            (["--shot", "b.txt", "--screen", "80"], r"--screen 80 is not COLUMNSxROWS"),
+            (["--shot", "b.txt", "--keys", "2s FOO"], r"--keys has no key FOO; its keys are ENTER, ESC, "),
+            (["--shot", "b.txt", "--keys", "1e9s"], r"--keys 1e9s is too long"),
+            (["--shot", "b.txt", "--theme", "mauve"], r"--theme is \"mauve\""),
+            (["--shot", "b.txt", "--graphics", "sixel"], r"--graphics sixel needs a terminal"),
+            (["--keys", "q"], r"--keys and --screen need --shot FILE")):
+        before = sorted(os.listdir())
+        done = run("tui", "kepler", *words)
+        check(done.returncode == 1 and re.fullmatch(rf"geomint: {sentence}.*\n", done.stderr) and not done.stdout,
+              f"{words}: {done.returncode} {done.stderr}")
+        check(sorted(os.listdir()) == before, f"{words}: a file is written")
+    done = run("tui", "kepler", "--shot", "one.txt/a.txt")
+    check(done.returncode == 3 and done.stderr.count("\n") == 1, f"no folder: {done.returncode} {done.stderr}")
+
+
+def footer():
+    keys = ["space pause", "? help", "esc back", "q quit", "s scheme", "f fork", "← → change"]
+    for columns in COLUMNS:
+        for wait in ("0s", "1s", "9s"):
+            last = shot("kepler", wait, columns)[-1]
+            check(all(key in last for key in keys[:4 if columns < 80 else None]), f"{columns} columns: keys", [last])
+            check(columns >= 80 or len(last.strip()) > 40, f"{columns} columns: few keys", [last])
+        has("Watch", "kepler", "1s", columns)
+        lacks("Watch", "kepler", "9s", columns)
+        has("Watch", "kepler", "9s ? ESC", columns)
+        has("go on", "kepler", "1s SPACE", columns)
+    for keys in ("DOWN", "k", "SPACE . ,"):
+        check(re.search(r"\? help.*esc back", shot("kepler", keys)[-1]), f"{keys}: no help or way back")
+
+
+def levels():
+    for columns in COLUMNS:
+        has("Type to search", "kepler", "3s ESC", columns)
+        for inner in ("s", "f", "ENTER", "?", "i", "y", "e", ">", "M"):
+            has("SCHEMES", "kepler", f"9s {inner} ESC", columns)
+            has("Type to search", "kepler", f"9s {inner} ESC ESC", columns)
+        has("search: kep_", "", "kep", columns)
+        has("Type to search", "", "kep ESC", columns)
+        same("ESC ESC", "0s", "", "esc in the list", columns)
+        has("q quit", "", "ESC", columns) if columns > 60 else None
+    # what is left goes on
+    has("▸ kepler", "kepler", "1s l")
+    has("paused", "kepler", "1s SPACE l ENTER")
+
+
+def quitting():
+    same("1s q ? 1s", "1s", "kepler", "q leaves at once")
+    typed = "e ENTER 1s"
+    question = r"Quit\? The formula is not saved\. q again quits, any other key stays"
+    words = "system H=p^2/2-cos(q) q=2 p=0"
+    for columns in (80, 120, 200):
+        has(question, words, typed + " q", columns)
+    lacks(r"Quit\?", words, typed + " q k")
+    lacks(r"Quit\?", words, "1s q")
+    has("KEYS", words, typed + " q z ?")  # it stays
+    lacks("KEYS", words, typed + " q q ?")  # it has left: no page opens
+
+
+def hints():
+    for columns in COLUMNS:
+        has(r"k does nothing here; \? lists the keys", "kepler", "9s k", columns)
+        lacks("does nothing", "kepler", "9s k k", columns)
+        lacks("does nothing", "kepler", "9s k 4s", columns)
+        has("j does nothing", "kepler", "9s k k j", columns)
+        for key in ("?", "h", "F1"):
+            has("KEYS", "kepler", f"1s {key}", columns)
+    has("KEYS HERE", "", "F1")
+    has("search: h_", "", "h")
+
+
+def help_texts():
+    """Returns the texts of the help, by the table of keys."""
+    table = open(os.path.join(SOURCE, "app/explorer/view/keys.def"), encoding="utf-8").read()
+    return re.findall(r'GM_KEYS\("[^"]*", (?:NULL|"[^"]*"), \d+,\s*"([^"]*)"', table)
+
+
+def pages():
+    """No line of the help is cut, at any width."""
+    texts = help_texts()
+    check(len(texts) > 25, "the table of keys is not read")
+    for columns in (*range(40, 240, 9), 60, 80, 120, 200, 240):
+        lines = shot("kepler", "?", columns, 120)
+        if columns - 2 >= 110:  # two columns: the keys are at the left
+            lines = [line[:1 + (columns - 2 - 4) // 2] for line in lines]
+        page = re.sub(r"\s+", " ", " ".join(line.strip() for line in lines))
+        for text in texts:
+            check(text in page, f"{columns} columns: the help has not '{text}'", lines)
+        check("…" not in page.replace("measuring …", ""), f"{columns} columns: the help is cut", lines)
+
+
+def labels():
+    for columns in COLUMNS:
+        has("▸ *[━•╍]+ RK4", "kepler scheme=verlet", "SPACE . . . . f rk4 ENTER", columns)
+    has("RK4, after Verlet", "kepler scheme=verlet", "SPACE . . . . s rk4 ENTER", 200, 40)
+    has("^ *RK4, aft|^ *RK4 ", "kepler scheme=verlet", "SPACE . . . . s rk4 ENTER", 60)
+    # the notes of all lanes have one form
+    for columns in COLUMNS:
+        lines = shot("disc scheme=explicit-euler,rk4,rk2 dt=2", "3s", columns)
+        forms = {re.sub(r"[\d.e−]+$", "", note) for note in re.findall(r"(?:! |✕ )\S.*?(?=\s*$)", "\n".join(lines), re.M)}
+        check(len({form.split(" ")[0] + str(len(form.split(" ")) > 2) for form in forms}) <= 2, f"{columns}: notes {forms}", lines)
+
+
+def values():
+    for value, sentence in (("5e9", "dt=5e9 is out of range: it lies between 1e-[67] and"), ("x", "dt=x is not a number")):
+        command = run("run", "kepler", f"dt={value}", "steps=1").stderr.split("geomint: ")[1].strip()
+        check(re.search(sentence, command), f"run: {command}")
+        page = " ".join(line.strip() for line in shot("kepler", f"1s ENTER {value} ENTER", 200, 40))
+        check(command in page, f"dt={value}: not the sentence of the command line: {command}")
+    has(r"steps per second: press .* to shorten dt", "kepler", "9s" + " [" * 30 + " 1s", 120, 40)
+
+
+def undoing():
+    for columns in COLUMNS:
+        start = "SPACE . . . . ."
+        has(r"▸ dt +0\.1 ", "kepler", start + " ENTER 0.1 ENTER", columns, 40)
+        has(r"Undone: dt is pi/50 again", "kepler", start + " ENTER 0.1 ENTER ENTER 0.2 ENTER u u", columns, 40)
+        has(r"▸ dt +pi/50", "kepler", start + " RIGHT RIGHT LEFT u u u", columns, 40)
+        has(r"Undone: the scheme is Verlet again", "kepler scheme=verlet", start + " s rk4 ENTER u", columns, 40)
+        has("There is nothing to undo", "kepler", start + " u", columns, 40)
+    has(r"▸ eccentricity +0\.5 ", "kepler", "SPACE DOWN RIGHT u", 120, 40)
+    has(r"Undone: dt is 0\.1 again", "kepler", "SPACE ENTER 0.1 ENTER ENTER 0.1 ENTER ENTER 0.2 ENTER u")
+    has("There is nothing to undo", "kepler", "SPACE" + " RIGHT" * 40 + " u" * 40)
+    # a removed lane takes its changes along
+    has("There is nothing to undo", "kepler scheme=verlet,rk4", "SPACE . . . . s rk2 ENTER x u")
+
+
+def notices():
+    has("stability of kepler is ready: m shows it", "kepler", "SPACE m ESC 1s", 120)
+    lacks("is ready", "kepler", "SPACE m ESC 21s", 120)
+    lacks("is ready", "kepler", "SPACE m ESC l ENTER", 120)
+
+
+def drive():
+    """The keys of time, of parameters, lanes and the screen."""
+    words, start = "disc", "SPACE r . . . ."
+    for columns in COLUMNS:
+        has("t = π/3", words, start, columns)
+        same(start, start + " . ,", words, "a step forward and back", columns)
+        same(start, start + " , , , . . .", words, "three back and forward", columns)
+        check(shot(words, start, columns) != shot(words, start + " .", columns), "a step changes nothing")
+        has("t = π/12", words, start + " , , ,", columns)
+        has("2× paused", words, start + " ]", columns)
+        has(r"0\.5× paused", words, start + " ] [ [", columns)
+        has("t = 0 ", words, start + " HOME", columns)
+        same(start, start + " HOME END", words, "to the start and the end of the past", columns)
+        same(start, start + " PGUP PGUP PGDN PGDN", words, "through the past", columns)
+        has(r"Run ahead to t = _ +\(enter alone: 4\.71239\)", words, start + " >", columns)
+        has("t = 3π/2", words, start + " > ENTER", columns)
+        has("lies behind already", words, start + " > 20*pi ENTER > 1 ENTER", columns)
+        lacks("lies behind", words, start + " > 20*pi ENTER > 1 ENTER ESC", columns)
+        # a live parameter acts on the present state; another one restarts
+        has(r"▸ dt +0\.3", words, start + " RIGHT", columns)
+        has("t = π/3|t = 1.0", words, start + " RIGHT", columns)
+        has("acts at once", words, start + " RIGHT", columns)
+        has(r"▸ dt +0\.25 ", words, start + " ENTER 0.25 ENTER", columns)
+        has("▸ dt +pi/12", words, start + " ENTER 0.25 ENTER BACKSPACE", columns)
+        has("‹ pendulum ›", words, start + " DOWN RIGHT", columns)
+        has("t = 0", words, start + " DOWN RIGHT", columns)
+        # lanes
+        has("SWITCH TO", words, start + " s", columns)
+        has("AS MEASURED", words, start + " s ?", columns, 40)
+        has("SWITCH TO", words, start + " s ? ?", columns)
+        has("▸ +Verlet", words, start + " f verlet", columns)
+        has("▸ ?━•━ Verlet", words, start + " f verlet ENTER", columns)
+        same(start + " f verlet ENTER", start + " f verlet ENTER . ,", words, "a fork and back", columns)
+        has("all lanes", words, start + " f verlet ENTER o", columns)
+        same(start + " f verlet ENTER", start + " f verlet ENTER o o", words, "overlaid and back", columns)
+        lacks("━•━", words, start + " f verlet ENTER x", columns)
+        has("The last lane stays", words, start + " x x x x", columns)
+        # what the panel shows
+        lacks("OBSERVED", words, start + " v", columns)
+        lacks("SCHEMES", words, start + " v v", columns)
+        lacks("PARAMETERS", words, start + " v v v", columns)
+        has("‖ 1× paused", words, start + " v v v v", columns)
+        same(start, start + " v v v v v", words, "all views", columns)
+        has("[▖-▟]", words, start + " b", columns)
+        lacks("[^ -~\n]", words, start + " b b b", columns)
+        same(start, start + " b b b b", words, "blocks all around", columns)
+    # time turned: the symmetric scheme returns
+    turned = "SPACE r s midpoint ENTER . . . . . . B SPACE 9s"
+    has("from start +(0|[0-9.]+e−1[5-7])", words, turned)
+    has("t = [−]?0", words, turned)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, notices, drive):
+            part()
+        os.chdir("/")
+    print("shots: all passed" if not faults else f"shots: {faults} faults")
+    return faults > 0
+
+
+sys.exit(main())
