@@ -81,7 +81,8 @@ enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, cons
     if (!gm_number_parse(text, &value)) {
         return GM_NOT_UNDERSTOOD;
     }
-    if (!isfinite(value) || value < row->lowest || value > row->highest) {
+    if (!isfinite(value) || value < row->lowest || value > row->highest ||
+        (value > 0 && value < row->least)) {
         return GM_OUT_OF_RANGE;
     }
     if (row->type == GM_INTEGER && value != floor(value)) {

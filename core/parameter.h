@@ -28,11 +28,16 @@ struct gm_parameter {
     size_t offset;          /* offset of the value in the owner's struct */
     const char *standard;   /* the default, as it would be typed ("pi/12") */
     double lowest, highest; /* inclusive range of a real or an integer */
+    double least;           /* smallest positive value, if 0 has a meaning of its own; 0: none */
     bool logarithmic;       /* a slider moves by factors */
     bool live;              /* a change acts on the current state; otherwise the run starts again */
     bool looks;             /* no step depends on it: it is constant in a run */
     /* The choices of a GM_CHOICE, or the usual words of a GM_TEXT, NULL-terminated; NULL: none. */
     const char *const *choices;
+    /* Returns true if a GM_TEXT may have this text, else false with a sentence (GM_MESSAGE bytes); `admitting` is
+       its data. NULL: it may have every text. */
+    bool (*admits)(const struct gm_parameter *row, const char *text, char *sentence);
+    const void *admitting;
     bool file;      /* a text that is the path of a file */
     bool names;     /* commas of the text separate names, not lanes, unless all parts are choices */
     bool automatic; /* a real that may also be "auto": NaN, until its owner settles it */

@@ -46,9 +46,10 @@ struct gm_progress {
     int64_t done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
-    unsigned long factor_solves; /* solves with factors that are made once, in iterations of flows */
-    struct gm_unsolved unsolved; /* reason of a step without convergence, if the family has one */
-    double t;                    /* the time reached by adaptive schemes */
+    unsigned long factor_solves;       /* solves with factors that are made once, in iterations of flows */
+    unsigned long own_steps, rejected; /* accepted and rejected steps of step size control by a tolerance */
+    struct gm_unsolved unsolved;       /* reason of a step without convergence, if the family has one */
+    double t;                          /* the time reached by adaptive schemes */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

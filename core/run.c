@@ -206,6 +206,8 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     run->evaluations += progress.evaluations;
     run->solves += progress.solves;
     run->factor_solves += progress.factor_solves;
+    run->own_steps += progress.own_steps;
+    run->rejected += progress.rejected;
     run->iterations += progress.iterations;
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
@@ -334,6 +336,8 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->evaluations = run->evaluations;
         next->solves = run->solves;
         next->factor_solves = run->factor_solves;
+        next->own_steps = run->own_steps;
+        next->rejected = run->rejected;
         next->iterations = run->iterations;
     }
     return next;

@@ -17,6 +17,7 @@ struct gm_run {
     int64_t steps;                                 /* steps in all */
     unsigned long evaluations, solves, iterations; /* sums over the members */
     unsigned long factor_solves;                   /* solves with factors that are made once (flows) */
+    unsigned long own_steps, rejected;             /* steps of a scheme with a tolerance */
     struct gm_unsolved unsolved;                   /* why a step was not solved */
     enum gm_status status;
     int current;      /* index of the block's half with the state */

@@ -30,11 +30,12 @@ enum gm_claim {
     GM_CLAIM_COUNT = 19,
 };
 
-/* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
+/* A claim by its bit number: its letter in the explorer ("H"), its key in files and JSON ("keeps energy"), and its word in
+   sentences ("conserves energy"). */
 const char *gm_claim_letter(unsigned bit);
+const char *gm_claim_key(unsigned bit);
 const char *gm_claim_word(unsigned bit);
-/* Reads claims by their words, one after the other, or "none". Returns false with the position of another
-   word. */
+/* Reads claims by their keys, one after the other, or "none". Returns false with the position of another word. */
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 
 /* Parameters of schemes; every lane whose scheme uses one shares it. */
@@ -42,7 +43,7 @@ struct gm_settings {
     int compensated;  /* compensated summation of the increments */
     double binding;   /* binding of the two copies of phase space, of Tao's schemes */
     double tau0;      /* the first step of the schemes with variational time */
-    double tolerance; /* tolerance of GSL's steppers; 0: fixed step */
+    double tolerance; /* tolerance of dopri5 (0: 1e-6) and of GSL's steppers (0: fixed step) */
     double newmark_beta;
 };
 extern const struct gm_parameter gm_settings_parameters[];
@@ -53,7 +54,7 @@ const struct gm_parameter *gm_setting_find(const char *key);
 extern const struct gm_parameter *const gm_settings_of_sums[];             /* compensated */
 extern const struct gm_parameter *const gm_settings_of_tao[];              /* binding */
 extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* tau0 */
-extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
+extern const struct gm_parameter *const gm_settings_of_tolerance[];        /* tolerance */
 extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
 struct gm_coefficients;  /* core/theory/coefficients.h */
@@ -125,6 +126,8 @@ struct gm_family {
     /* The scheme has step size control: the loop returns the time, dt is defined by its rows. One member
        only. */
     bool adaptive;
+    /* The scheme's own steps follow the tolerance; dt is the distance of its rows, which are interpolated. */
+    bool by_tolerance;
     /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
     bool doubled;
     /* The residual of the discrete multisymplectic law, for gm_form_residual. NULL: the family has no such

@@ -17,6 +17,8 @@ const char *gm_status_name(enum gm_status status)
         return "step-collapse";
     case GM_OUT_OF_MEMORY:
         return "out-of-memory";
+    case GM_STEP_TOO_SMALL:
+        return "step-too-small";
     }
     return "unknown";
 }

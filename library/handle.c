@@ -229,6 +229,7 @@ static void drive_to(geomint *handle, size_t index, int64_t steps, double until)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
     lane->drive.stop = &until;
+    lane->drive.whole_steps = true;
     if (!gm_drive_to(&lane->drive, steps, false, handle->message)) {
         gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
     }
@@ -510,6 +511,7 @@ bool gm_handle_follow(geomint *handle)
         }
         const double never = GM_NEVER;
         drawn->stop = &never;
+        drawn->whole_steps = drive->whole_steps;
         /* repeats the step that failed, so that the picture reports it */
         const int64_t more = drive->lane->run->status == GM_OK ? 0 : 1;
         const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
@@ -534,9 +536,8 @@ static bool put_lane(FILE *stream, const struct gm_drive *drive)
     if (meta) {
         fprintf(stream, "%.*s", (int)strlen(meta) - 1, meta); /* without its last brace */
         struct gm_row row = {.stream = stream, .form = GM_ROW_JSON, .begun = true};
-        gm_row_text(&row, "warning", warning);
-        gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
-        gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
+        gm_row_put(&row, "warning %s, evaluations %.0f, solves %.0f", warning,
+                   gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
         fputc('}', stream);
     }
     free(meta);

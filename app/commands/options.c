@@ -28,7 +28,8 @@ enum kind {
     SIZE,
     THEME,
     SHARD,
-    ENGINE
+    ENGINE,
+    WORD
 };
 
 #define AT(member) offsetof(struct gm_options, member)
@@ -76,6 +77,8 @@ const struct gm_option gm_option_rows[] = {
     {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
+    {"--window", WORD, GM_RUN | GM_RENDER | GM_TUI, 0, "XMIN,XMAX,YMIN,YMAX",
+     "the plane that is shown, and searched by portrait=yes"},
     {"--graphics", TEXT, EXPLORES, AT(terminal.graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, EXPLORES, AT(terminal.colours), "HOWMANY", "truecolor, 256, 16 or none"},
@@ -242,6 +245,16 @@ static bool settle_format(struct gm_options *options, char *message)
                      options->painter);
 }
 
+/* Adds the option as a word of the scene: window=... */
+static bool add_word(struct gm_options *options, const struct gm_option *row, const char *value,
+                     char *message)
+{
+    char *word = gm_text("%s=%s", row->name + strlen("--"), value);
+    const bool good = word && gm_arguments_add(&options->arguments, word);
+    free(word);
+    return good || gm_refuse(message, "not enough memory");
+}
+
 static bool store(struct gm_options *options, const struct gm_option *row, const char *value, char *message)
 {
     char *place = (char *)options + row->offset;
@@ -283,6 +296,8 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
     case MOVIE:
         wrong = gm_sink_is_movie(value) ? NULL : "is no .mp4, .webm or .gif file";
         break;
+    case WORD:
+        return add_word(options, row, value, message);
     case TEXT:
         break;
     }

@@ -19,6 +19,7 @@
 #include "app/words/names.h"
 #include "core/basics.h"
 #include "core/memory.h"
+#include "core/ode/portrait/portrait.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
 
@@ -46,6 +47,19 @@ struct outcome {
     struct gm_paused paused;  /* numbers: the maxima */
     char warning[GM_MESSAGE]; /* the warning on an end with status ok, or "" */
 };
+
+/* Returns true if the lane's phase portrait was requested; its window holds every step. */
+static bool has_portrait(const struct gm_lane *lane)
+{
+    const struct gm_parameter *row = gm_scene_parameter(lane->scene, "portrait");
+    return row && lane->scene->portrait && gm_parameter_get(row, lane->parameters) != 0;
+}
+
+/* The reason why a portrait has no equilibria; NULL: it has some, or the window has none. */
+static const char *no_equilibria(const struct gm_portrait *portrait)
+{
+    return portrait->is_finite ? NULL : "the field is nowhere finite in the window";
+}
 
 static bool is_standard_output(const char *path)
 {
@@ -100,6 +114,25 @@ static const char *tell_end(const struct outcome *outcome, char *sentence, size_
     return gm_status_name(lane->run->status);
 }
 
+/* Writes "equilibria":[{"at":[x,y],"kind":"saddle","eigenvalues":[[re,im],[re,im]]}, ...]. */
+static void print_equilibria(struct gm_row *row, const struct gm_portrait *portrait)
+{
+    struct gm_row list = gm_row_open(row, "equilibria", ']');
+    for (size_t i = 0; i < portrait->count; i++) {
+        const struct gm_equilibrium *equilibrium = &portrait->equilibria[i];
+        struct gm_row item = gm_row_open(&list, NULL, '}');
+        gm_row_list(&item, "at", equilibrium->at, 2);
+        gm_row_text(&item, "kind", gm_equilibrium_kind_name(equilibrium->kind));
+        struct gm_row values = gm_row_open(&item, "eigenvalues", ']');
+        for (size_t k = 0; k < 2; k++) {
+            gm_row_list(&values, NULL, equilibrium->eigenvalues[k], 2);
+        }
+        gm_row_close(&values);
+        gm_row_close(&item);
+    }
+    gm_row_close(&list);
+}
+
 static void print_json(const struct outcome *outcome, const struct gm_options *options)
 {
     const struct gm_lane *lane = outcome->drive.lane;
@@ -108,25 +141,26 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     char sentence[GM_MESSAGE], key[128];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "scene", lane->scene->name);
+    gm_row_put(&row, "scene %s", lane->scene->name);
     gm_meta_source(&row, lane->scene);
-    gm_row_text(&row, "scheme", lane->scheme->name);
+    gm_row_put(&row, "scheme %s", lane->scheme->name);
     if (gm_engine_of(lane)) {
-        gm_row_text(&row, "engine", gm_engine_of(lane));
+        gm_row_put(&row, "engine %s", gm_engine_of(lane));
     }
     gm_meta_parameters(&row, lane);
-    gm_row_text(&row, "status", status);
-    gm_row_text(&row, "message", sentence);
-    gm_row_text(&row, "warning", outcome->warning);
-    gm_row_number(&row, "t", run->t, 17);
+    gm_row_put(&row, "status %s, message %s, warning %s, t %.17g", status, sentence, outcome->warning,
+               run->t);
     if (lane->scene->stop) {
-        gm_row_flag(&row, "stopped", gm_lane_stopped(lane));
+        gm_row_put(&row, "stopped %d", gm_lane_stopped(lane));
     }
-    gm_row_count(&row, "steps", (double)run->steps);
-    gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
-    gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
+    gm_row_put(&row, "steps %.0f, evaluations %.0f, solves %.0f", (double)run->steps,
+               gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
     if (run->factor_solves > 0) {
-        gm_row_count(&row, "factor_solves", gm_run_per_member(run, run->factor_solves));
+        gm_row_put(&row, "factor_solves %.0f", gm_run_per_member(run, run->factor_solves));
+    }
+    if (run->scheme->family->by_tolerance) {
+        gm_row_put(&row, "own_steps %.0f, rejected %.0f", gm_run_per_member(run, run->own_steps),
+                   gm_run_per_member(run, run->rejected));
     }
     printf(",\"seconds\":%.6g", outcome->drive.seconds);
     struct gm_row observables = gm_row_open(&row, "observables", '}');
@@ -138,12 +172,22 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         gm_row_number(&observables, key, outcome->maxima[i], 17);
     }
     gm_row_close(&observables);
-    bool reasoned = false;
+    struct gm_portrait portrait;
+    const char *none = NULL;
+    if (has_portrait(lane) && lane->scene->portrait(lane, &portrait)) {
+        print_equilibria(&row, &portrait);
+        none = no_equilibria(&portrait);
+        gm_portrait_close(&portrait);
+    }
+    bool reasoned = none != NULL;
     for (size_t i = 0; i < count; i++) {
         reasoned |= missing(outcome, i) != NULL;
     }
     if (reasoned) { /* the reasons for null values */
         struct gm_row reasons = gm_row_open(&row, "reasons", '}');
+        if (none) {
+            gm_row_text(&reasons, "equilibria", none);
+        }
         for (size_t i = 0; i < count; i++) {
             if (missing(outcome, i)) {
                 gm_row_text(&reasons, told(outcome, i)->key, missing(outcome, i));
@@ -155,11 +199,36 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         char layout[128];
         snprintf(layout, sizeof layout, "y[component * m + member], n = %zu components, m = %zu members",
                  lane->problem.n, lane->problem.m);
-        gm_row_text(&row, "layout", layout);
+        gm_row_put(&row, "layout %s", layout);
         /* null: a lost tracer */
         gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }
     printf("}\n");
+}
+
+/* Prints a line for each equilibrium: its place, kind and eigenvalues. */
+static void tell_equilibria(const struct gm_lane *lane, int width)
+{
+    struct gm_portrait portrait;
+    if (!lane->scene->portrait(lane, &portrait)) {
+        return;
+    }
+    for (size_t i = 0; i < portrait.count; i++) {
+        const struct gm_equilibrium *equilibrium = &portrait.equilibria[i];
+        const double(*values)[2] = equilibrium->eigenvalues;
+        printf("  %-*s (%.10g, %.10g) %s, eigenvalues ", width, "equilibrium", equilibrium->at[0],
+               equilibrium->at[1], gm_equilibrium_kind_name(equilibrium->kind));
+        if (values[0][1] == 0) {
+            printf("%.7g, %.7g\n", values[0][0], values[1][0]);
+        } else {
+            printf("%.7g ± %.7gi\n", values[0][0], values[0][1]);
+        }
+    }
+    if (portrait.count == 0) {
+        const char *why = no_equilibria(&portrait);
+        printf("  %-*s none%s%s\n", width, "equilibrium", why ? ": " : " in the window", why ? why : "");
+    }
+    gm_portrait_close(&portrait);
 }
 
 static void print_text(const struct outcome *outcome)
@@ -201,6 +270,9 @@ static void print_text(const struct outcome *outcome)
         const bool none = isnan(outcome->maxima[i]) && missing(outcome, i);
         printf(none ? "  %s%-*s none\n" : "  %s%-*s %.10g\n", key, left > 0 ? left : 0, "_max",
                outcome->maxima[i]);
+    }
+    if (has_portrait(lane)) {
+        tell_equilibria(lane, width);
     }
 }
 
@@ -400,7 +472,8 @@ static bool make_steps(struct outcome *outcome, int64_t stop, char *message)
     const int64_t next = outcome->maxima ? run->steps + 1 : row;
     const double before = run->t;
     const int64_t steps = run->steps;
-    if (!gm_drive_to(&outcome->drive, next < stop ? next : stop, outputs->tracks != NULL, message)) {
+    const bool record = outputs->tracks || has_portrait(outcome->drive.lane);
+    if (!gm_drive_to(&outcome->drive, next < stop ? next : stop, record, message)) {
         return false;
     }
     if (run->steps == steps) {
@@ -562,11 +635,16 @@ static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
     }
     outcome->drive.seconds = outcome->paused.seconds;
     take_maxima(outcome);
-    if (!begin_rows(outcome, steps, message) || !drive_lane(outcome, steps, message)) {
+    const bool keeps = outcome->outputs->options->checkpoint != NULL;
+    if (!begin_rows(outcome, steps, message) || !drive_lane(outcome, keeps ? steps - 1 : steps, message)) {
+        return false;
+    }
+    const bool rests = gm_drive_rest(&outcome->drive) != 0; /* a checkpoint has whole steps only */
+    if (!rests && !drive_lane(outcome, steps, message)) {
         return false;
     }
     outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
-    return (!outcome->outputs->options->checkpoint || keep_state(outcome, message)) &&
+    return (!keeps || keep_state(outcome, message)) && (!rests || make_steps(outcome, steps, message)) &&
            end_rows(outcome, message);
 }
 

@@ -37,10 +37,12 @@ static bool make_changes(struct gm_drive *drive, char *message)
     return true;
 }
 
-/* The step before which the next change is due; `step` if none is. */
+/* The step before which the next change is due, or a last step that may be shortened; `step` if none is. */
 static int64_t next_stop(const struct gm_drive *drive, int64_t step)
 {
     const struct gm_request *request = drive->request;
+    const int64_t last = request->lanes[drive->index].steps - 1;
+    step = drive->lane->run->steps < last && last < step ? last : step;
     for (size_t i = drive->next_change; i < request->change_count; i++) {
         if (request->changes[i].lane == drive->index) {
             return request->changes[i].step < step ? request->changes[i].step : step;
@@ -61,7 +63,11 @@ bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step)
 
 int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
 {
-    const int64_t end = gm_run_steps_at(drive->lane->run, until_of(drive));
+    const struct gm_run *run = drive->lane->run;
+    const int64_t whole = gm_run_steps_at(run, until_of(drive)),
+                  last = drive->request->lanes[drive->index].steps;
+    /* a last step that is shortened may be short of half a step */
+    const int64_t end = whole == last - 1 && gm_ends_exactly(run->scheme) ? last : whole;
     return end < step ? end : step;
 }
 
@@ -106,6 +112,16 @@ static void trace_to(struct gm_drive *drive, int64_t stop)
         memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
         drive->trace += 1 + count;
     }
+}
+
+double gm_drive_rest(const struct gm_drive *drive)
+{
+    const struct gm_lane_spec *spec = &drive->request->lanes[drive->index];
+    const struct gm_run *run = drive->lane->run;
+    const double rest = spec->until - run->t, least = 1e-9 * fmax(fabs(spec->until), fabs(run->dt));
+    const bool is_next = run->steps == spec->steps - 1 && !drive->whole_steps && gm_ends_exactly(run->scheme);
+    const bool is_part = fabs(rest) > least && fabs(run->dt) - fabs(rest) > least && rest / run->dt > 0;
+    return is_next && is_part ? rest : 0;
 }
 
 /* Makes steps up to `stop` in all, which are timed. */
@@ -161,9 +177,16 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
         }
         const double each = drive->unmeasured > 0 ? fmax(drive->each, shortest) : drive->each;
         const int64_t burst = record ? 1 : burst_of(each), stop = before + (left < burst ? left : burst);
+        const double rest = gm_drive_rest(drive), dt = lane->run->dt;
+        if (rest != 0) {
+            gm_run_set_step(lane->run, rest);
+        }
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
+        }
+        if (rest != 0) {
+            gm_run_set_step(lane->run, dt);
         }
         /* the search makes trial steps, after which the last recorded one is lost */
         look_for_engine(drive, step);
@@ -178,7 +201,8 @@ bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message
     int64_t before = -1;
     /* repeats until no step is due: step size control, or a change, may have shortened the steps */
     while (lane->run->steps > before) {
-        const int64_t due = gm_run_steps_by(lane->run, t);
+        const bool rests = t >= drive->request->lanes[drive->index].until && gm_drive_rest(drive) != 0;
+        const int64_t due = gm_run_steps_by(lane->run, t) + (rests ? 1 : 0);
         before = lane->run->steps;
         if (!gm_drive_to(drive, due < end ? due : end, record, message)) {
             return false;
@@ -247,6 +271,9 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     case GM_STEP_COLLAPSE:
         snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
         return;
+    case GM_STEP_TOO_SMALL:
+        snprintf(text, size, "the steps after t = %.6g are too small for the tolerance", run->t);
+        return;
     case GM_OUT_OF_MEMORY:
         snprintf(text, size, "there was not enough memory to go on from t = %.6g, or to look at it", run->t);
         return;
@@ -272,8 +299,12 @@ static bool is_far_beyond(const struct gm_drive *drive)
 
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
 {
+    const bool adaptive = drive->lane->scheme->family->adaptive;
     gm_failure_sentence(drive->lane, text, size);
-    if (drive->lane->scheme->family->adaptive && overshoot(drive) > 0) {
+    if (!adaptive && overshoot(drive) != 0) {
+        gm_drive_other_end(drive, text, size);
+    }
+    if (adaptive && overshoot(drive) > 0) {
         snprintf(text, size,
                  "the scheme chooses its steps: the first that reaches until = %.10g ends at t = %.10g",
                  drive->request->lanes[drive->index].until, drive->lane->run->t);
@@ -296,8 +327,10 @@ void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
 
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
 {
-    char end[GM_MESSAGE];
-    gm_drive_other_end(drive, end, sizeof end);
+    char end[GM_MESSAGE] = "";
+    if (drive->lane->scheme->family->adaptive) {
+        gm_drive_other_end(drive, end, sizeof end);
+    }
     gm_lane_warning(drive->lane, text, size);
     const size_t used = strlen(text);
     snprintf(text + used, size - used, "%s%s", used && end[0] ? "; " : "", end);

@@ -22,6 +22,7 @@ struct gm_drive {
     /* The end of an adaptive run, in model time; NULL: the lane's until, which pictures also use as the
        run's length. */
     const double *stop;
+    bool whole_steps; /* the last step of a request is not shortened to end at its until */
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
@@ -39,19 +40,23 @@ int64_t gm_drive_end(const struct gm_drive *drive, int64_t step);
 /* Advances to the lane's last step for the time t (gm_run_steps_by), at most to the lane's end. */
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 
+/* Returns the length of the last step, which is shortened to end at the requested until, if it is the next
+   one; else 0. A checkpoint must be written before it, so that a later end is reached by whole steps. */
+double gm_drive_rest(const struct gm_drive *drive);
+
 /* Writes one sentence on the failure of a lane; empty for GM_OK. */
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
 
-/* Writes one sentence on the end of a run: gm_failure_sentence, or, for an adaptive scheme, an end after
-   the requested until; empty if there is nothing to report. */
+/* Writes one sentence on the end of a run: gm_failure_sentence, or an end that is not the requested until;
+   empty if there is nothing to report. */
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
 
 /* Writes that a run did not end at the requested until: it is not a whole number of steps, or an adaptive
    scheme ends far beyond it. Empty if it did. */
 void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes the warning on a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
-   is nothing. */
+/* Writes the warning on a run that is not failed: gm_lane_warning, and that an adaptive scheme ends far
+   beyond the requested until; empty if there is nothing. */
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 
 /* Makes steps of a lane towards an end (gm_lane_to) for about a fiftieth of a second, so that the caller

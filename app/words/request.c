@@ -14,8 +14,10 @@
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
+#include "core/arena.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
+#include "core/ode/ode.h"
 #include "core/schemes.h"
 #include "scenes/common/symbol.h"
 
@@ -31,7 +33,7 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     alone.offset = 0;
     switch (gm_parameter_set(owner ? row : &alone, owner ? owner : place, text)) {
     case GM_PARSED:
-        return true;
+        return !row->admits || row->admits(row, text, message);
     case GM_NOT_UNDERSTOOD:
         if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             char choices[GM_MESSAGE / 2] = "no, yes";
@@ -50,13 +52,13 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     char low[40], high[40], nearest[64] = "";
     double value = NAN;
     gm_number_parse(text, &value);
-    gm_number_format(row->lowest, low, sizeof low);
+    gm_number_format(fmax(row->lowest, row->least), low, sizeof low);
     gm_number_format(row->highest, high, sizeof high);
-    if (!isnan(value)) {
+    if (!isnan(value) && !(row->least > 0)) {
         snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
     }
-    return gm_refuse(message, "%s=%.60s is out of range: it lies between %s and %s%s", row->key, text, low,
-                     high, nearest);
+    return gm_refuse(message, "%s=%.60s is out of range: it %slies between %s and %s%s", row->key, text,
+                     row->least > 0 ? "is 0 or " : "", low, high, nearest);
 }
 
 static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, const char *name, char *message)
@@ -178,7 +180,13 @@ static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec 
     }
 }
 
-/* dt and until, or steps, to whole steps; with `steps` until follows. */
+bool gm_ends_exactly(const struct gm_scheme *scheme)
+{
+    return scheme && scheme->family->kind == &gm_kind_ode && !scheme->family->adaptive &&
+           !scheme->family->not_resumable;
+}
+
+/* dt and until, or steps, to steps; with `steps` until follows. */
 static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
                         char *message)
 {
@@ -192,9 +200,12 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
         spec->end = timing->until;
         return true;
     }
+    bool shortened = false;
     if (!steps_given) {
-        const double steps = round((timing->until - t0) / timing->dt);
-        if (steps < 0) {
+        const double exactly = (timing->until - t0) / timing->dt, whole = round(exactly);
+        shortened = gm_ends_exactly(spec->scheme) && fabs(exactly - whole) > 1e-9 * fmax(1, fabs(exactly));
+        const double steps = shortened && exactly > whole ? whole + 1 : whole;
+        if (whole < 0) {
             return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
         }
         if (!(steps <= (double)GM_MOST_STEPS)) {
@@ -202,7 +213,7 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
         }
         spec->steps = (int64_t)steps;
     }
-    spec->end = t0 + (double)spec->steps * timing->dt;
+    spec->end = shortened ? timing->until : t0 + (double)spec->steps * timing->dt;
     timing->until = steps_given ? spec->end : timing->until;
     return true;
 }
@@ -674,4 +685,17 @@ struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t in
         gm_engine_meet(lane);
     }
     return lane;
+}
+
+static void close_lane(void *lane)
+{
+    gm_lane_close(lane);
+}
+
+struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message)
+{
+    if (!lane) {
+        gm_arena_refuse(arena, "%s", message);
+    }
+    return gm_arena_keep(arena, lane, close_lane);
 }

@@ -6,6 +6,8 @@
 #include "render/message.h"
 #include "scenes/common/lane.h"
 
+struct gm_arena;
+
 /* The user's request: a scene and its lanes, read from `SCENE key=value ...`. */
 
 struct gm_lane_spec {
@@ -13,7 +15,7 @@ struct gm_lane_spec {
     void *parameters; /* the scene's own struct */
     struct gm_settings settings;
     const struct gm_scheme *scheme;
-    int64_t steps; /* number of steps from start to until */
+    int64_t steps; /* number of steps from start to until; the last one may be shortened */
     double until;  /* the requested end, in model time; NAN if steps= gives it */
     double end;    /* the time of the last step; for an adaptive scheme the end to reach */
 };
@@ -39,6 +41,10 @@ struct gm_request {
     char refused[48]; /* the key that was refused, or "" */
     char *arguments;  /* the words it was read from, with the schemes' names; NULL: derived if needed */
 };
+
+/* Returns true if the last step of a run with this scheme is shortened to end at the requested until: one of
+   fixed size for ordinary differential equations. */
+bool gm_ends_exactly(const struct gm_scheme *scheme);
 
 /* The number of a scene's preferred schemes that a command uses if no scheme is given. */
 enum { GM_RUN_SCHEMES = 1, GM_RENDER_SCHEMES = 3 };
@@ -97,6 +103,9 @@ double gm_request_steps(const struct gm_request *request, size_t index);
 
 /* Opens lane `index` at its start; NULL with a sentence. */
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
+
+/* Closes a lane with the arena, and returns it; NULL leaves the arena's body with this message. */
+struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message);
 
 /* Returns true if a change can be made before its lane ends; false with a sentence. */
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message);

@@ -28,9 +28,6 @@ size_t gm_system_mass_field(const struct gm_user_system *system, gm_node_id node
 bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_node_id *line,
                            gm_node_id *rest);
 
-/* The rate of change of a node along the motion; GM_NO_NODE if it is unknown (for a Lagrangian, or with a
-   constraint) or when out of memory. */
-gm_node_id gm_equations_rate_of(struct gm_user_system *system, gm_node_id node);
 /* Replaces the momenta of a Lagrangian in nodes by dL/dv. False when out of memory. */
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count);
 /* Tests if a node is 0 for all states: for all parameters, or else for the system's own. */

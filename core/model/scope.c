@@ -197,10 +197,10 @@ bool gm_reading_reserves(const char *name, size_t length)
 {
     /* keys of a command line, and columns of tables */
     static const char *const reserved[] = {
-        "dt",      "until",   "steps",     "scheme", "schemes",     "zip",    "overlay",
-        "equal",   "show",    "members",   "t",      "lane",        "meta",   "compensated",
-        "binding", "tau0",    "tolerance", "spread", "scene",       "status", "evaluations",
-        "solves",  "seconds", "stopped",   "shape",  "newmark_beta"};
+        "dt",        "until",        "steps",  "scheme",   "schemes",     "zip",         "overlay", "equal",
+        "show",      "members",      "t",      "lane",     "meta",        "compensated", "binding", "tau0",
+        "tolerance", "spread",       "scene",  "status",   "evaluations", "solves",      "seconds", "stopped",
+        "shape",     "newmark_beta", "trails", "portrait", "window"};
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;

@@ -105,6 +105,47 @@ static void draw_line(struct gm_painter *painter, const struct gm_axes *axes, co
     }
 }
 
+/* Draws a glyph other than a disc, with paper inside. The line of the mark is in use, the piece is not. */
+static void draw_glyph(struct gm_painter *painter, const struct gm_mark *mark, struct gm_point centre,
+                       float width)
+{
+    enum { SIDES = 32 };
+    const float pi = 3.14159265f, radius = 0.5f * width;
+    const struct gm_ink ink = ink_of(painter, &mark->style);
+    const struct gm_ink paper = {gm_theme_colour(painter->look.theme, GM_PAPER), 1};
+    struct gm_polyline *line = &painter->piece;
+    struct gm_stroke stroke = {.width = 0.2f * width, .ink = ink};
+    if (!gm_polyline_reserve(line, SIDES)) {
+        return;
+    }
+    if (mark->glyph == GM_CROSS) {
+        for (float side = -1.0f; side < 2.0f; side += 2.0f) {
+            line->points[0] = (struct gm_point){centre.x - radius, centre.y - side * radius};
+            line->points[1] = (struct gm_point){centre.x + radius, centre.y + side * radius};
+            line->count = 2;
+            line->closed = false;
+            painter->pen->line(painter->self, line, &stroke);
+        }
+        return;
+    }
+    for (int i = 0; i < SIDES; i++) {
+        const float angle = 2.0f * pi * (float)i / SIDES + 0.5f * pi;
+        line->points[i] = (struct gm_point){centre.x + radius * cosf(angle), centre.y + radius * sinf(angle)};
+    }
+    line->count = SIDES;
+    line->closed = true;
+    painter->pen->disc(painter->self, centre, width, paper);
+    if (mark->glyph == GM_DOTTED_RING) { /* eight dots */
+        stroke.parts = 2;
+        stroke.pattern[1] = 0.125f * pi * width;
+    }
+    painter->pen->line(painter->self, line, &stroke);
+    if (mark->glyph == GM_HALF_DISC) {
+        line->count = SIDES / 2 + 1;
+        painter->pen->fill(painter->self, line, ink);
+    }
+}
+
 static void draw_points(struct gm_painter *painter, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     const struct gm_style *style = &mark->style;
@@ -119,7 +160,11 @@ static void draw_points(struct gm_painter *painter, const struct gm_axes *axes, 
     for (size_t i = 0; i < painter->line.count; i++) {
         const struct gm_point p = painter->line.points[i];
         if (p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom) {
-            painter->pen->disc(painter->self, p, width, ink);
+            if (mark->glyph == GM_DISC) {
+                painter->pen->disc(painter->self, p, width, ink);
+            } else {
+                draw_glyph(painter, mark, p, width);
+            }
         }
     }
 }

@@ -56,11 +56,15 @@ enum gm_mark_kind {
     GM_MARK_TEXT,    /* near points[0], opaque; left out without room beside other labels */
 };
 
+/* The shape of points. */
+enum gm_glyph { GM_DISC, GM_RING, GM_HALF_DISC, GM_DOTTED_RING, GM_CROSS };
+
 enum gm_anchor { GM_ANCHOR_LEFT, GM_ANCHOR_CENTRE, GM_ANCHOR_RIGHT };
 
 struct gm_mark {
     enum gm_mark_kind kind;
     struct gm_style style;
+    enum gm_glyph glyph;
     bool closed;
     const double *points; /* count pairs x, y in the panel's units; image: 2 corners (low, high) */
     size_t count;

@@ -11,6 +11,7 @@
 struct gm_lane;
 struct gm_scene;
 struct gm_entries;
+struct gm_portrait;
 
 /* Every scene's own struct of parameters begins with this. */
 struct gm_timing {
@@ -239,6 +240,9 @@ struct gm_scene {
     /* Writes one sentence, or "", on the step after a view, which led to a state that is not finite. NULL:
        never. */
     void (*failure)(const struct gm_view *view, char *text, size_t size);
+    /* Opens the phase portrait of a lane (core/ode/portrait/portrait.h); the caller closes it if true is returned.
+       False if the lane shows none, or when out of memory. NULL: the scene has no portraits. */
+    bool (*portrait)(const struct gm_lane *lane, struct gm_portrait *portrait);
     /* Draws the lanes, count >= 1, into an empty picture, without changing them. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     /* Writes the parameters, at most GM_CHOICES, of a run that starts at the point (x, y) of a state's panel.

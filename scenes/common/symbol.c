@@ -2,6 +2,7 @@
 /* Names as written in pictures (symbol.h). */
 #include "scenes/common/symbol.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -25,4 +26,72 @@ const char *gm_key_symbol(const char *key)
 {
     const char *letter = gm_greek(key, strlen(key));
     return letter ? letter : strcmp(key, "dt") == 0 ? "Δt" : strcmp(key, "dx") == 0 ? "Δx" : key;
+}
+
+static const char *small_letter(char letter, bool above)
+{
+    static const char *const low[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+    static const char *const high[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    static const struct {
+        char letter;
+        const char *text;
+    } letters[] = {{'a', "ₐ"}, {'e', "ₑ"}, {'i', "ᵢ"}, {'o', "ₒ"},
+                   {'r', "ᵣ"}, {'u', "ᵤ"}, {'v', "ᵥ"}, {'x', "ₓ"}};
+    if (letter >= '0' && letter <= '9') {
+        return (above ? high : low)[(unsigned)(letter - '0') % 10];
+    }
+    for (size_t i = 0; i < GM_COUNT(letters) && !above; i++) {
+        if (letters[i].letter == letter) {
+            return letters[i].text;
+        }
+    }
+    return NULL;
+}
+
+const char *gm_typeset(struct gm_picture *picture, const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *typed = gm_picture_memory(picture, size), *to = typed;
+    if (!typed) {
+        return text;
+    }
+    for (const char *at = text; *at;) {
+        size_t letters = 0;
+        while (isalpha((unsigned char)at[letters])) {
+            letters++;
+        }
+        const char *put = letters > 0 ? gm_greek(at, letters) : NULL;
+        size_t taken = letters > 0 ? letters : 1;
+        const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
+        if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&
+            !isalnum((unsigned char)at[1] ? at[2] : 'x')) {
+            put = small_letter(at[1], at[0] == '^');
+            taken = put ? 2 : 1;
+        } else if (letters == 0 && isdigit((unsigned char)at[0]) && at > text &&
+                   isalpha((unsigned char)at[-1])) {
+            put = small_letter(at[0], false);
+        } else if (at[0] == '[') {
+            const size_t digits = strspn(at + 1, "0123456789");
+            if (digits > 0 && at[1 + digits] == ']') {
+                for (size_t i = 0; i < digits; i++) {
+                    to = stpcpy(to, small_letter(at[1 + i], false));
+                }
+                at += digits + 2;
+                continue;
+            }
+        } else if (at[0] == '-') {
+            put = "−";
+        } else if (at[0] == '*') {
+            put = " ";
+        }
+        if (put) {
+            to = stpcpy(to, put);
+        } else {
+            memcpy(to, at, taken);
+            to += taken;
+        }
+        at += taken;
+    }
+    *to = '\0';
+    return typed;
 }

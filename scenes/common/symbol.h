@@ -3,12 +3,16 @@
 #ifndef GM_SCENES_COMMON_SYMBOL_H
 #define GM_SCENES_COMMON_SYMBOL_H
 
-#include <stddef.h>
+#include "render/picture/picture.h"
 
 /* The Greek letter of a name of `length` bytes: "lambda" is "λ"; NULL: no letter. */
 const char *gm_greek(const char *name, size_t length);
 
 /* The label of a parameter's key in lanes and axes: "dt" is "Δt", "lambda" is "λ", any other itself. */
 const char *gm_key_symbol(const char *key);
+
+/* Returns names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²"; the picture
+   owns the text, and the text itself is returned when out of memory. */
+const char *gm_typeset(struct gm_picture *picture, const char *text);
 
 #endif

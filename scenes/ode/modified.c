@@ -134,8 +134,9 @@ const char *const gm_modified_shows[] = {"all", GM_SHOW_MODIFIED, NULL};
 size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters)
 {
     const struct gm_parameter *show = gm_scene_parameter(scene, "show");
-    const bool chosen = show && show->choices &&
-                        strcmp(show->choices[(int)gm_parameter_get(show, parameters)], GM_SHOW_MODIFIED) == 0;
+    char text[GM_TEXT_SIZE];
+    const bool chosen =
+        show && strcmp(gm_parameter_format(show, parameters, text, sizeof text), GM_SHOW_MODIFIED) == 0;
     return chosen ? GM_MODIFIED_OBSERVABLES : 0;
 }
 

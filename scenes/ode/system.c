@@ -25,13 +25,16 @@
 #include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
+#include "scenes/common/trails.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/system/aim.h"
+#include "scenes/ode/system/curves.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/failure.h"
 #include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/observed.h"
+#include "scenes/ode/system/phase.h"
 #include "scenes/ode/system/sights.h"
 
 enum { DT, UNTIL };
@@ -41,6 +44,7 @@ enum {
     MOST_FOLLOWED = 32,
     CROSSINGS = 1 << 14,
     REMEMBERED = 256,
+    MOST_FOLLOWED_STATES = 1024,
     MOST_RECORDED = 1 << 22 /* numbers of a track: many components have fewer entries */
 };
 
@@ -92,6 +96,23 @@ static void record_shape(const struct gm_view *view, double *entry)
     for (size_t i = 0; i < members; i += shape_stride(members), entry += 2) {
         entry[0] = view->state[system_scene->disc[0] * m + i];
         entry[1] = view->state[system_scene->disc[1] * m + i];
+    }
+}
+
+static size_t members_width(const struct gm_view *view)
+{
+    const size_t followed = gm_system_followed(view);
+    return followed > 0 ? followed * gm_system_scene_of(view)->system.n : 1;
+}
+
+/* Records the states of some members, for their curves over time. */
+static void record_members(const struct gm_view *view, double *entry)
+{
+    const size_t n = gm_system_scene_of(view)->system.n, m = view->problem->m,
+                 followed = gm_system_followed(view);
+    entry[0] = 0;
+    for (size_t i = 0; i < followed * n; i++) {
+        entry[i] = view->state[i % n * m + gm_system_followed_member(view, i / n)];
     }
 }
 
@@ -513,8 +534,16 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
                                       "radius of that disc, half the width of a grid or a line"),
         [GM_ROW_SHAPE] = GM_CHOICE_ROW(struct gm_system_lane, shape, "shape", "disc", shapes,
                                        "of the members: on a disc's edge, in a grid, on a line"),
-        [GM_ROW_SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
-                                      "all, or a plane of two components", .live = true),
+        [GM_ROW_SHOW] = GM_TEXT_ROW(struct gm_system_lane, show, "show", "all",
+                                    "all, a plane of two components, or names over time, as in t:q+p",
+                                    .live = true, .admits = gm_system_admits_show),
+        [GM_ROW_TRAILS] = GM_TRAILS_ROW(struct gm_system_lane),
+        [GM_ROW_PORTRAIT] = GM_BOOLEAN_ROW(struct gm_system_lane, portrait, "portrait", "no",
+                                           "the direction field, nullclines and equilibria of a plane",
+                                           .live = true, .looks = true, .admits = gm_system_admits_portrait),
+        [GM_ROW_WINDOW] = GM_TEXT_ROW(struct gm_system_lane, window, "window", "auto",
+                                      "the plane that is shown: XMIN,XMAX,YMIN,YMAX, or auto", .names = true,
+                                      .live = true, .looks = true, .admits = gm_system_admits_window),
     };
     static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     for (size_t i = 0; good && i < choices; i++) {
@@ -594,8 +623,9 @@ static bool make_shows(struct gm_system_scene *system_scene)
     system_scene->shows[shows] = system_scene->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
     struct gm_parameter *show = &system_scene->common[GM_ROW_SHOW - gm_system_skipped(system_scene)];
     show->choices = system_scene->shows;
+    show->admitting = show[GM_ROW_PORTRAIT - GM_ROW_SHOW].admitting = system_scene;
     if (system_scene->has_section) {
-        show->help = "all, the section, or a plane of two components";
+        show->help = "all, the section, a plane of two components, or names over time, as in t:q+p";
         if (gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0)->alone) {
             show->standard = system_scene->shows[GM_SHOW_SECTION];
         }
@@ -621,6 +651,11 @@ static void make_tracks(struct gm_system_scene *system_scene)
                                                               .interval = shape_interval,
                                                               .bound = 96,
                                                               .record = record_shape};
+    system_scene->tracks[GM_TRACK_MEMBERS] = (struct gm_track){.key = "members",
+                                                               .width = members_width,
+                                                               .interval = step_of,
+                                                               .bound = MOST_FOLLOWED_STATES,
+                                                               .record = record_members};
     system_scene->tracks[GM_TRACK_SECTION] = (struct gm_track){.key = "section",
                                                                .numbers = 2,
                                                                .section = section,
@@ -747,6 +782,7 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .close = close_problem,
         .start = start,
         .draw = gm_system_draw,
+        .portrait = gm_system_portrait,
         .point = point,
         .failure = gm_system_tell_failure,
     };

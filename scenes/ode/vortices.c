@@ -18,6 +18,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
+#include "scenes/common/trails.h"
 #include "scenes/ode/asked.h"
 
 extern const struct gm_scene gm_scene_vortices;
@@ -62,6 +63,7 @@ static const struct gm_parameter parameters[] = {
                    "passive particles, half of them dyed", .logarithmic = true),
     GM_INTEGER_ROW(struct gm_vortices, seed, "seed", "1", 0, 1e9, "of the random start"),
     GM_SHOW_ROW(struct gm_vortices),
+    GM_TRAILS_ROW(struct gm_vortices),
 };
 
 /* The exact solution of a regular polygon: it turns as a whole. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
+#include "scenes/common/trails.h"
 #include "scenes/ode/vortices_draw.h"
 
 /* The greatest distance from the middle that is drawn; the number of vortices from which on a dye shows them,
@@ -81,6 +82,8 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
     const struct gm_entries *trail = &lane->entries[GM_TRAIL], *past = &lane->entries[GM_PAST];
     const size_t followed = trail->width / 2, carried = gm_vortices_carried(vortices);
     const bool images = vortices->configuration == GM_REDUCED;
+    const size_t past_from = gm_trails_from(vortices->trails, past, lane->run->t),
+                 trail_from = gm_trails_from(vortices->trails, trail, lane->run->t);
     const size_t most = past->count > trail->count ? past->count : trail->count;
     const double *state = gm_run_state(lane->run);
     double *points = gm_picture_memory(picture, 2 * (most + carried + 1) * sizeof *points);
@@ -95,7 +98,7 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
             }
             if (followed <= 8) {
                 gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.22, .width = 2},
-                               points, past->count);
+                               points + 2 * past_from, past->count - past_from);
             }
         }
         for (size_t i = 0; i < followed; i++) {
@@ -105,8 +108,8 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
             }
             points[2 * trail->count] = sign * state[i];
             points[2 * trail->count + 1] = sign * state[carried + i];
-            gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, points,
-                          trail->count + 1);
+            gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID},
+                          points + 2 * trail_from, trail->count + 1 - trail_from);
         }
         for (size_t i = 0; i < carried; i++) {
             points[2 * i] = sign * state[i];

@@ -14,6 +14,7 @@ struct gm_vortices {
     double angle, strength, multipole, distance; /* strength and multipole are a problem's parameters */
     long count, tracers, seed;
     int show;
+    char trails[GM_TEXT_SIZE];
 };
 
 /* Returns the number of vortices in the state: two of the reduced system, whose images are z -> -z. */

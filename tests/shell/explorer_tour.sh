@@ -134,7 +134,7 @@ for tour in energy chaos space-time mesh galilei room worth; do
     wait_for "▸ $tour"
 done
 keys Enter
-wait_for 'What is it worth\? 1/5'
+wait_for 'What is it worth\? 1/6'
 keys q
 wait_for 'left 0'
 
@@ -257,7 +257,7 @@ wait_for 'Predict: Which line'
 keys n
 wait_for 'what an accuracy costs'
 keys n
-wait_for '3/5: Many schemes'
+wait_for '3/6: Many schemes'
 keys q q # its study may not be finished
 wait_for 'left 0'
 

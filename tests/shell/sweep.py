@@ -171,8 +171,10 @@ def test_warnings(one):
           in done.stderr, f"the first warning: {warned[:1]}, {done.stderr}")
     done = sweep("kepler", "dt=0.1,0.3", "until=1.2", "scheme=midpoint")
     check(done.stderr == "", f"runs without a warning: {done.stderr}")
-    done = sweep("kepler", "dt=0.1,0.5", "until=1.2", "scheme=rk4")
-    check("1 of 2 runs made now is ok, but with a warning; the first, run 1: the run ends at t = 1 " in done.stderr,
+    done = sweep("kepler", "dt=0.1,0.5", "until=1.2", "scheme=rk4,gsl-rk4")
+    check(done.stderr == "", f"an end that is not until is a message: {done.stderr}")
+    done = sweep("kepler", "eccentricity=0.5,0.9999", "steps=30", "scheme=verlet")
+    check("1 of 2 runs made now is ok, but with a warning; the first, run 1: energy_error is " in done.stderr,
           f"one warning: {done.stderr}")
 
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steps that follow the motion: what they keep over long times beside an ordinary control of the error, in what
-   phase space they are symplectic, a monitor that was typed, and where they end. */
+   phase space they are symplectic, a monitor that was typed, and where they end. dopri5 against an independent
+   implementation. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -269,6 +270,140 @@ static void where_they_end(void **unused)
     }
 }
 
+static struct gm_run *open_tolerant(const struct gm_problem *problem, double tolerance, double dt,
+                                    const double *start)
+{
+    const struct gm_settings tolerant = {.tolerance = tolerance};
+    struct gm_run *run = gm_run_open(problem, gm_scheme_find("dopri5"), &tolerant, 0, dt, start);
+    assert_non_null(run);
+    return run;
+}
+
+static void expect_near(const char *what, double value, double expected, double part)
+{
+    if (!(fabs(value - expected) <= part * fabs(expected))) {
+        fail_msg("dopri5: %s is %.6g, expected %.6g", what, value, expected);
+    }
+}
+
+/* The numbers are of another implementation in double precision. The distance of rows changes nothing. */
+static void dormand_prince_on_orbits(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double eccentricity, tolerance, periods, error, own_steps, evaluations;
+    } lines[] = {
+        {0.5, 0, 10, 1.4598e-4, 281, 2216},         {0.5, 1e-6, 100, 1.4477e-3, 2808, 22148},
+        {0.5, 1e-8, 10, 3.5253e-7, 671, 4028},      {0.5, 1e-8, 100, 3.478e-6, 6695, 40172},
+        {0.5, 1e-10, 100, 3.694e-8, 16895, 101372}, {0.9, 1e-8, 100, 7.128e-6, 11230, 80324},
+    };
+    static const int rows[] = {1, 7, 20000};
+    for (size_t i = 0; i < GM_COUNT(lines); i++) {
+        double start[4], ends[GM_COUNT(rows)][4];
+        unsigned long evaluations = 0;
+        nearest_point(lines[i].eccentricity, start);
+        for (size_t k = 0; k < GM_COUNT(rows); k++) {
+            struct gm_run *run = open_tolerant(&gm_problem_kepler, lines[i].tolerance,
+                                               lines[i].periods * 2 * M_PI / rows[k], start);
+            assert_int_equal(gm_run_advance(run, rows[k]), GM_OK);
+            memcpy(ends[k], gm_run_state(run), sizeof ends[k]);
+            evaluations = k == 0 ? run->evaluations : evaluations;
+            assert_int_equal(run->evaluations, evaluations);
+            assert_int_equal(run->evaluations, 2 + 6 * (run->own_steps + run->rejected));
+            expect_near("own steps", (double)run->own_steps, lines[i].own_steps, 0.03);
+            gm_run_close(run);
+            assert_true(typed_apart(ends[k], ends[0], 4) < 1e-9);
+        }
+        expect_near("the energy error", 2 * fabs(energy_of(ends[0]) + 0.5), lines[i].error, 0.15);
+        expect_near("the number of evaluations", (double)evaluations, lines[i].evaluations, 0.03);
+    }
+}
+
+static void dormand_prince_between_steps(void **unused)
+{
+    (void)unused;
+    enum { ROWS = 739 };
+    struct typed typed;
+    type(&typed, "coordinates: q\nH: p_q^2/2 + q^2/2\nstart: q = 1, p_q = 0\n");
+    struct gm_run *run = open_tolerant(&typed.problem, 1e-8, 20. / ROWS, typed.start);
+    double largest = 0;
+    for (int i = 1; i < ROWS; i++) {
+        assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        largest = fmax(largest, fabs(gm_run_state(run)[0] - cos(run->t)));
+        largest = fmax(largest, fabs(gm_run_state(run)[1] + sin(run->t)));
+    }
+    expect_near("the largest error between steps", largest, 8e-8, 0.15);
+    gm_run_close(run);
+    untype(&typed);
+    type(&typed, "rate: x = y\nrate: y = 5*(1 - x^2)*y - x\nstart: x = 2, y = 0\n");
+    run = open_tolerant(&typed.problem, 1e-9, 0.1, typed.start);
+    assert_int_equal(gm_run_advance(run, 200), GM_OK);
+    assert_true(fabs(gm_run_state(run)[0] + 1.6012969) < 2e-6);
+    assert_true(fabs(gm_run_state(run)[1] - 0.1983267) < 2e-6);
+    gm_run_close(run);
+    untype(&typed);
+}
+
+/* Another dt continues with the same own steps; another state, or the other direction, starts anew. */
+static void dormand_prince_goes_on(void **unused)
+{
+    (void)unused;
+    double start[4];
+    nearest_point(0.5, start);
+    struct gm_run *run = open_tolerant(&gm_problem_kepler, 1e-9, 0.125, start);
+    struct gm_run *whole = open_tolerant(&gm_problem_kepler, 1e-9, 0.125, start);
+    gm_run_advance(run, 80);
+    gm_run_set_step(run, 0.0625);
+    gm_run_advance(run, 160);
+    gm_run_advance(whole, 160);
+    assert_true(run->t == whole->t && run->evaluations == whole->evaluations);
+    assert_memory_equal(gm_run_state(run), gm_run_state(whole), sizeof start);
+    gm_run_set_step(run, -0.5);
+    assert_int_equal(gm_run_advance(run, 40), GM_OK);
+    assert_true(run->t == 0);
+    assert_true(typed_apart(gm_run_state(run), start, 4) < 1e-5);
+    gm_run_set_state(whole, start, NULL);
+    const unsigned long before = whole->own_steps;
+    assert_int_equal(gm_run_advance(whole, 1), GM_OK);
+    struct gm_run *fresh = open_tolerant(&gm_problem_kepler, 1e-9, 0.125, start);
+    assert_int_equal(gm_run_advance(fresh, 1), GM_OK);
+    assert_int_equal(whole->own_steps - before, fresh->own_steps);
+    assert_true(typed_apart(gm_run_state(whole), gm_run_state(fresh), 4) < 1e-12);
+    gm_run_close(run);
+    gm_run_close(whole);
+    gm_run_close(fresh);
+}
+
+static void dormand_prince_fails(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        double dt, least, most; /* between these times the run ends */
+        enum gm_status status;
+    } lines[] = {
+        {"rate: x = x^2\nstart: x = 1\n", 0.01, 0.98, 1, GM_BLOW_UP},
+        {"rate: x = 1/x\nstart: x = 1\n", -0.01, -0.5, -0.48, GM_STEP_TOO_SMALL},
+        {"rate: x = sqrt(x) - 1\nstart: x = 0\n", 0.01, 0, 0, GM_STEP_TOO_SMALL},
+    };
+    for (size_t i = 0; i < GM_COUNT(lines); i++) {
+        struct typed typed;
+        type(&typed, lines[i].text);
+        for (int rows = 1; rows <= 1000; rows *= 1000) {
+            struct gm_run *run = open_tolerant(&typed.problem, 0, lines[i].dt, typed.start);
+            while (run->status == GM_OK && run->steps < 1000) {
+                gm_run_advance(run, rows);
+            }
+            if (run->status != lines[i].status || !(run->t >= lines[i].least && run->t <= lines[i].most)) {
+                fail_msg("%s: %s at t = %g", lines[i].text, gm_status_name(run->status), run->t);
+            }
+            assert_true(isfinite(gm_run_state(run)[0]));
+            gm_run_close(run);
+        }
+        untype(&typed);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,6 +412,10 @@ int main(void)
         cmocka_unit_test(a_typed_monitor),
         cmocka_unit_test(a_typed_attraction),
         cmocka_unit_test(where_they_end),
+        cmocka_unit_test(dormand_prince_on_orbits),
+        cmocka_unit_test(dormand_prince_between_steps),
+        cmocka_unit_test(dormand_prince_goes_on),
+        cmocka_unit_test(dormand_prince_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

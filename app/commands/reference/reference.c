@@ -18,6 +18,9 @@ char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size
     char low[40], high[40];
     switch (row->type) {
     case GM_TEXT:
+        if (row->choices) {
+            return gm_parameter_choices(row, text, size);
+        }
         snprintf(text, size, "a word");
         return text;
     case GM_BOOLEAN:

@@ -112,6 +112,20 @@ static enum gm_key_result order_visit(const struct gm_keystroke *press, const st
                                                 .value = key->code == KEY_END ? press->shot->reach : 0});
 }
 
+/* Shows or hides the phase portrait, if the scene has one. */
+static enum gm_key_result order_portrait(const struct gm_keystroke *press, const struct gm_key_code *key)
+{
+    for (size_t i = 0; i < press->shot->parameter_count; i++) {
+        const struct gm_parameter *row = press->shot->parameters[i].row;
+        if (strcmp(row->key, "portrait") == 0) {
+            return gm_keystroke_order(press, (struct gm_order){.kind = (enum gm_order_kind)key->meaning,
+                                                               .amount = key->amount,
+                                                               .row = row});
+        }
+    }
+    return GM_KEY_DONE;
+}
+
 static enum gm_key_result order_parameter(const struct gm_keystroke *press, const struct gm_key_code *key)
 {
     size_t chosen = press->face->parameter;

@@ -145,7 +145,8 @@ static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_mo
     double first[GM_POWERS], terms[GM_POWERS];
     const int plain = gm_scene_observable(lane->scene, "energy_error");
     const double divisor = plain >= 0 ? gm_lane_divisor(lane, (size_t)plain) : 1;
-    const int64_t steps = cell->spec->steps, looks = steps < LOOKS ? steps : LOOKS;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
+    const int64_t steps = gm_run_steps_at(lane->run, until), looks = steps < LOOKS ? steps : LOOKS;
     look(lane, energy, y, first);
     for (int64_t i = 0; i <= looks && lane->run->status == GM_OK; i++) {
         const int64_t step = looks == steps ? i : (int64_t)((double)steps * (double)i / (double)looks);
@@ -188,21 +189,17 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
 static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number)
 {
     (void)grid;
-    gm_row_number(row, "dt", cell->dt, 17);
-    gm_row_text(row, "status", gm_status_name(cell->status));
-    gm_row_number(row, "t", cell->t, 17);
+    gm_row_put(row, "dt %.17g, status %s, t %.17g", cell->dt, gm_status_name(cell->status), cell->t);
     if (row->form == GM_ROW_JSON) {
         gm_row_list(row, "errors", cell->errors, GM_POWERS);
         gm_row_list(row, "terms", cell->terms, GM_POWERS);
-        gm_row_count(row, "best", cell->best);
+        gm_row_put(row, "best %i", cell->best);
     } else {
-        gm_row_count(row, "power", number);
-        gm_row_number(row, "error", cell->errors[number], 9);
-        gm_row_number(row, "term", cell->terms[number], 9);
+        gm_row_put(row, "power %i, error %.9g, term %.9g", number, cell->errors[number], cell->terms[number]);
     }
-    gm_row_number(row, "gamma", isfinite(cell->gamma) ? cell->gamma : NAN, 9);
+    gm_row_put(row, "gamma %.9g", isfinite(cell->gamma) ? cell->gamma : NAN);
     if (row->form == GM_ROW_JSON) {
-        gm_row_number(row, "drift", exp(-cell->gamma / (2 * cell->dt)), 17);
+        gm_row_put(row, "drift %.17g", exp(-cell->gamma / (2 * cell->dt)));
     }
 }
 

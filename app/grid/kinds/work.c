@@ -117,20 +117,49 @@ static void edit(struct gm_grid *grid, struct gm_arguments *words)
     }
 }
 
+static int falling(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x < *y) - (*x > *y);
+}
+
+/* The first lane with one tolerance after the other: the given ones, or 1e-3 to 1e-12. */
+static const struct gm_lane_spec *tolerant_specs(struct gm_grid *grid, size_t *count)
+{
+    enum { TOLERANCES = 10 };
+    const struct gm_request *request = &grid->request;
+    const bool typed = is_typed(grid, "tolerance");
+    const size_t most = typed ? request->count : TOLERANCES;
+    struct gm_lane_spec *specs = gm_arena_take(grid->arena, most, sizeof *specs);
+    struct gm_grid_axis axis = {.values = gm_arena_take(grid->arena, most, sizeof *axis.values)};
+    for (size_t i = 0; i < most; i++) {
+        gm_axis_add(&axis, typed ? request->lanes[i].settings.tolerance : pow(10, -3 - (double)i));
+    }
+    qsort(axis.values, axis.count, sizeof *axis.values, falling);
+    for (size_t i = 0; i < axis.count; i++) {
+        specs[i] = request->lanes[0];
+        specs[i].settings.tolerance = axis.values[i];
+    }
+    *count = axis.count;
+    return specs;
+}
+
 /* A line for each scheme, however often it is named. */
 static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
 {
     if (gm_grid_find(grid, scheme)) {
         return;
     }
-    struct gm_grid_line *line = gm_grid_add(grid, scheme, grid->values.count * grid->steps.count);
+    size_t ladder = grid->steps.count;
+    const struct gm_lane_spec *specs = scheme->family->by_tolerance ? tolerant_specs(grid, &ladder) : NULL;
+    struct gm_grid_line *line = gm_grid_add(grid, scheme, grid->values.count * ladder);
     for (size_t r = 0; r < grid->values.count; r++) {
-        for (size_t k = 0; k < grid->steps.count; k++) {
+        for (size_t k = 0; k < ladder; k++) {
             const double value = grid->values.values[r];
             line->cells[line->count++] =
-                (struct gm_grid_cell){.spec = &grid->request.lanes[0],
+                (struct gm_grid_cell){.spec = specs ? &specs[k] : &grid->request.lanes[0],
                                       .value = value,
-                                      .step = grid->steps.values[k],
+                                      .step = grid->steps.values[specs ? 0 : k],
                                       .error = NAN,
                                       .resolution = grid->smaller_is_finer ? 1 / value : value};
         }
@@ -210,12 +239,6 @@ static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, boo
     if (grid->best) {
         add_best(grid, lane);
     }
-}
-
-static int falling(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x < *y) - (*x > *y);
 }
 
 /* The different values that the lanes have of a parameter. */
@@ -334,7 +357,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     choose_resolutions(grid);
     /* one open lane shows which measure has a number and which schemes fit */
     const struct gm_lane *lane =
-        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+        gm_lane_in(grid->arena, gm_request_open_lane(&grid->request, 0, message), message);
     choose_measure(grid, lane);
     choose_schemes(grid, lane, is_typed(grid, "scheme"));
     gm_arena_drop(grid->arena, lane);
@@ -363,7 +386,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     }
     timing->dt = grid->reference_step;
     struct gm_lane *lane =
-        gm_grid_keep(grid, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
+        gm_lane_in(grid->arena, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
     lane->unfollowed = !lane->scene->stop;
     for (int percent = 0; percent < 100 && !gm_listener_stops(grid->listener); percent++) {
@@ -405,7 +428,8 @@ static const struct gm_scheme *trusted_of(const struct gm_grid *grid, const stru
     const bool named = trusted != NULL;
     for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (gm_scheme_fits(scheme, problem) && !scheme->family->adaptive && scheme->order >= 4) {
+        if (gm_scheme_fits(scheme, problem) && !scheme->family->adaptive && !scheme->family->by_tolerance &&
+            scheme->order >= 4) {
             trusted = trusted && trusted->order >= scheme->order ? trusted : scheme;
         }
     }
@@ -454,7 +478,7 @@ static void prepare(struct gm_grid *grid)
         return;
     }
     const struct gm_lane *lane =
-        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+        gm_lane_in(grid->arena, gm_request_open_lane(&grid->request, 0, message), message);
     find_solution(grid, lane);
     gm_arena_drop(grid->arena, lane);
 }
@@ -582,7 +606,8 @@ static bool is_enough(const struct gm_grid *grid, const struct gm_grid_cell *las
 static bool is_needless(const struct gm_grid *grid, const struct gm_grid_line *line, size_t cell)
 {
     const struct gm_grid_cell *last = &line->cells[cell] - 1;
-    const size_t before = cell % grid->steps.count; /* cells before it with the same resolution */
+    const size_t ladder = line->count / grid->values.count;
+    const size_t before = cell % ladder; /* cells before it with the same resolution */
     return line->ended || (before > 0 && !last->tried) || (before > 1 && is_enough(grid, last));
 }
 
@@ -610,15 +635,15 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     if (grid->parameter) {
         gm_row_number(row, grid->parameter->key, cell->value, 17);
     }
-    gm_row_number(row, "dt", cell->dt, 17);
-    gm_row_count(row, "steps", (double)cell->steps);
-    gm_row_number(row, "t", cell->t, 17);
-    gm_row_text(row, "status", gm_status_name(cell->status));
+    gm_row_put(row, "dt %.17g, steps %.0f, t %.17g, status %s", cell->dt, (double)cell->steps, cell->t,
+               gm_status_name(cell->status));
+    if (row->form == GM_ROW_JSON && cell->spec->settings.tolerance > 0) {
+        gm_row_number(row, "tolerance", cell->spec->settings.tolerance, 17);
+    }
     gm_row_number(row, row->form == GM_ROW_HEAD ? grid->measure : "error",
                   isfinite(cell->error) ? cell->error : NAN, 17);
-    gm_row_number(row, "seconds", cell->seconds, 6);
-    gm_row_count(row, "evaluations", cell->evaluations);
-    gm_row_count(row, "solves", cell->solves);
+    gm_row_put(row, "seconds %.6g, evaluations %.0f, solves %.0f", cell->seconds, cell->evaluations,
+               cell->solves);
 }
 
 const struct gm_study_row gm_study_work = {.name = "work-precision",

@@ -49,7 +49,8 @@ bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *s
                      int64_t steps, bool reflected, double push, double *end);
 
 /* The order: the slope of log error against log dt, against GSL's Prince-Dormand stepper at its tightest
-   tolerance. NaN if it cannot be measured: then nothing is settled. */
+   tolerance; dt of a scheme by tolerance is the mean length of its own steps. NaN if it cannot be measured: then
+   nothing is settled. */
 double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme,
                         struct gm_ladder *ladder);
 

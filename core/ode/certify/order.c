@@ -43,23 +43,27 @@ static bool solve_at_times(const struct gm_subject *subject, double until,
     return true;
 }
 
-/* NaN if the run fails */
-static double error_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                       const struct gm_settings *settings, double dt, int64_t steps_between,
-                       double exact[TIMES][GM_SUBJECT_COMPONENTS])
+struct trial {
+    double error; /* NaN: the run failed */
+    double step;  /* mean length of a scheme's own steps by a tolerance */
+};
+
+static struct trial make_trial(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                               const struct gm_settings *settings, double dt, int64_t steps_between,
+                               double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
     struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
     if (!run) {
-        return NAN;
+        return (struct trial){.error = NAN};
     }
     double sum = 0;
     for (int k = 0; k < TIMES; k++) {
         gm_run_advance(run, steps_between);
         sum += gm_distance(gm_run_state(run), exact[k], subject->problem.n);
     }
-    const bool good = run->status == GM_OK;
+    const struct trial trial = {run->status == GM_OK ? sum : NAN, run->t / (double)run->own_steps};
     gm_run_close(run);
-    return good ? sum : NAN;
+    return trial;
 }
 
 /* Returns the error of an adaptive scheme against the solution at the time that it reached. */
@@ -94,6 +98,7 @@ static double slope(const double *x, const double *y, int count)
     return above / below;
 }
 
+/* Returns the slope against the tolerance or, for a scheme with an order, against the mean step. */
 static double measure_by_tolerance(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
     enum { LADDER = 4 };
@@ -104,8 +109,9 @@ static double measure_by_tolerance(const struct gm_subject *subject, const struc
     }
     for (int i = 0; i < LADDER; i++) {
         const struct gm_settings settings = {.tolerance = pow(10, -4 - 2 * i)};
-        x[i] = log(settings.tolerance);
-        e[i] = log(error_of(subject, scheme, &settings, until / TIMES, 1, exact));
+        const struct trial trial = make_trial(subject, scheme, &settings, until / TIMES, 1, exact);
+        x[i] = log(scheme->family->by_tolerance ? trial.step : settings.tolerance);
+        e[i] = log(trial.error);
     }
     return slope(x, e, LADDER);
 }
@@ -115,7 +121,7 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
 {
     enum { PER_OCTAVE = 4, COARSER = 2 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
     *ladder = (struct gm_ladder){.count = 0};
-    if (scheme->order == 0) {
+    if (scheme->order == 0 || scheme->family->by_tolerance) {
         const double order = measure_by_tolerance(subject, scheme);
         ladder->settled = !isnan(order);
         return order;
@@ -146,7 +152,7 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
         const double dt = until / (TIMES * (adaptive ? finer : (double)between));
         const struct gm_settings settings = gm_subject_settings(dt);
         const double error = adaptive ? error_at_own_time(subject, scheme, &settings, dt, until)
-                                      : error_of(subject, scheme, &settings, dt, between, exact);
+                                      : make_trial(subject, scheme, &settings, dt, between, exact).error;
         if (error < plateau) {
             break;
         }

@@ -45,9 +45,9 @@ struct gm_tangent {
 
 const char *gm_tangent_word(const struct gm_scheme *scheme)
 {
-    return scheme->family->not_resumable                        ? "none"
-           : scheme->exact || scheme->family->coefficients_open ? "exact"
-                                                                : "differences";
+    return scheme->family->not_resumable || scheme->family->by_tolerance ? "none"
+           : scheme->exact || scheme->family->coefficients_open          ? "exact"
+                                                                         : "differences";
 }
 
 /* ---- opening ---- */

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/ode/kernel/loops.h"
+#include "scenes/common/trails.h"
+
 /* The bright end of a path is this part of the whole run. */
 static const double bright = 0.15;
 
@@ -36,19 +39,31 @@ size_t gm_system_bright_from(const struct gm_lane *lane)
     return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
 }
 
+size_t gm_system_trail_from(const struct gm_lane *lane, size_t track)
+{
+    const struct gm_system_lane *parameters = lane->parameters;
+    return gm_trails_from(parameters->trails, &lane->entries[track], lane->run->t);
+}
+
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
+    static const struct gm_sight over_time = {
+        .name = "", .dimensions = 2, .over_time = true, .labels = {"t"}, .components = {-1, -1}};
     const struct gm_system_scene *system_scene = lane->owner;
-    const char *name =
-        system_scene->common[GM_ROW_SHOW - gm_system_skipped(system_scene)].choices[lane->show];
-    if (system_scene->has_section && strcmp(name, system_scene->section.name) == 0) {
+    if (system_scene->has_section && strcmp(lane->show, system_scene->section.name) == 0) {
         return &system_scene->section;
     }
     size_t i = system_scene->sight_count - system_scene->pair_count;
-    while (i < system_scene->sight_count && strcmp(system_scene->sights[i].name, name) != 0) {
+    while (i < system_scene->sight_count && strcmp(system_scene->sights[i].name, lane->show) != 0) {
         i++;
     }
-    return &system_scene->sights[i < system_scene->sight_count ? i : 0];
+    if (i == system_scene->sight_count &&
+        strncmp(lane->show, GM_SHOW_OVER_TIME, strlen(GM_SHOW_OVER_TIME)) == 0) {
+        return &over_time;
+    }
+    const struct gm_sight *sight = &system_scene->sights[i < system_scene->sight_count ? i : 0];
+    const bool is_plane = sight->over_time || (sight->components[0] == 0 && sight->components[1] == 1);
+    return lane->portrait && !is_plane ? &system_scene->sights[system_scene->sight_count - 1] : sight;
 }
 
 /* Writes the exact solution at the current time, from the file, or from the problem. */
@@ -148,21 +163,21 @@ static void put_all_exact(const struct gm_view *view, double *variables, size_t 
     free(one);
 }
 
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
-                         const double *times, size_t count, double *values)
+void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
+                         const struct gm_states *states, double *values)
 {
     const struct gm_system_lane *lane = view->parameters;
     const struct gm_user_system *system = &lane->owner->system;
-    const size_t m = view->problem->m, n = system->n;
+    const size_t m = view->problem->m, n = system->n, count = states->count;
     double *variables = calloc(system->variable_count * count, sizeof *variables);
     if (!variables) {
         fill(values, NAN, count * tape->outputs);
         return;
     }
-    memcpy(variables, states, n * count * sizeof *variables);
-    memcpy(variables + n * count, times, count * sizeof *variables);
+    memcpy(variables, states->states, n * count * sizeof *variables);
+    memcpy(variables + n * count, states->times, count * sizeof *variables);
     for (size_t i = 0; i < n; i++) {
-        fill(variables + (system->initial + i) * count, view->start[i * m + gm_system_centre(view)], count);
+        fill(variables + (system->initial + i) * count, view->start[i * m + states->member], count);
     }
     for (size_t row = GM_SYSTEM_ROWS; row < lane->owner->row_count; row++) {
         if (gm_system_is_parameter(lane->owner, row)) {
@@ -176,22 +191,97 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
     free(variables);
 }
 
+/* Writes the values of a curve. When out of memory they are NaN. */
+static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
+                      const struct gm_states *states, double *values)
+{
+    const size_t n = gm_system_scene_of(view)->system.n, all = view->problem->n, count = states->count;
+    if (!curve->tape && curve->number < n) {
+        memcpy(values, states->states + curve->number * count, count * sizeof *values);
+        return;
+    }
+    const size_t rows = curve->tape ? curve->tape->outputs : 2 * all;
+    double *numbers = malloc(rows * count * sizeof *numbers);
+    if (!numbers) {
+        fill(values, NAN, count);
+    } else if (curve->tape) {
+        gm_system_values_of(curve->tape, view, states, numbers);
+        for (size_t k = 0; k < count; k++) {
+            values[k] = rows == 1 || numbers[count + k] > 0 ? numbers[k] : NAN;
+        }
+    } else {
+        memcpy(numbers, states->states, n * count * sizeof *numbers);
+        for (size_t i = n; i < all; i++) { /* equations that hold the time */
+            memcpy(numbers + i * count, states->times, count * sizeof *numbers);
+        }
+        gm_field(view->problem, numbers, numbers + all * count, count);
+        memcpy(values, numbers + (all + curve->number - n) * count, count * sizeof *values);
+    }
+    free(numbers);
+}
+
+/* Writes the numbers of a sight for these states, as gm_system_values_of. */
+static void put_sight(const struct gm_sight *sight, const struct gm_view *view,
+                      const struct gm_states *states, double *values)
+{
+    if (!sight->curves) {
+        gm_system_values_of(&sight->tape, view, states, values);
+        return;
+    }
+    for (size_t i = 0; i < sight->bodies; i++, values += 2 * states->count) {
+        memcpy(values, states->times, states->count * sizeof *values);
+        put_curve(&sight->curves[i], view, states, values + states->count);
+    }
+}
+
+void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values)
+{
+    const size_t n = gm_system_scene_of(view)->system.n, m = view->problem->m;
+    double *state = sight->curves ? malloc(n * sizeof *state) : NULL;
+    for (size_t c = 0; state && c < n; c++) {
+        state[c] = view->state[c * m + member];
+    }
+    if (state) {
+        put_sight(sight, view, &(struct gm_states){state, &view->t, 1, member}, values);
+    } else if (sight->curves) {
+        fill(values, NAN, gm_sight_numbers(sight));
+    } else {
+        gm_system_values(&sight->tape, view, member, values);
+    }
+    free(state);
+}
+
+size_t gm_system_followed(const struct gm_view *view)
+{
+    enum { MOST_MEMBERS = 64, MOST_NUMBERS = 4096 };
+    const size_t others = view->problem->m - 1, n = gm_system_scene_of(view)->system.n,
+                 most = MOST_NUMBERS / n < MOST_MEMBERS ? MOST_NUMBERS / n : MOST_MEMBERS;
+    return others < most ? others : most;
+}
+
+size_t gm_system_followed_member(const struct gm_view *view, size_t shown)
+{
+    return shown * (view->problem->m - 1) / gm_system_followed(view);
+}
+
 struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
-                              const struct gm_sight *sight)
+                              size_t shown, const struct gm_sight *sight)
 {
     enum { BATCH = 256 };
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_entries *entries = &lane->entries[track];
-    const size_t n = entries->width, width = sight->dimensions * sight->bodies;
+    const size_t n = gm_system_scene_of(&view)->system.n, width = sight->dimensions * sight->bodies,
+                 member = track == GM_TRACK_MEMBERS ? gm_system_followed_member(&view, shown)
+                                                    : gm_system_centre(&view);
     double *points = gm_picture_memory(picture, (entries->count * width + 1) * sizeof *points),
            *states = gm_picture_memory(picture, BATCH * (n + gm_sight_numbers(sight)) * sizeof *states);
     for (size_t first = 0, count; points && states && first < entries->count; first += count) {
         count = entries->count - first < BATCH ? entries->count - first : BATCH;
         for (size_t i = 0; i < n * count; i++) {
-            states[i] = entries->values[(first + i % count) * n + i / count];
+            states[i] = entries->values[(first + i % count) * entries->width + shown * n + i / count];
         }
         double *values = states + n * count;
-        gm_system_values_of(&sight->tape, &view, states, entries->times + first, count, values);
+        put_sight(sight, &view, &(struct gm_states){states, entries->times + first, count, member}, values);
         for (size_t i = 0; i < width * count; i++) {
             points[first * width + i] = values[i % width * count + i / width];
         }

@@ -14,28 +14,56 @@
 /* The variable of a row without one: a choice, or a row of other systems. */
 #define GM_NO_VARIABLE SIZE_MAX
 
+/* A quantity over time: a formula, of which the second output is its condition, if it has two; or a component of
+   the state, below n, or its rate, from n on. */
+struct gm_curve {
+    const char *name;
+    const struct gm_tape *tape; /* NULL: a component or a rate */
+    size_t number;
+    double period; /* period of an angle, which is drawn unwrapped; 0: not an angle */
+};
+
 /* A sight of the state: bodies and rods, or one point, in a plane or in space. */
 struct gm_sight {
-    const char *name;      /* the word of show= */
-    size_t dimensions;     /* 2, or 3 in space */
-    size_t bodies, rods;   /* a body has `dimensions` numbers, a rod twice as many */
-    struct gm_tape tape;   /* these numbers as formulas of all variables */
-    bool *fixed;           /* for each body: it does not move */
-    const char *labels[3]; /* labels of the axes; NULL: without names */
-    bool over_time;        /* the first axis is the time */
-    bool angles[2];        /* an axis is an angle */
-    long components[2];    /* the component of the state on an axis; -1: another formula */
+    const char *name;              /* the word of show= */
+    size_t dimensions;             /* 2, or 3 in space */
+    size_t bodies, rods;           /* a body has `dimensions` numbers, a rod twice as many */
+    struct gm_tape tape;           /* these numbers as formulas of all variables */
+    const struct gm_curve *curves; /* one per body, over time, instead of the tape; NULL: none */
+    bool *fixed;                   /* for each body: it does not move */
+    const char *labels[3];         /* labels of the axes; NULL: without names */
+    bool over_time;                /* the first axis is the time */
+    bool angles[2];                /* an axis is an angle */
+    long components[2];            /* the component of the state on an axis; -1: another formula */
 };
 
 enum {
     GM_SYSTEM_ROWS = 2 /* dt and until; the system's own follow, then members, spread, shape and show */
 };
 /* the rows after the system's own */
-enum { GM_ROW_MEMBERS, GM_ROW_SPREAD, GM_ROW_SHAPE, GM_ROW_SHOW, GM_COMMON_ROWS };
+enum {
+    GM_ROW_MEMBERS,
+    GM_ROW_SPREAD,
+    GM_ROW_SHAPE,
+    GM_ROW_SHOW,
+    GM_ROW_TRAILS,
+    GM_ROW_PORTRAIT,
+    GM_ROW_WINDOW,
+    GM_COMMON_ROWS
+};
 enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
-enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and possibly the modified energy */ };
-enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
-enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12, GM_MOST_SURFACES = 8 };
+/* The words of show=: all, then the section, then all components over time, then planes, and possibly the
+   modified energy. */
+enum { GM_SHOW_ALL, GM_SHOW_SECTION };
+#define GM_SHOW_OVER_TIME "t:"
+enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_MEMBERS, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
+enum {
+    GM_MOST_CONDITIONS = 8,
+    GM_MOST_SIGHTS = 64,
+    GM_MOST_PREFERRED = 12,
+    GM_MOST_SURFACES = 8,
+    GM_MOST_OVER_TIME = 8
+};
 
 struct gm_hook; /* scenes/ode/hooks/hook.h */
 
@@ -85,7 +113,8 @@ struct gm_system_lane {
     const struct gm_system_scene *owner;
     long members;
     double spread;
-    int shape, show;
+    int shape, portrait;
+    char show[GM_TEXT_SIZE], trails[GM_TEXT_SIZE], window[GM_TEXT_SIZE];
     struct gm_camera camera;
     double values[]; /* values of the rows after dt and until; then a byte per row, 1 if it was given */
 };
@@ -112,28 +141,42 @@ size_t gm_system_centre(const struct gm_view *view);
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
 /* Writes the values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
-/* Writes the values of a tape for `count` other states of the last member, each with its time: struct
-   gm_scene, stops. */
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
-                         const double *times, size_t count, double *values);
+/* Other states of one member, each with its time: component c of the k-th is states[c * count + k]. */
+struct gm_states {
+    const double *states, *times;
+    size_t count, member;
+};
+/* Writes the values of a tape for these states: output i of the k-th is values[i * count + k]. */
+void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
+                         const struct gm_states *states, double *values);
+/* Writes the numbers of a sight for one member of a view's state. */
+void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values);
 /* The numbers of a sight's bodies in every entry of a track: `width` per entry. */
 struct gm_path {
     const double *points;
     size_t count, width;
 };
-/* Returns the path of a lane's last member in a track of states, in the picture's memory; empty when out of
-   memory. */
+/* Returns the path of a lane's last member in a track of states, or of member `shown` of GM_TRACK_MEMBERS, in the
+   picture's memory; empty when out of memory. */
 struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *lane, size_t track,
-                              const struct gm_sight *sight);
-/* Both paths of a lane. */
+                              size_t shown, const struct gm_sight *sight);
+/* The paths of a lane in a sight: of its last member, and, over time, of `member_count` others. */
 struct gm_paths {
-    struct gm_path past, trail;
+    const struct gm_sight *sight;
+    struct gm_path past, trail, *members;
+    size_t member_count;
 };
+/* Returns the number of members, besides the last, that GM_TRACK_MEMBERS follows: at most 64. */
+size_t gm_system_followed(const struct gm_view *view);
+/* Returns the number of the followed member `shown` among all members. */
+size_t gm_system_followed_member(const struct gm_view *view, size_t shown);
 /* Returns the count of numbers that a sight has for a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
 /* Returns the first entry of the past where the path is bright: a part of the whole run. */
 size_t gm_system_bright_from(const struct gm_lane *lane);
-/* Returns the sight that a lane shows. */
+/* Returns the first entry of a track that trails= lets be drawn. */
+size_t gm_system_trail_from(const struct gm_lane *lane, size_t track);
+/* Returns the sight that a lane shows. One without bodies and rods is completed by gm_system_curves. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 
 #endif

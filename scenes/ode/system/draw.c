@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of a user-defined system: bodies and rods, or the phase plane, with the past faint behind the
    present; the section; conserved and observed quantities. */
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +8,10 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/ode/system/curves.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/levels.h"
+#include "scenes/ode/system/phase.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 
@@ -22,77 +23,6 @@ static const struct gm_system_lane *own_of(const struct gm_lane *lane)
     return lane->parameters;
 }
 
-/* ---- formulas as they are read ---- */
-
-static const char *small_letter(char letter, bool above)
-{
-    static const char *const low[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
-    static const char *const high[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    static const struct {
-        char letter;
-        const char *text;
-    } letters[] = {{'a', "ₐ"}, {'e', "ₑ"}, {'i', "ᵢ"}, {'o', "ₒ"},
-                   {'r', "ᵣ"}, {'u', "ᵤ"}, {'v', "ᵥ"}, {'x', "ₓ"}};
-    if (letter >= '0' && letter <= '9') {
-        return (above ? high : low)[(unsigned)(letter - '0') % 10];
-    }
-    for (size_t i = 0; i < GM_COUNT(letters) && !above; i++) {
-        if (letters[i].letter == letter) {
-            return letters[i].text;
-        }
-    }
-    return NULL;
-}
-
-/* Returns names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²". */
-static const char *typeset(struct gm_picture *picture, const char *text)
-{
-    const size_t size = 4 * strlen(text) + 1;
-    char *typed = gm_picture_memory(picture, size), *to = typed;
-    if (!typed) {
-        return text;
-    }
-    for (const char *at = text; *at;) {
-        size_t letters = 0;
-        while (isalpha((unsigned char)at[letters])) {
-            letters++;
-        }
-        const char *put = letters > 0 ? gm_greek(at, letters) : NULL;
-        size_t taken = letters > 0 ? letters : 1;
-        const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
-        if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&
-            !isalnum((unsigned char)at[1] ? at[2] : 'x')) {
-            put = small_letter(at[1], at[0] == '^');
-            taken = put ? 2 : 1;
-        } else if (letters == 0 && isdigit((unsigned char)at[0]) && at > text &&
-                   isalpha((unsigned char)at[-1])) {
-            put = small_letter(at[0], false);
-        } else if (at[0] == '[') {
-            const size_t digits = strspn(at + 1, "0123456789");
-            if (digits > 0 && at[1 + digits] == ']') {
-                for (size_t i = 0; i < digits; i++) {
-                    to = stpcpy(to, small_letter(at[1 + i], false));
-                }
-                at += digits + 2;
-                continue;
-            }
-        } else if (at[0] == '-') {
-            put = "−";
-        } else if (at[0] == '*') {
-            put = " ";
-        }
-        if (put) {
-            to = stpcpy(to, put);
-        } else {
-            memcpy(to, at, taken);
-            to += taken;
-        }
-        at += taken;
-    }
-    *to = '\0';
-    return typed;
-}
-
 /* Returns a panel's name, "k_1 = 2, Verlet", with typeset keys and titles of schemes. */
 static const char *typeset_name(struct gm_picture *picture, const char *name)
 {
@@ -102,7 +32,7 @@ static const char *typeset_name(struct gm_picture *picture, const char *name)
         const char *comma = name[length] ? "," : "";
         if (key < length) {
             text = gm_picture_text(picture, "%s%s%.*s%s", text,
-                                   typeset(picture, gm_picture_text(picture, "%.*s", (int)key, name)),
+                                   gm_typeset(picture, gm_picture_text(picture, "%.*s", (int)key, name)),
                                    (int)(length - key), name + key, comma);
         } else {
             text = gm_picture_text(picture, "%s%.*s%s", text, (int)length, name, comma);
@@ -145,21 +75,24 @@ static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 }
 
 /* Returns the range of all that a lane has shown up to now. */
-static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight,
-                                 const struct gm_paths *paths, double *numbers)
+static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_paths *paths, double *numbers)
 {
+    const struct gm_sight *sight = paths->sight;
     struct gm_seen range = nothing;
     const struct gm_view view = gm_lane_view(lane);
     const size_t dimensions = sight->dimensions;
     hold(&range, paths->past.points, paths->past.count * sight->bodies, dimensions);
     hold(&range, paths->trail.points, paths->trail.count * sight->bodies, dimensions);
+    for (size_t i = 0; i < paths->member_count; i++) {
+        hold(&range, paths->members[i].points, paths->members[i].count * sight->bodies, dimensions);
+    }
     if (is_disc(lane, sight)) {
         const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
         hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
     }
     const size_t m = view.problem->m, stride = 1 + m / 512;
     for (size_t member = 0; member < m; member += stride) {
-        gm_system_values(&sight->tape, &view, m - 1 - member, numbers);
+        gm_sight_values(sight, &view, m - 1 - member, numbers);
         hold(&range, numbers, gm_sight_numbers(sight) / dimensions, dimensions);
     }
     if (dimensions == 2) {
@@ -263,7 +196,7 @@ static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const cha
     /* a state at rest has no width of its own */
     const double width = high - low > round_off ? 1.06 * (high - low) : size > 0 ? size : 1;
     const double step = exp2(floor(log2(width))) / 8, margin = (width - (high - low)) / 2;
-    *axis = (struct gm_axis){.label = label ? typeset(picture, label) : "",
+    *axis = (struct gm_axis){.label = label ? gm_typeset(picture, label) : "",
                              .low = step * floor((low - margin) / step),
                              .high = step * ceil((high + margin) / step)};
     if (angle) {
@@ -323,54 +256,29 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     return chords == 0 || sum < longest_chord * (double)chords;
 }
 
-/* Averages groups if there are many points, which shows the slow motion in a fast swing. Returns their
-   number. */
-static size_t average(double *points, size_t count)
-{
-    enum { SHOWN = 128 };
-    const size_t group = (count + SHOWN - 1) / SHOWN;
-    size_t made = 0;
-    for (size_t i = 0; i < count; i += group, made++) {
-        const size_t end = i + group < count ? i + group : count;
-        double sum[2] = {0, 0};
-        for (size_t k = 2 * i; k < 2 * end; k++) {
-            sum[k % 2] += points[k] / (double)(end - i);
-        }
-        memcpy(points + 2 * made, sum, sizeof sum);
-    }
-    return made;
-}
-
 static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_paths *paths, size_t body, const double *now)
 {
-    const struct gm_sight *sight = gm_system_sight(lane->parameters);
+    const struct gm_sight *sight = paths->sight;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const size_t past = gm_system_trail_from(lane, GM_TRACK_PAST),
+                 bright = gm_system_bright_from(lane) > past ? gm_system_bright_from(lane) : past;
     const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
     double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
     if (!points) {
         return;
     }
-    size_t count = path_of(&paths->past, sight, body, 0, now, points);
-    if (sight->over_time) { /* dots for steps that are apart; only the last of several values in full */
-        const bool last = body + 1 == sight->bodies;
-        const struct gm_style style = {role, 0.9, 1.6, last ? GM_SOLID : gm_lane_dash(body)};
-        count = last ? count : average(points, count);
-        gm_mark_line(picture, panel, style, points, count, false);
-        gm_mark_switches(picture, panel, lane, false);
-        gm_mark_points(picture, panel, (struct gm_style){role, 1, 3.4, GM_SOLID}, points,
-                       last && count < 1500 ? count : 0);
-        return;
-    }
+    size_t count = path_of(&paths->past, sight, body, past, now, points);
     if (is_curve(panel, points, count)) {
         gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
-        const size_t end = path_of(&paths->past, sight, body, gm_system_bright_from(lane), now, points);
+        const size_t end = path_of(&paths->past, sight, body, bright, now, points);
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
         return;
     }
     gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.25, .width = 1.6}, points,
                    count);
-    const size_t recent = path_of(&paths->trail, sight, body, paths->trail.count / 2, now, points);
+    const size_t trail = gm_system_trail_from(lane, GM_TRACK_TRAIL), half = paths->trail.count / 2;
+    const size_t recent = path_of(&paths->trail, sight, body, trail > half ? trail : half, now, points);
     if (is_curve(panel, points, recent)) {
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2, GM_SOLID}, points, recent);
     }
@@ -385,7 +293,7 @@ static void draw_members(struct gm_picture *picture, struct gm_panel *panel, con
     double *points = gm_picture_memory(picture, 2 * (shown + 1) * sizeof *points);
     for (size_t body = 0; points && body < sight->bodies; body++) {
         for (size_t i = 0; i < shown; i++) {
-            gm_system_values(&sight->tape, &view, i * (m - 1) / shown, numbers);
+            gm_sight_values(sight, &view, i * (m - 1) / shown, numbers);
             wrap(sight, numbers + 2 * body);
             memcpy(points + 2 * i, numbers + 2 * body, 2 * sizeof *points);
         }
@@ -431,7 +339,7 @@ static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const 
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_paths *paths, double *numbers)
 {
-    const struct gm_sight *sight = gm_system_sight(lane->parameters);
+    const struct gm_sight *sight = paths->sight;
     const struct gm_view view = gm_lane_view(lane);
     struct gm_view before = view;
     before.state = view.start;
@@ -444,13 +352,13 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     if (lane->problem.m > 1) {
         draw_members(picture, panel, lane, sight, numbers);
     }
-    gm_system_values(&sight->tape, &before, gm_system_centre(&before), numbers);
+    gm_sight_values(sight, &before, gm_system_centre(&before), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         wrap(sight, numbers + 2 * body);
         gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
-                       numbers + 2 * body, sight->fixed[body] || sight->over_time ? 0 : 1);
+                       numbers + 2 * body, sight->fixed[body] ? 0 : 1);
     }
-    gm_system_values(&sight->tape, &view, gm_system_centre(&view), numbers);
+    gm_sight_values(sight, &view, gm_system_centre(&view), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         if (!sight->fixed[body]) {
             draw_body(picture, panel, lane, paths, body, numbers);
@@ -460,7 +368,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.8, 3, GM_SOLID},
                      numbers + 2 * sight->bodies + 4 * rod, 2, false);
     }
-    const double width = sight->over_time ? 5 : sight->rods > 0 ? 13 : 10;
+    const double width = sight->rods > 0 ? 13 : 10;
     for (int fixed = 1; fixed >= 0; fixed--) { /* bodies that move are in front */
         for (size_t body = 0; body < sight->bodies; body++) {
             const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, width, GM_SOLID};
@@ -475,18 +383,30 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
 static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
 {
     const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
-    return (strcmp(sight->name, "view") == 0 && !sight->over_time) ||
-           (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5);
+    return !sight->over_time && (strcmp(sight->name, "view") == 0 ||
+                                 (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5));
 }
 
 static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_walk *walk,
                       const struct gm_sight *sight, const struct gm_seen *range)
 {
-    set_axis(picture, &panel->x, sight->labels[0], sight->angles[0], range->low[0], range->high[0]);
+    const bool is_wide = gm_system_has_portrait(walk->lane->parameters, sight);
+    for (size_t k = 0; k < 2; k++) {
+        const double margin = is_wide ? (range->high[k] - range->low[k]) / 8 : 0;
+        set_axis(picture, k ? &panel->y : &panel->x, sight->labels[k], sight->angles[k],
+                 range->low[k] - margin, range->high[k] + margin);
+    }
     if (sight->over_time) {
         gm_time_axis(&panel->x, walk->lanes, walk->count);
     }
-    set_axis(picture, &panel->y, sight->labels[1], sight->angles[1], range->low[1], range->high[1]);
+    struct gm_window window;
+    if (gm_system_window(walk->lane->parameters, sight, &window)) {
+        for (size_t k = 0; k < 2; k++) {
+            struct gm_axis *axis = k ? &panel->y : &panel->x;
+            axis->low = window.low[k];
+            axis->high = window.high[k];
+        }
+    }
     panel->axes = sight->labels[0] != NULL;
     panel->equal = is_equal(sight, panel);
 }
@@ -526,35 +446,56 @@ static const char *value_now(struct gm_picture *picture, const struct gm_lane *l
                                  gm_power_text(picture, value));
 }
 
+/* Makes the sight and the paths of a lane. False when out of memory. */
+static bool make_paths(struct gm_picture *picture, const struct gm_lane *lane, struct gm_paths *paths)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_sight *sight = gm_system_curves(picture, lane);
+    *paths = (struct gm_paths){.sight = sight};
+    if (!sight) {
+        return false;
+    }
+    paths->past = gm_system_path(picture, lane, GM_TRACK_PAST, 0, sight);
+    paths->trail = gm_system_path(picture, lane, GM_TRACK_TRAIL, 0, sight);
+    const size_t followed = sight->over_time ? gm_system_followed(&view) : 0;
+    paths->members = gm_picture_memory(picture, (followed + 1) * sizeof *paths->members);
+    paths->member_count = paths->members ? followed : 0;
+    for (size_t i = 0; i < paths->member_count; i++) {
+        paths->members[i] = gm_system_path(picture, lane, GM_TRACK_MEMBERS, i, sight);
+    }
+    return true;
+}
+
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     size_t most = 0;
-    for (size_t i = 0; i < count; i++) {
-        const size_t own = gm_sight_numbers(gm_system_sight(lanes[i]->parameters));
+    struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
+    struct gm_paths *paths = gm_picture_memory(picture, count * sizeof *paths);
+    for (size_t i = 0; paths && i < count; i++) {
+        if (!make_paths(picture, lanes[i], &paths[i])) {
+            return;
+        }
+        const size_t own = gm_sight_numbers(paths[i].sight);
         most = own > most ? own : most;
     }
     double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
-    struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
-    struct gm_paths *paths = gm_picture_memory(picture, count * sizeof *paths);
     if (!numbers || !ranges || !paths) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        const struct gm_sight *sight = gm_system_sight(lanes[i]->parameters);
-        paths[i] = (struct gm_paths){gm_system_path(picture, lanes[i], GM_TRACK_PAST, sight),
-                                     gm_system_path(picture, lanes[i], GM_TRACK_TRAIL, sight)};
-        ranges[i] = lane_range(lanes[i], sight, &paths[i], numbers);
+        ranges[i] = lane_range(lanes[i], &paths[i], numbers);
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
     const struct gm_lane *leader = NULL; /* the first lane of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        const struct gm_sight *sight = gm_system_sight(walk.lane->parameters);
         size_t lane = 0;
         while (lanes[lane] != walk.lane) {
             lane++;
         }
+        const struct gm_sight *sight = paths[lane].sight;
+        const struct gm_view view = gm_lane_view(walk.lane);
         if (walk.first) {
             const struct gm_seen range = ranges[lane];
             panel = add_panel(picture, &walk,
@@ -562,12 +503,15 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             if (sight->dimensions == 3) {
                 const char *names[3];
                 for (size_t k = 0; k < 3; k++) {
-                    names[k] = typeset(picture, sight->labels[k]);
+                    names[k] = gm_typeset(picture, sight->labels[k]);
                 }
                 space = gm_system_space(picture, panel, walk.lane, &range, names);
             } else {
                 set_plane(picture, panel, &walk, sight, &range);
             }
+        }
+        if (walk.first && gm_system_has_portrait(walk.lane->parameters, sight)) {
+            gm_system_draw_portrait(picture, panel, walk.lane);
         }
         if (sight->dimensions == 2 && (walk.first || !is_same(walk.lane, leader))) {
             gm_system_draw_levels(picture, panel, walk.lane, sight);
@@ -575,6 +519,9 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
         leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
             gm_system_draw_in_space(picture, panel, &space, walk.lane, &paths[lane]);
+        } else if (sight->over_time) {
+            gm_sight_values(sight, &view, gm_system_centre(&view), numbers);
+            gm_system_draw_curves(picture, panel, &walk, &paths[lane], numbers);
         } else {
             draw_lane(picture, panel, walk.lane, &paths[lane], numbers);
         }
@@ -655,7 +602,7 @@ static void draw_number(struct gm_picture *picture, const struct gm_lane *const 
     const bool log = observable->error || observable->logarithmic;
     struct gm_graph graph = {
         .observable = observable->key, .scale = log ? GM_LOG : GM_LINEAR, .highest = log};
-    graph.title = log ? NULL : typeset(picture, observable->title);
+    graph.title = log ? NULL : gm_typeset(picture, observable->title);
     graph.calm_low = log ? 1e-8 : 0;
     graph.calm_high = log ? 1e-4 : 0;
     if (item) {
@@ -723,8 +670,8 @@ static const char *told(struct gm_picture *picture, const struct gm_lane *const 
                 snprintf(number, sizeof number, "%.6g", value);
             }
             text = gm_picture_text(
-                picture, "%s%s%s = %s%s%s", text, shown ? ",  " : "", typeset(picture, parameter->key),
-                strlen(number) > 12 ? gm_power_text(picture, value) : typeset(picture, number),
+                picture, "%s%s%s = %s%s%s", text, shown ? ",  " : "", gm_typeset(picture, parameter->key),
+                strlen(number) > 12 ? gm_power_text(picture, value) : gm_typeset(picture, number),
                 parameter->unit[0] ? " " : "", parameter->unit);
             shown++;
         }
@@ -741,9 +688,11 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const struct gm_system_lane *lane = own_of(lanes[0]);
     const struct gm_system_scene *system_scene = lane->owner;
     const bool one_scheme = has_one_scheme(lanes, count);
-    const bool only_section = system_scene->has_section && lane->show == GM_SHOW_SECTION;
-    const char *name = gm_system_title(&system_scene->system) ? system_scene->scene.title
-                                                              : typeset(picture, system_scene->scene.title);
+    const bool only_section =
+        system_scene->has_section && strcmp(lane->show, system_scene->section.name) == 0;
+    const char *name = gm_system_title(&system_scene->system)
+                           ? system_scene->scene.title
+                           : gm_typeset(picture, system_scene->scene.title);
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
     if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
         picture->title =
@@ -756,6 +705,9 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
         gm_system_level_text(picture, lanes, count));
     picture->caption =
         gm_system_shown_text(picture, lanes, count, GM_WORD_CAPTION, system_scene->scene.watch);
+    if (gm_system_has_portrait(lane, gm_system_sight(lane))) {
+        picture->caption = "Disc: stable. Ring: unstable. Half disc: saddle. Dotted ring: centre.";
+    }
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     if (only_section) {
@@ -764,7 +716,8 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
         draw_states(picture, lanes, count);
     }
     /* if there is space for one graph only, it is the section of driven motion, else a conserved quantity */
-    const bool section = system_scene->has_section && lane->show == GM_SHOW_ALL;
+    const bool section =
+        system_scene->has_section && strcmp(lane->show, system_scene->shows[GM_SHOW_ALL]) == 0;
     if (section && system_scene->stroboscopic) {
         draw_section(picture, lanes, count);
     }

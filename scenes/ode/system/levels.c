@@ -236,45 +236,42 @@ void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *si
     close_level(&level);
 }
 
-/* Makes the grid's triangles, and its corners as points. False when out of memory. */
-static bool make_triangles(struct gm_picture *picture, const struct box *box, double **points,
-                           int **triangles)
+void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                          const double *values, const size_t cells[2])
 {
-    const size_t width = DRAWN + 1;
-    *points = gm_picture_memory(picture, 2 * width * width * sizeof **points);
-    *triangles = gm_picture_memory(picture, (size_t)6 * DRAWN * DRAWN * sizeof **triangles);
-    if (!*points || !*triangles) {
-        return false;
+    static const double zero = 0;
+    const struct box box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
+    const size_t width = cells[0] + 1, corners = width * (cells[1] + 1), count = cells[0] * cells[1];
+    double *points = gm_picture_memory(picture, 2 * corners * sizeof *points);
+    int *triangles = gm_picture_memory(picture, 6 * count * sizeof *triangles);
+    if (!points || !triangles) {
+        return;
     }
-    for (size_t k = 0; k < width * width; k++) {
-        (*points)[2 * k] = corner(box, 0, k % width, DRAWN);
-        (*points)[2 * k + 1] = corner(box, 1, k / width, DRAWN);
+    for (size_t k = 0; k < corners; k++) {
+        points[2 * k] = corner(&box, 0, k % width, cells[0]);
+        points[2 * k + 1] = corner(&box, 1, k / width, cells[1]);
     }
-    for (size_t cell = 0; cell < (size_t)DRAWN * DRAWN; cell++) {
-        const int here = (int)(cell / DRAWN * width + cell % DRAWN), over = here + (int)width;
-        memcpy(*triangles + 6 * cell, (const int[]){here, here + 1, over + 1, here, over + 1, over},
-               6 * sizeof **triangles);
+    for (size_t cell = 0; cell < count; cell++) {
+        const int here = (int)(cell / cells[0] * width + cell % cells[0]), over = here + (int)width;
+        memcpy(triangles + 6 * cell, (const int[]){here, here + 1, over + 1, here, over + 1, over},
+               6 * sizeof *triangles);
     }
-    return true;
+    gm_mark_level_lines(picture, panel, style, points, values, corners, triangles, 2 * count, &zero, 1);
 }
 
 void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                            const struct gm_sight *sight)
 {
-    static const double zero = 0;
+    static const size_t cells[2] = {DRAWN, DRAWN};
     const struct box box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
     struct level level;
-    double *points;
-    int *triangles;
-    if (!gm_system_has_level(scene_of(lane), sight) || !make_triangles(picture, &box, &points, &triangles) ||
-        !open_level(&level, lane, sight)) {
+    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
         return;
     }
     for (size_t number = 0; take_level(&level, lane, &number);) {
         fill_grid(&level, &box, DRAWN);
-        gm_mark_level_lines(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, points,
-                            level.corners, (size_t)(DRAWN + 1) * (DRAWN + 1), triangles,
-                            (size_t)2 * DRAWN * DRAWN, &zero, 1);
+        gm_system_draw_zeros(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, level.corners,
+                             cells);
     }
     close_level(&level);
 }
@@ -302,7 +299,7 @@ const char *gm_system_level_text(struct gm_picture *picture, const struct gm_lan
 {
     const struct gm_system_lane *lane = lanes[0]->parameters;
     const struct gm_system_scene *system_scene = lane->owner;
-    const bool both = system_scene->has_section && lane->show == GM_SHOW_ALL;
+    const bool both = system_scene->has_section && strcmp(lane->show, system_scene->shows[GM_SHOW_ALL]) == 0;
     const struct gm_sight *const sights[] = {gm_system_sight(lane), &system_scene->section};
     const char *text = "";
     for (size_t k = 0; k < (both ? 2 : 1); k++) {

@@ -15,6 +15,11 @@ bool gm_system_has_level(const struct gm_system_scene *system_scene, const struc
 /* Adds the closed curves around a lane's start to its range; an open curve adds nothing. */
 void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range);
 
+/* Draws the lines on which a function changes its sign, from its values at the corners of a grid of cells over the
+   panel, row by row from the lower left; none beside a value that is not finite. */
+void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                          const double *values, const size_t cells[2]);
+
 /* Draws the lane's curves into a panel whose axes are set. */
 void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                            const struct gm_sight *sight);

@@ -164,7 +164,8 @@ double gm_system_stop(const struct gm_view *view)
 void gm_system_stops(const struct gm_view *view, const double *states, const double *times, size_t count,
                      double *values)
 {
-    gm_system_values_of(&gm_system_scene_of(view)->stop, view, states, times, count, values);
+    gm_system_values_of(&gm_system_scene_of(view)->stop, view,
+                        &(struct gm_states){states, times, count, gm_system_centre(view)}, values);
 }
 
 /* ---- the rows of the scene ---- */

@@ -206,7 +206,7 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2;
     system_scene->sights = calloc(GM_MOST_SIGHTS, sizeof *system_scene->sights);
-    system_scene->shows = calloc(GM_MOST_SIGHTS + 4, sizeof *system_scene->shows);
+    system_scene->shows = calloc(GM_MOST_SIGHTS + 5, sizeof *system_scene->shows);
     bool good = system_scene->sights && system_scene->shows;
     if (good &&
         (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {
@@ -249,6 +249,9 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         system_scene->shows[shows++] = "all";
         if (system_scene->has_section) {
             system_scene->shows[shows++] = "section";
+        }
+        if (n > 1 && n <= GM_MOST_OVER_TIME) {
+            system_scene->shows[shows++] = GM_SHOW_OVER_TIME "all";
         }
         for (size_t i = system_scene->sight_count - system_scene->pair_count; i < system_scene->sight_count;
              i++) {

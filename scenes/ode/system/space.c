@@ -126,19 +126,22 @@ static size_t path_of(const struct gm_path *path, size_t body, size_t first, con
 static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                        const struct gm_lane *lane, const struct gm_paths *paths, const double *now)
 {
-    const struct gm_sight *sight = gm_system_sight(lane->parameters);
+    const struct gm_sight *sight = paths->sight;
     const struct gm_path *past = &paths->past, *trail = &paths->trail;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const struct gm_stroke_in_space faint = {.style = {role, 0.55, 1.4, GM_SOLID}},
                                     bright = {.style = {role, 0.95, 2.6, GM_SOLID}, .fades = true};
     const size_t most = past->count > trail->count ? past->count : trail->count,
-                 from = gm_system_bright_from(lane);
+                 faint_from = gm_system_trail_from(lane, GM_TRACK_PAST),
+                 bright_from = gm_system_bright_from(lane),
+                 from = bright_from > faint_from ? bright_from : faint_from,
+                 trail_from = gm_system_trail_from(lane, GM_TRACK_TRAIL);
     double *points = gm_picture_memory(picture, 3 * (most + 1) * sizeof *points);
     for (size_t body = 0; points && past->count > 0 && body < sight->bodies; body++) {
         if (sight->fixed[body]) {
             continue;
         }
-        const size_t count = path_of(past, body, 0, now, points);
+        const size_t count = path_of(past, body, faint_from, now, points);
         if (is_curve(space, points, count)) {
             gm_space_line(picture, panel, space, faint, points, count);
             gm_space_line(picture, panel, space, bright, points, path_of(past, body, from, now, points));
@@ -146,7 +149,8 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
         }
         gm_space_points(picture, panel, space, (struct gm_style){.role = role, .alpha = 0.4, .width = 1.8},
                         points, count);
-        const size_t recent = path_of(trail, body, trail->count / 2, now, points);
+        const size_t recent =
+            path_of(trail, body, trail_from > trail->count / 2 ? trail_from : trail->count / 2, now, points);
         if (is_curve(space, points, recent)) {
             gm_space_line(picture, panel, space, bright, points, recent);
         }
@@ -187,7 +191,7 @@ static size_t choose_bodies(const struct gm_sight *sight, const double *numbers,
 void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
                              const struct gm_lane *lane, const struct gm_paths *paths)
 {
-    const struct gm_sight *sight = gm_system_sight(lane->parameters);
+    const struct gm_sight *sight = paths->sight;
     const struct gm_view view = gm_lane_view(lane), before = at_start(lane);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     double *points = gm_picture_memory(picture, (3 * sight->bodies + 1) * sizeof *points);

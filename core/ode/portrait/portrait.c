@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equilibria by Newton's method from a coarse grid, and from every cell of a fine one where both components of f
+   change their signs. On an edge with a change of sign bisection shows if there is a zero: if the values do not fall,
+   there is a pole or a jump. */
+#include "core/ode/portrait/portrait.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+
+enum {
+    COLUMNS = GM_PORTRAIT_COLUMNS,
+    ROWS = GM_PORTRAIT_ROWS,
+    CORNERS = (COLUMNS + 1) * (ROWS + 1),
+    START_COLUMNS = 24,
+    START_ROWS = 18,
+    MOST_STEPS = 80,
+    BISECTIONS = 10
+};
+
+/* Bounds relative to the window, to the usual size of f, and to the largest entry of the Jacobian. */
+static const double alike = 1e-6, converged = 1e-7, round_off = 1e-15, residual = 1e-10, singular = 1e-13,
+                    degenerate = 1e-9, traceless = 1e-8;
+/* The values beside a zero fall below this part of those at the ends of its edge. */
+static const double fallen = 0.1;
+
+const char *gm_equilibrium_kind_name(enum gm_equilibrium_kind kind)
+{
+    static const char *const names[] = {[GM_SADDLE] = "saddle",
+                                        [GM_STABLE_NODE] = "stable node",
+                                        [GM_STABLE_FOCUS] = "stable focus",
+                                        [GM_UNSTABLE_NODE] = "unstable node",
+                                        [GM_UNSTABLE_FOCUS] = "unstable focus",
+                                        [GM_CENTRE] = "centre",
+                                        [GM_DEGENERATE] = "degenerate"};
+    return names[kind];
+}
+
+/* ---- the grid ---- */
+
+/* Writes x and y of a corner to places[0] and places[apart]. */
+static void place_corner(const struct gm_window *window, size_t corner, double *places, size_t apart)
+{
+    const double across = (double)(corner % (COLUMNS + 1)) / COLUMNS,
+                 up = (double)(corner / (COLUMNS + 1)) / ROWS;
+    places[0] = window->low[0] + across * (window->high[0] - window->low[0]);
+    places[apart] = window->low[1] + up * (window->high[1] - window->low[1]);
+}
+
+static bool has_change(double a, double b)
+{
+    return isfinite(a) && isfinite(b) && (a > 0) != (b > 0);
+}
+
+/* Returns true if the component changes its sign between two corners by a zero: bisection makes its values fall. */
+static bool has_zero(const struct gm_portrait *portrait, const struct gm_problem *problem, size_t component,
+                     const size_t corners[2])
+{
+    double ends[2][2], middle[2], f[2];
+    double values[] = {portrait->fields[component][corners[0]], portrait->fields[component][corners[1]]};
+    const double before = fmax(fabs(values[0]), fabs(values[1]));
+    place_corner(&portrait->window, corners[0], ends[0], 1);
+    place_corner(&portrait->window, corners[1], ends[1], 1);
+    for (int i = 0; i < BISECTIONS; i++) {
+        middle[0] = (ends[0][0] + ends[1][0]) / 2;
+        middle[1] = (ends[0][1] + ends[1][1]) / 2;
+        gm_field(problem, middle, f, 1);
+        const size_t end = (f[component] > 0) == (values[0] > 0) ? 0 : 1;
+        memcpy(ends[end], middle, sizeof middle);
+        values[end] = f[component];
+    }
+    return fmax(fabs(values[0]), fabs(values[1])) <= fallen * before;
+}
+
+/* Marks the ends of edges with a pole or a jump. */
+static void mark_poles(const struct gm_portrait *portrait, const struct gm_problem *problem)
+{
+    for (size_t k = 0; k < (size_t)4 * CORNERS; k++) { /* per corner two edges of two components */
+        const size_t corner = k / 4, component = k % 2, i = corner % (COLUMNS + 1);
+        const bool is_across = k % 4 < 2,
+                   is_inside = is_across ? i < COLUMNS : corner < CORNERS - COLUMNS - 1;
+        const size_t ends[] = {corner, corner + (is_across ? 1 : COLUMNS + 1)};
+        double *field = portrait->fields[component];
+        if (is_inside && has_change(field[ends[0]], field[ends[1]]) &&
+            !has_zero(portrait, problem, component, ends)) {
+            field[ends[0]] = field[ends[1]] = NAN;
+        }
+    }
+}
+
+/* Returns true if both components change their signs between the corners of a cell. */
+static bool has_both(const struct gm_portrait *portrait, size_t i, size_t j)
+{
+    bool both = true;
+    for (size_t c = 0; c < 2; c++) {
+        const double *low = portrait->fields[c] + j * (COLUMNS + 1) + i, *high = low + COLUMNS + 1;
+        both = both &&
+               (has_change(low[0], low[1]) || has_change(high[0], high[1]) || has_change(low[0], high[0]));
+    }
+    return both;
+}
+
+/* Fills the fields. Returns false when out of memory. */
+static bool fill_fields(struct gm_portrait *portrait, const struct gm_problem *problem)
+{
+    double *places = malloc((size_t)2 * CORNERS * sizeof *places);
+    portrait->fields[0] = malloc((size_t)2 * CORNERS * sizeof *portrait->fields[0]);
+    const bool good = places && portrait->fields[0];
+    for (size_t k = 0; good && k < CORNERS; k++) {
+        place_corner(&portrait->window, k, places + k, CORNERS);
+    }
+    if (good) {
+        portrait->fields[1] = portrait->fields[0] + CORNERS;
+        gm_field(problem, places, portrait->fields[0], CORNERS);
+    }
+    free(places);
+    return good;
+}
+
+/* ---- equilibria ---- */
+
+struct search {
+    const struct gm_problem *problem;
+    struct gm_portrait *portrait;
+    double size[2];  /* of the window */
+    double scale[2]; /* the median of the size of each component of f */
+};
+
+static int compare_sizes(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Writes the medians of |f|, which no pole moves. */
+static void find_scale(struct search *search)
+{
+    enum { APART = 16, SAMPLES = CORNERS / APART + 1 }; /* 16 does not divide a row of corners */
+    for (size_t c = 0; c < 2; c++) {
+        double sizes[SAMPLES];
+        size_t count = 0;
+        for (size_t k = 0; k < CORNERS; k += APART) {
+            sizes[count] = fabs(search->portrait->fields[c][k]);
+            count += isfinite(sizes[count]);
+        }
+        qsort(sizes, count, sizeof *sizes, compare_sizes);
+        search->scale[c] = count > 0 ? sizes[count / 2] : 0;
+    }
+}
+
+/* Writes Newton's step -J^+ f: with the pseudoinverse J' / |J|^2 if J has rank 1. */
+static void find_step(const double *jacobian, const double *f, double *step)
+{
+    const double a = jacobian[0], b = jacobian[1], c = jacobian[2], d = jacobian[3], det = a * d - b * c,
+                 square = a * a + b * b + c * c + d * d;
+    if (fabs(det) > singular * square) {
+        step[0] = (b * f[1] - d * f[0]) / det;
+        step[1] = (c * f[0] - a * f[1]) / det;
+    } else {
+        step[0] = -(a * f[0] + c * f[1]) / square;
+        step[1] = -(b * f[0] + d * f[1]) / square;
+    }
+}
+
+/* Moves a point to an equilibrium, with the Jacobian there. Returns false if it finds none in the window. */
+static bool solve(const struct search *search, double *at, double *jacobian)
+{
+    const struct gm_window *window = &search->portrait->window;
+    double f[2], step[2], length = INFINITY;
+    for (int i = 0; i < MOST_STEPS && length > round_off; i++) {
+        gm_field(search->problem, at, f, 1);
+        if (!gm_jacobian(search->problem, at, jacobian)) {
+            return false;
+        }
+        if (f[0] == 0 && f[1] == 0) {
+            length = 0;
+            break;
+        }
+        find_step(jacobian, f, step);
+        const double before = length;
+        length = fmax(fabs(step[0]) / search->size[0], fabs(step[1]) / search->size[1]);
+        if (!isfinite(length) || (length < converged && length >= before)) { /* the rest is round-off */
+            length = before;
+            break;
+        }
+        for (size_t k = 0; k < 2; k++) {
+            at[k] += step[k];
+            if (at[k] < window->low[k] - search->size[k] || at[k] > window->high[k] + search->size[k]) {
+                return false;
+            }
+        }
+    }
+    gm_field(search->problem, at, f, 1);
+    bool found = length < converged && gm_jacobian(search->problem, at, jacobian);
+    for (size_t k = 0; k < 2; k++) {
+        at[k] = fabs(at[k]) < round_off * search->size[k] ? 0 : at[k];
+        const double beyond = fmax(window->low[k] - at[k], at[k] - window->high[k]);
+        found = found && fabs(f[k]) <= residual * search->scale[k] && beyond <= round_off * search->size[k];
+    }
+    return found;
+}
+
+/* Writes the eigenvalues and the kind that they make. */
+static void classify(struct gm_equilibrium *equilibrium)
+{
+    const double *j = equilibrium->jacobian, trace = j[0] + j[3], det = j[0] * j[3] - j[1] * j[2],
+                 largest = fmax(fmax(fabs(j[0]), fabs(j[1])), fmax(fabs(j[2]), fabs(j[3])));
+    /* (trace / 2)^2 - det without cancellation */
+    const double root = (j[0] - j[3]) * (j[0] - j[3]) / 4 + j[1] * j[2];
+    double(*values)[2] = equilibrium->eigenvalues;
+    memset(values, 0, sizeof equilibrium->eigenvalues);
+    if (root < 0) {
+        values[0][0] = values[1][0] = trace / 2;
+        values[0][1] = sqrt(-root);
+        values[1][1] = -values[0][1];
+    } else { /* the smaller one from the product */
+        const double large = trace / 2 + copysign(sqrt(root), trace), small = large != 0 ? det / large : 0;
+        values[0][0] = fmax(large, small);
+        values[1][0] = fmin(large, small);
+    }
+    if (fabs(det) <= degenerate * largest * largest) {
+        equilibrium->kind = GM_DEGENERATE;
+    } else if (det < 0) {
+        equilibrium->kind = GM_SADDLE;
+    } else if (fabs(trace) <= traceless * largest) {
+        equilibrium->kind = GM_CENTRE;
+    } else if (root >= 0) {
+        equilibrium->kind = trace < 0 ? GM_STABLE_NODE : GM_UNSTABLE_NODE;
+    } else {
+        equilibrium->kind = trace < 0 ? GM_STABLE_FOCUS : GM_UNSTABLE_FOCUS;
+    }
+}
+
+/* Returns a number below, at or above 0 if a is before, at or after b, by x, then y. */
+static int compare(const struct search *search, const double *a, const double *b)
+{
+    for (size_t k = 0; k < 2; k++) {
+        if (fabs(a[k] - b[k]) > alike * search->size[k]) {
+            return a[k] < b[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+/* Adds the equilibrium that Newton's method finds from a point, in its place, unless it is there. */
+static void add_from(const struct search *search, double x, double y)
+{
+    struct gm_portrait *portrait = search->portrait;
+    struct gm_equilibrium found = {.at = {x, y}};
+    if (portrait->count == GM_MOST_EQUILIBRIA || !solve(search, found.at, found.jacobian)) {
+        return;
+    }
+    size_t place = 0;
+    while (place < portrait->count && compare(search, portrait->equilibria[place].at, found.at) < 0) {
+        place++;
+    }
+    if (place < portrait->count && compare(search, portrait->equilibria[place].at, found.at) == 0) {
+        return;
+    }
+    classify(&found);
+    memmove(portrait->equilibria + place + 1, portrait->equilibria + place,
+            (portrait->count - place) * sizeof found);
+    portrait->equilibria[place] = found;
+    portrait->count++;
+}
+
+/* Starts from the middle of cell `cell` of a grid over the window. */
+static void add_from_cell(const struct search *search, size_t cell, size_t columns, size_t rows)
+{
+    const struct gm_window *window = &search->portrait->window;
+    const double i = (double)(cell % columns) + 0.5, j = (double)(cell / columns) + 0.5;
+    add_from(search, window->low[0] + search->size[0] * i / (double)columns,
+             window->low[1] + search->size[1] * j / (double)rows);
+}
+
+bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *problem,
+                      const struct gm_window *window)
+{
+    enum { MOST_CELLS = 256 };
+    *portrait = (struct gm_portrait){.window = *window};
+    struct search search = {.problem = problem,
+                            .portrait = portrait,
+                            .size = {window->high[0] - window->low[0], window->high[1] - window->low[1]}};
+    if (!fill_fields(portrait, problem)) {
+        return false;
+    }
+    for (size_t k = 0; k < CORNERS && !portrait->is_finite; k++) {
+        portrait->is_finite = isfinite(portrait->fields[0][k]) && isfinite(portrait->fields[1][k]);
+    }
+    find_scale(&search);
+    mark_poles(portrait, problem);
+    size_t cells = 0;
+    for (size_t cell = 0; cell < (size_t)COLUMNS * ROWS && cells < MOST_CELLS; cell++) {
+        if (has_both(portrait, cell % COLUMNS, cell / COLUMNS)) {
+            cells++;
+            add_from_cell(&search, cell, COLUMNS, ROWS);
+        }
+    }
+    for (size_t cell = 0; cell < (size_t)START_COLUMNS * START_ROWS && portrait->is_finite; cell++) {
+        add_from_cell(&search, cell, START_COLUMNS, START_ROWS);
+    }
+    return true;
+}
+
+void gm_portrait_close(struct gm_portrait *portrait)
+{
+    free(portrait->fields[0]);
+}

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The phase portrait: arrows of the field's direction, nullclines, equilibria. */
+#include "scenes/ode/system/phase.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "scenes/common/graph.h"
+#include "scenes/common/symbol.h"
+#include "scenes/ode/system/levels.h"
+
+enum { ARROW_COLUMNS = 20, ARROW_ROWS = 15 };
+static const char chosen[] = "auto"; /* the window that the picture chooses */
+
+/* ---- parameters ---- */
+
+bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text, char *sentence)
+{
+    const struct gm_system_scene *system_scene = row->admitting;
+    const struct gm_user_system *system = &system_scene->system;
+    if (strcmp(text, "yes") != 0) {
+        return true;
+    }
+    if (system_scene->model.constraints.count > 0) {
+        return gm_refuse(sentence, "portrait needs a plane: this system has constraints");
+    }
+    if (system->n != 2) {
+        return gm_refuse(sentence, "portrait needs a plane: this system has %zu component%s", system->n,
+                         gm_plural((double)system->n));
+    }
+    return !system->timed || gm_refuse(sentence, "portrait needs a field that does not depend on t");
+}
+
+/* Reads "XMIN,XMAX,YMIN,YMAX". Returns false with a sentence for any other text. */
+static bool read_window(const char *text, struct gm_window *window, char *sentence)
+{
+    double bounds[4];
+    char part[GM_TEXT_SIZE];
+    const char *from = text;
+    for (size_t k = 0; k < 4; k++) {
+        const size_t length = strcspn(from, ",");
+        memcpy(part, from, length);
+        part[length] = '\0';
+        const bool is_last = from[length] != ',';
+        if (!gm_number_parse(part, &bounds[k]) || !isfinite(bounds[k]) || is_last != (k == 3)) {
+            return gm_refuse(sentence, "window=%.60s is not four finite numbers XMIN,XMAX,YMIN,YMAX", text);
+        }
+        from += length + 1;
+    }
+    *window = (struct gm_window){{bounds[0], bounds[2]}, {bounds[1], bounds[3]}};
+    return (bounds[0] < bounds[1] && bounds[2] < bounds[3]) ||
+           gm_refuse(sentence, "window=%.60s is empty: XMIN lies below XMAX, and YMIN below YMAX", text);
+}
+
+bool gm_system_admits_window(const struct gm_parameter *row, const char *text, char *sentence)
+{
+    struct gm_window window;
+    (void)row;
+    return strcmp(text, chosen) == 0 || read_window(text, &window, sentence);
+}
+
+bool gm_system_window(const struct gm_system_lane *lane, const struct gm_sight *sight,
+                      struct gm_window *window)
+{
+    char sentence[GM_MESSAGE];
+    return sight->dimensions == 2 && !sight->over_time && lane->window[0] &&
+           strcmp(lane->window, chosen) != 0 && read_window(lane->window, window, sentence);
+}
+
+bool gm_system_has_portrait(const struct gm_system_lane *lane, const struct gm_sight *sight)
+{
+    return lane->portrait && sight->dimensions == 2 && sight->components[0] == 0 && sight->components[1] == 1;
+}
+
+bool gm_system_portrait(const struct gm_lane *lane, struct gm_portrait *portrait)
+{
+    const struct gm_system_lane *parameters = lane->parameters;
+    const struct gm_sight *sight = gm_system_sight(parameters);
+    const struct gm_view view = gm_lane_view(lane);
+    struct gm_window window;
+    if (!gm_system_has_portrait(parameters, sight)) {
+        return false;
+    }
+    const bool is_given = gm_system_window(parameters, sight, &window);
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST];
+    for (size_t c = 0; c < 2 && !is_given; c++) {
+        double low = view.state[c * view.problem->m + gm_system_centre(&view)], high = low;
+        for (size_t i = 0; i < past->count; i++) {
+            gm_range_add(&low, &high, past->values[2 * i + c]);
+        }
+        const double margin = high > low ? (high - low) / 8 : fmax(fabs(high), 1);
+        window.low[c] = low - margin;
+        window.high[c] = high + margin;
+    }
+    return gm_portrait_open(portrait, &lane->problem, &window);
+}
+
+/* ---- drawing ---- */
+
+/* Draws arrows of one length on the panel, whose axes' lengths are taken as alike. */
+static void draw_directions(struct gm_picture *picture, struct gm_panel *panel,
+                            const struct gm_problem *problem)
+{
+    enum { ARROWS = ARROW_COLUMNS * ARROW_ROWS };
+    double places[2 * ARROWS], field[2 * ARROWS];
+    const double cell[] = {(panel->x.high - panel->x.low) / ARROW_COLUMNS,
+                           (panel->y.high - panel->y.low) / ARROW_ROWS};
+    /* one length on the screen: in units of the axes, or of cells if these are about square */
+    const double least = fmin(cell[0], cell[1]);
+    const double unit[] = {panel->equal ? least : cell[0], panel->equal ? least : cell[1]};
+    for (size_t k = 0; k < ARROWS; k++) {
+        places[k] = panel->x.low + cell[0] * ((double)(k % ARROW_COLUMNS) + 0.5);
+        places[ARROWS + k] = panel->y.low + cell[1] * ((double)(k / ARROW_COLUMNS) + 0.5);
+    }
+    gm_field(problem, places, field, ARROWS);
+    for (size_t k = 0; k < ARROWS; k++) {
+        const double u = field[k] / unit[0], v = field[ARROWS + k] / unit[1], length = hypot(u, v);
+        if (!(length > 0) || !isfinite(length)) {
+            continue;
+        }
+        const double along[] = {0.34 * u / length, 0.34 * v / length};
+        double line[10];
+        const double corners[5][2] = {{-1, 0}, {1, 0}, {0.35, 0.4}, {1, 0}, {0.35, -0.4}};
+        for (size_t i = 0; i < 5; i++) {
+            const double ahead = corners[i][0], aside = corners[i][1];
+            line[2 * i] = places[k] + unit[0] * (ahead * along[0] - aside * along[1]);
+            line[2 * i + 1] = places[ARROWS + k] + unit[1] * (ahead * along[1] + aside * along[0]);
+        }
+        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.45, 1, GM_SOLID}, line, 5, false);
+    }
+}
+
+/* Returns the distance of a point from equilibria and from the edge, in parts of the axes. */
+static double room_at(const struct gm_panel *panel, const double *point, const struct gm_portrait *portrait)
+{
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    const double x = (point[0] - panel->x.low) / width, y = (point[1] - panel->y.low) / height;
+    double room = fmin(fmin(x, 1 - x), fmin(y, 1 - y));
+    for (size_t k = 0; k < portrait->count; k++) {
+        const double *at = portrait->equilibria[k].at;
+        room = fmin(room, hypot(x - (at[0] - panel->x.low) / width, y - (at[1] - panel->y.low) / height));
+    }
+    return room;
+}
+
+/* Draws a nullcline, with its name at the point with most room. */
+static void draw_nullcline(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                           const struct gm_portrait *portrait, size_t component)
+{
+    const struct gm_system_lane *parameters = lane->parameters;
+    const struct gm_style style = {GM_INK, 0.75, 1.7, component == 0 ? GM_LONG_DASH : GM_DOTS};
+    const struct gm_mark *before = panel->last;
+    const double *place = NULL;
+    double most = -INFINITY;
+    gm_system_draw_zeros(picture, panel, style, portrait->fields[component],
+                         (const size_t[]){GM_PORTRAIT_COLUMNS, GM_PORTRAIT_ROWS});
+    for (const struct gm_mark *mark = before ? before->next : panel->first; mark; mark = mark->next) {
+        for (size_t i = 0; i < mark->count; i++) {
+            const double room = room_at(panel, mark->points + 2 * i, portrait);
+            place = room > most ? mark->points + 2 * i : place;
+            most = fmax(room, most);
+        }
+    }
+    if (place) {
+        const char *name = parameters->owner->system.variables[component].name;
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1}, place[0],
+                     place[1], GM_ANCHOR_CENTRE,
+                     gm_picture_text(picture, "%s′ = 0", gm_typeset(picture, name)));
+    }
+}
+
+static void draw_equilibria(struct gm_picture *picture, struct gm_panel *panel,
+                            const struct gm_portrait *portrait)
+{
+    static const enum gm_glyph glyphs[] = {
+        [GM_SADDLE] = GM_HALF_DISC,   [GM_STABLE_NODE] = GM_DISC,    [GM_STABLE_FOCUS] = GM_DISC,
+        [GM_UNSTABLE_NODE] = GM_RING, [GM_UNSTABLE_FOCUS] = GM_RING, [GM_CENTRE] = GM_DOTTED_RING,
+        [GM_DEGENERATE] = GM_CROSS,
+    };
+    for (size_t i = 0; i < portrait->count; i++) {
+        const struct gm_style style = {GM_INK, 1, 11, GM_SOLID};
+        struct gm_mark *mark = gm_mark_points(picture, panel, style, portrait->equilibria[i].at, 1);
+        mark->glyph = glyphs[portrait->equilibria[i].kind];
+    }
+}
+
+void gm_system_draw_portrait(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+{
+    struct gm_portrait portrait;
+    const struct gm_window window = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
+    if (gm_portrait_open(&portrait, &lane->problem, &window)) {
+        draw_directions(picture, panel, &lane->problem);
+        draw_nullcline(picture, panel, lane, &portrait, 0);
+        draw_nullcline(picture, panel, lane, &portrait, 1);
+        draw_equilibria(picture, panel, &portrait);
+    }
+    gm_portrait_close(&portrait);
+}
