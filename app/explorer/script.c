@@ -164,6 +164,7 @@ static bool write_picture(struct gm_explorer *explorer, const struct gm_override
     struct gm_cells *cells = &explorer->screen.cells;
     struct gm_chart chart = {.path = overrides->shot,
                              .command = overrides->words,
+                             .draw = name_picture,
                              .print = {.format = format,
                                        .look = {.width = GM_CELL_WIDTH * cells->columns,
                                                 .height = GM_CELL_HEIGHT * cells->rows,
@@ -173,7 +174,7 @@ static bool write_picture(struct gm_explorer *explorer, const struct gm_override
     if (explorer->face.monochrome) {
         bleach(cells, explorer->face.theme);
     }
-    return gm_chart_write(&chart, NULL, name_picture, NULL, message);
+    return gm_chart_write(&chart, message);
 }
 
 bool gm_script_check(const struct gm_overrides *overrides, char *message)
