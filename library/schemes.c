@@ -3,8 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/base/arguments.h"
+#include "app/base/interrupt.h"
 #include "app/grid/certified_lane.h"
-#include "app/base/status.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
@@ -45,10 +46,10 @@ struct certifying {
     geomint *handle;
     const char *word; /* of the scheme, as it was given */
     const struct gm_scheme *scheme;
-    const char *system;        /* NULL: the systems of all certificates */
-    const char *const *words;  /* key=value of that system */
-    int count;                 /* of these words */
-    int status;                /* if the body is left */
+    const char *system;       /* NULL: the systems of all certificates */
+    const char *const *words; /* key=value of that system */
+    int count;                /* of these words */
+    int status;               /* if the body is left */
 };
 
 /* The certificate points into the arena, so its text is written before the body returns. */
