@@ -6,6 +6,8 @@
 #include "app/grid/certified_lane.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
+#include "core/arena.h"
+#include "core/memory.h"
 #include "library/handle.h"
 #include "library/host.h"
 
@@ -39,6 +41,27 @@ geomint *geomint_scheme(const char *word)
     return handle;
 }
 
+/* A certificate on a system, words[0], and its status. */
+struct certifying {
+    const char *word;
+    int count;
+    const char *const *words;
+    struct gm_certificate certificate;
+    int status;
+};
+
+static void certify_words(struct gm_arena *arena, void *data)
+{
+    struct certifying *certifying = data;
+    struct gm_arguments *typed = gm_arguments_in(arena);
+    gm_arena_need(arena, gm_arguments_add(typed, certifying->word));
+    for (int i = 1; i < certifying->count; i++) {
+        gm_arena_need(arena, gm_arguments_add(typed, certifying->words[i]));
+    }
+    certifying->certificate = gm_certify_words(arena, certifying->words[0], typed, &certifying->status);
+    certifying->status = GEOMINT_OK;
+}
+
 geomint *geomint_certify(const char *word, int count, const char *const words[])
 {
     geomint *handle = calloc(1, sizeof *handle);
@@ -47,28 +70,29 @@ geomint *geomint_certify(const char *word, int count, const char *const words[])
     }
     const struct gm_call call = gm_call_begin(handle);
     const struct gm_scheme *scheme = find(handle, word);
-    struct gm_certificate certificate;
+    struct certifying self = {.word = word, .count = count, .words = words, .status = GEOMINT_OK};
     size_t size = 0;
-    int status = GEOMINT_OK;
     if (!scheme || !gm_handle_given_words(handle, count, words)) {
         gm_call_end(&call);
         return handle;
     }
+    struct gm_arena *arena = count > 0 ? gm_arena_open() : NULL;
     if (count <= 0) {
-        certificate = gm_certify(scheme);
-    } else if (!gm_certify_words(word, words[0], count - 1, words + 1, &certificate, &status,
-                                 handle->message)) {
-        gm_handle_refuse(handle, status, handle->message);
+        self.certificate = gm_certify(scheme);
+    } else if (!gm_arena_run(arena, certify_words, &self)) {
+        self.status = gm_memory_was_short() ? GEOMINT_MEMORY : self.status;
+        gm_handle_refuse(handle, self.status, gm_arena_reason(arena));
     }
-    FILE *stream = status == GEOMINT_OK ? open_memstream(&handle->text, &size) : NULL;
+    FILE *stream = self.status == GEOMINT_OK ? open_memstream(&handle->text, &size) : NULL;
     if (stream) {
-        gm_certificate_put(stream, &certificate, count > 0 ? words[0] : NULL);
+        gm_certificate_put(stream, &self.certificate, count > 0 ? words[0] : NULL);
         fclose(stream);
-        if (!certificate.holds) {
+        if (!self.certificate.holds) {
             gm_refuse(handle->message, "%.100s does not keep all that it claims", scheme->name);
             handle->status = GEOMINT_CLAIM;
         }
     }
+    gm_arena_close(arena);
     gm_call_end(&call);
     return handle;
 }
