@@ -3,12 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "app/base/arguments.h"
-#include "app/base/interrupt.h"
 #include "app/grid/certified_lane.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
+#include "core/memory.h"
 #include "library/handle.h"
 #include "library/host.h"
 
@@ -42,39 +41,25 @@ geomint *geomint_scheme(const char *word)
     return handle;
 }
 
+/* A certificate on a system, words[0], and its status. */
 struct certifying {
-    geomint *handle;
-    const char *word; /* of the scheme, as it was given */
-    const struct gm_scheme *scheme;
-    const char *system;       /* NULL: the systems of all certificates */
-    const char *const *words; /* key=value of that system */
-    int count;                /* of these words */
-    int status;               /* if the body is left */
+    const char *word;
+    int count;
+    const char *const *words;
+    struct gm_certificate certificate;
+    int status;
 };
 
-/* The certificate points into the arena, so its text is written before the body returns. */
-static void certify(struct gm_arena *arena, void *data)
+static void certify_words(struct gm_arena *arena, void *data)
 {
     struct certifying *certifying = data;
-    geomint *handle = certifying->handle;
     struct gm_arguments *typed = gm_arguments_in(arena);
     gm_arena_need(arena, gm_arguments_add(typed, certifying->word));
-    for (int i = 0; i < certifying->count; i++) {
+    for (int i = 1; i < certifying->count; i++) {
         gm_arena_need(arena, gm_arguments_add(typed, certifying->words[i]));
     }
-    size_t size = 0;
-    const struct gm_certificate certificate =
-        certifying->system ? gm_certify_words(arena, certifying->system, typed, &certifying->status)
-                           : gm_certify(certifying->scheme);
-    FILE *stream = open_memstream(&handle->text, &size);
-    if (stream) {
-        gm_certificate_put(stream, &certificate, certifying->system);
-        fclose(stream);
-        if (!certificate.holds) {
-            gm_refuse(handle->message, "%.100s does not satisfy all its claims", certifying->scheme->name);
-            handle->status = GEOMINT_CLAIM;
-        }
-    }
+    certifying->certificate = gm_certify_words(arena, certifying->words[0], typed, &certifying->status);
+    certifying->status = GEOMINT_OK;
 }
 
 geomint *geomint_certify(const char *word, int count, const char *const words[])
@@ -85,20 +70,29 @@ geomint *geomint_certify(const char *word, int count, const char *const words[])
     }
     const struct gm_call call = gm_call_begin(handle);
     const struct gm_scheme *scheme = find(handle, word);
-    if (scheme && gm_handle_given_words(handle, count, words)) {
-        struct certifying certifying = {.handle = handle,
-                                        .word = word,
-                                        .scheme = scheme,
-                                        .system = count > 0 ? words[0] : NULL,
-                                        .words = words + 1,
-                                        .count = count - 1,
-                                        .status = GM_EXIT_MEMORY};
-        struct gm_arena *arena = gm_arena_open();
-        if (!gm_arena_run(arena, certify, &certifying)) {
-            gm_handle_refuse(handle, certifying.status, gm_arena_reason(arena));
-        }
-        gm_arena_close(arena);
+    struct certifying self = {.word = word, .count = count, .words = words, .status = GEOMINT_OK};
+    size_t size = 0;
+    if (!scheme || !gm_handle_given_words(handle, count, words)) {
+        gm_call_end(&call);
+        return handle;
     }
+    struct gm_arena *arena = count > 0 ? gm_arena_open() : NULL;
+    if (count <= 0) {
+        self.certificate = gm_certify(scheme);
+    } else if (!gm_arena_run(arena, certify_words, &self)) {
+        self.status = gm_memory_was_short() ? GEOMINT_MEMORY : self.status;
+        gm_handle_refuse(handle, self.status, gm_arena_reason(arena));
+    }
+    FILE *stream = self.status == GEOMINT_OK ? open_memstream(&handle->text, &size) : NULL;
+    if (stream) {
+        gm_certificate_put(stream, &self.certificate, count > 0 ? words[0] : NULL);
+        fclose(stream);
+        if (!self.certificate.holds) {
+            gm_refuse(handle->message, "%.100s does not keep all that it claims", scheme->name);
+            handle->status = GEOMINT_CLAIM;
+        }
+    }
+    gm_arena_close(arena);
     gm_call_end(&call);
     return handle;
 }
