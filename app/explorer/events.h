@@ -8,8 +8,8 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share: explorer.c has start, loop and end; input.c the list, keys
-   and mouse; open.c scenes and typed lines. Functions are grouped by file. */
+/* The state that the explorer's files share: explorer.c has start, loop and end; compose.c the screen; input.c the
+   list, keys and mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
 
 /* The open scene, or a tour's step with its study, and its worker. */
 
