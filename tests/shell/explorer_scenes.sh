@@ -62,12 +62,12 @@ wait_for 'left 0'
 open_scene stiff
 keys c c c c c
 wait_for 'remove one with x before adding another\.'
-wait_for '\? help +space go on'
+wait_for 'space go on +\? help'
 keys Down Down Down
 wait_for '▸ springs'
 wait_for 'springs: number of stiff springs, of which the energies of the first three are'
 wait_for 'starts again'
-wait_for 'enter type +- \+ finely'
+wait_for 'enter type .*- \+ finely'
 # by fine steps, and typed
 keys Up Up Up
 wait_for '▸ dt +0\.03'

@@ -414,7 +414,7 @@ static void what_is_wrong_is_named(void **unused)
         {"work: ; errors 1, 2, 3\n", "work: errors are three numbers that fall"},
         {"work: ; coarsest -1\n", "work: a ladder of steps begins above 0"},
         {"work: ; halvings 0\n", "work: a ladder of steps begins above 0"},
-        {"work: ; schemes verlt\n", "schemes: verlt is no scheme"},
+        {"work: ; schemes verlt\n", "schemes: verlt is not a scheme"},
         {"stability: until=1\n", "stability: a parameter and its values are missing"},
         {"stability: ; g 1, 2\n", "stability: g is no parameter"},
         {"stability: ; k 1, 12\n", "stability: k lies between 0 and 9, and one of its values is 12"},
