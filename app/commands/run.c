@@ -880,7 +880,11 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     char message[GM_MESSAGE];
     const struct gm_options *options = outputs->options;
     const size_t observables = outputs->chosen.count;
-    struct outcome outcome = {.drive = {.request = request, .index = index}, .outputs = outputs};
+    struct outcome outcome = {
+        .drive = {.request = request,
+                  .index = index,
+                  .whole_steps = gm_chosen_follows_steps(&outputs->chosen, request->scene)},
+        .outputs = outputs};
     outcome.drive.lane = gm_request_open_lane(request, index, message);
     outcome.front = outcome.drive.lane ? front_of(request, outcome.drive.lane, index) : NULL;
     outcome.values = malloc(2 * observables * sizeof(double));

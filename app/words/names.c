@@ -138,6 +138,15 @@ void gm_chosen_close(struct gm_chosen *chosen)
     *chosen = (struct gm_chosen){0};
 }
 
+bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_scene *scene)
+{
+    bool follows = false;
+    for (size_t i = 0; i < chosen->count; i++) {
+        follows = follows || chosen->numbers[i] >= scene->observable_count;
+    }
+    return follows;
+}
+
 /* ---- unknown words ---- */
 
 const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word)

@@ -38,6 +38,9 @@ struct gm_chosen {
    sentence. The caller closes it in both cases. */
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
 void gm_chosen_close(struct gm_chosen *chosen);
+/* Returns true if an observable on request is among them. Such observables follow the steps of a run, which must
+   all have the same size. */
+bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_scene *scene);
 
 /* Refuses an observable that is not there, with the nearest that is. Returns false. */
 bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *message);

@@ -356,6 +356,11 @@ static size_t asked_shown(const struct gm_lane *lane)
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
 }
 
+bool gm_lane_follows_steps(const struct gm_lane *lane)
+{
+    return asked_shown(lane) > 0;
+}
+
 /* Returns true if two schemes make the same steps on the problems of all lanes. */
 static bool are_same(const struct gm_scheme *a, const struct gm_scheme *b, const struct gm_lane *const *lanes,
                      size_t count)

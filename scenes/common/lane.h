@@ -64,6 +64,9 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 /* The reason why a computed observable is NaN; NULL without one. */
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 
+/* Returns true if the lane's picture shows observables on request, which follow steps of one size. */
+bool gm_lane_follows_steps(const struct gm_lane *lane);
+
 /* Returns true if an observable has a meaning in this lane. */
 bool gm_lane_measures(const struct gm_lane *lane, size_t observable);
 

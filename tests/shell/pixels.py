@@ -229,7 +229,7 @@ if check(len(copied) == 1, 'y copies nothing'):
     check(command.startswith('geomint render disc ') and command[15:40] in ''.join(map(told.line, range(30))),
           f'y copies something else: {command}')
     check('--changes' in command, f'the changes are not in it: {command}')
-    words = [geomint] + shlex.split(command)[1:] + ['--size', '480x448', '--out', 'told']
+    words = [geomint] + shlex.split(command)[1:] + ['--size', '480x432', '--out', 'told']
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
     worst, mean, missing = compare(shown, read_png('told/disc-render.png'))
     print(f'redone by "{command}": greatest difference {worst}, {missing} pixels missing')

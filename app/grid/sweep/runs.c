@@ -346,7 +346,8 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
 {
     char message[GM_MESSAGE];
     const unsigned long refusals = gm_memory_refusals();
-    struct gm_drive drive = {.request = request};
+    struct gm_drive drive = {.request = request,
+                             .whole_steps = gm_chosen_follows_steps(&sweep->chosen, sweep->scene)};
     drive.lane = status ? NULL : gm_request_open_lane(request, 0, message);
     if (drive.lane) {
         drive.lane->unfollowed = is_of_the_end(sweep);
