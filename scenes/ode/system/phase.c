@@ -96,7 +96,11 @@ bool gm_system_portrait(const struct gm_lane *lane, struct gm_portrait *portrait
         window.low[c] = low - margin;
         window.high[c] = high + margin;
     }
-    return gm_portrait_open(portrait, &lane->problem, &window);
+    const bool good = gm_portrait_open(portrait, &lane->problem, &window);
+    if (!good) {
+        gm_portrait_close(portrait);
+    }
+    return good;
 }
 
 /* ---- drawing ---- */
