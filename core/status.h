@@ -10,7 +10,7 @@ enum gm_status {
     GM_MESH_CROSSING,  /* a moving mesh would have tangled */
     GM_STEP_COLLAPSE,  /* an adaptive scheme found no step */
     GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
-    GM_STEP_TOO_SMALL, /* step size control rejected steps down to round-off of the time */
+    GM_STEP_TOO_SMALL, /* step size control led to round-off of the time, or to too many steps */
 };
 
 /* The reason why an implicit equation was not solved. */

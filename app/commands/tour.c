@@ -89,7 +89,10 @@ static int explore(const struct gm_options *options, const char *command, const 
 {
     struct gm_overrides terminal = options->terminal;
     struct gm_arguments *words = gm_arguments_in(options->arena);
-    const char *const more[][2] = {{"--keys", terminal.keys}, {"--graphics", terminal.graphics}};
+    const char *const more[][2] = {{"--keys", terminal.keys},
+                                   {"--graphics", terminal.graphics},
+                                   {"--colours", terminal.colours},
+                                   {"--theme", terminal.theme}};
     if (!terminal.shot) {
         return terminal.keys || terminal.screen
                    ? gm_give_up(GM_EXIT_USAGE, "--keys and --screen need --shot FILE")

@@ -105,9 +105,9 @@ static int64_t next_time(int64_t last, int period)
     return last + period > now + LEAST_PAUSE ? last + period : now + LEAST_PAUSE;
 }
 
-bool gm_explorer_is_busy(const struct gm_explorer *explorer)
+bool gm_explorer_is_busy(struct gm_explorer *explorer)
 {
-    struct gm_check *check = (struct gm_check *)&explorer->check;
+    struct gm_check *check = &explorer->check;
     return (check->open && gm_job_is_busy(&check->job)) || gm_studies_are_busy(&explorer->open.studies) ||
            explorer->measure.fd >= 0;
 }

@@ -101,7 +101,7 @@ bool gm_explorer_compose(struct gm_explorer *explorer);
 /* Takes a new shot of the worker, or if that is NULL its failure. */
 void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot);
 /* Returns true while a thread or a process works on something that the screen shows. */
-bool gm_explorer_is_busy(const struct gm_explorer *explorer);
+bool gm_explorer_is_busy(struct gm_explorer *explorer);
 
 /* ---- a script (script.c) ---- */
 

@@ -55,7 +55,10 @@ static int put_out(struct gm_explorer *explorer)
 {
     int64_t now = gm_clock_milliseconds();
     gm_explorer_look_if_due(explorer);
-    explorer->dirty = explorer->dirty || (explorer->end > 0 && explorer->end <= now);
+    if (explorer->end > 0 && explorer->end <= now) {
+        explorer->dirty = true;
+        explorer->end = 0; /* the loop waits for a slow terminal, not for a time that has passed */
+    }
     bool good = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();

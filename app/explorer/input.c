@@ -645,6 +645,10 @@ static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    if (explorer->face.loss && !(hit && hit->kind == GM_HIT_KEY)) { /* like any key but q */
+        explorer->face.loss = NULL;
+        return;
+    }
     explorer->pointer.holding = hit != NULL;
     if (!hit) {
         return;

@@ -404,7 +404,8 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
 /* Returns true if a line has a formula of its own, with or without the name of a file. */
 static bool has_formula(const char *line)
 {
-    return memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") || strstr(line, " rate=");
+    return memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") || strstr(line, " L=") ||
+           strstr(line, " rate=");
 }
 
 /* Carries out a correct line. */

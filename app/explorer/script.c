@@ -62,7 +62,7 @@ static bool check_words(const struct gm_arguments *words, char *message)
         if (strlen(word) > 1 && strspn(word, capitals) == strlen(word) && !key_of(word)) {
             size_t used =
                 (size_t)snprintf(message, GM_MESSAGE, "--keys has no key %.40s; its keys are", word);
-            for (size_t k = 0; k < sizeof named / sizeof named[0]; k++) {
+            for (size_t k = 0; k < sizeof named / sizeof named[0] && used < GM_MESSAGE; k++) {
                 used +=
                     (size_t)snprintf(message + used, GM_MESSAGE - used, "%s %s", k ? "," : "", named[k].word);
             }
@@ -137,7 +137,8 @@ static bool write_text(const struct gm_cells *cells, const char *path, char *mes
             putc('\n', stream);
         }
     }
-    const bool good = stream && fclose(stream) == 0 && gm_folder_make_for(path, message);
+    const bool made = (stream && fclose(stream) == 0) || gm_refuse(message, "There is not enough memory.");
+    const bool good = made && gm_folder_make_for(path, message);
     const int error = good ? gm_temporary_write(path, text, size) : 0;
     free(text);
     return good && (error == 0 || gm_temporary_refuse(message, path, strerror(error)));
@@ -199,7 +200,8 @@ int gm_script_play(struct gm_explorer *explorer, const struct gm_overrides *over
     if (!gm_screen_resize(&explorer->screen, explorer->terminal.columns, explorer->terminal.rows) ||
         !gm_arguments_split(&words, overrides->keys ? overrides->keys : "")) {
         gm_arguments_close(&words);
-        return GM_EXIT_USAGE;
+        gm_refuse(explorer->message, "There is not enough memory.");
+        return GM_EXIT_MEMORY;
     }
     play(explorer, &words);
     gm_arguments_close(&words);

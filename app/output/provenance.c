@@ -127,7 +127,9 @@ static void put_options(FILE *stream, const void *data)
     } else {
         fprintf(stream, " --size %dx%d", look->width, look->height);
     }
-    fprintf(stream, " --theme %s", theme_name(look));
+    if (!look->screen) { /* a key may have changed the theme that the explorer began with */
+        fprintf(stream, " --theme %s", theme_name(look));
+    }
     if (is_scaled(look)) {
         fprintf(stream, " --scale %.17g", look->scale);
     }

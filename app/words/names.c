@@ -193,13 +193,15 @@ const char *gm_scheme_meant(const struct gm_scene *scene, const char *word)
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
     const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
     size_t count = 0;
-    if (row && gm_scheme_find(row->meant)) {
-        return row->meant;
-    }
     for (size_t i = 0; !scene && i < gm_scheme_count() && i < GM_FITTING_SCHEMES; i++) {
         schemes[count++] = gm_scheme_at(i);
     }
     count = scene ? gm_fitting_elsewhere(scene, schemes) : count;
+    for (size_t i = 0; row && i < count; i++) {
+        if (strcmp(schemes[i]->name, row->meant) == 0) {
+            return row->meant;
+        }
+    }
     const char *near = gm_nearest(word, count, scheme_name, schemes);
     for (size_t i = 0; !near && i < count; i++) {
         near = is_known_as(schemes[i], word) ? schemes[i]->name : NULL;

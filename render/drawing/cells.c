@@ -81,8 +81,9 @@ static bool is_rule(uint32_t glyph)
 
 static bool is_letter(uint32_t glyph)
 {
-    const bool blank = glyph == ' ' || glyph == 0,
-               braille = glyph >= 0x2800 && glyph<0x2900, eighths = glyph> 0x2580 && glyph < 0x2588;
+    const bool blank = glyph == ' ' || glyph == 0;
+    const bool braille = glyph >= 0x2800 && glyph < 0x2900;
+    const bool eighths = glyph > 0x2580 && glyph < 0x2588;
     return !blank && !braille && !eighths && quarters_of(glyph) == 0 && !is_rule(glyph);
 }
 

@@ -202,6 +202,9 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     if (system_scene->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
         return false;
     }
+    if (lane->portrait && !gm_system_is_plane(system_scene, sentence)) {
+        return false;
+    }
     double *values = gm_system_start_values(lane, NULL);
     if (values && !gm_system_is_admitted(lane, values, sentence)) {
         free(values);

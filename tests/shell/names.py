@@ -101,6 +101,7 @@ for contained, *words in (
         [["disc system=pendulum", "double-pendulum", "spherical-pendulum"], "run", "pendulum"],
         [["disc system=pendulum"], "pendulum"],
         [["did you mean verlet"], "run", "kepler", "scheme=Störmer"],
+        [["see geomint list sine-gordon"], "run", "sine-gordon", "scheme=rkf45"],
         [["three words: H='p^2/2 - cos(q)' q=1 p=0"], "system", "H = p^2/2 - cos(q), q = 1, p = 0"],
         [["two words: H='q^2 + p^2' q=1"], "run", "system", "H = q^2 + p^2, q = 1"],
         [["rate='x = y' rate='y = -x'"], "run", "system", "x'=y", "y'=-x", "x=1", "y=0"],

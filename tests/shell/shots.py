@@ -62,6 +62,11 @@ def files():
     check(b"geomint:command" in texts[0], "a PNG does not store its command")
     again = run("again", "one.png", "-o", "again.png")
     check(again.returncode == 0 and open("again.png", "rb").read() == texts[0], f"again: {again.stderr}")
+    for words in (["--keys", "t"], ["--theme", "mono"], ["--colours", "16"]):
+        run("tui", "kepler", "--shot", "coloured.png", *words)
+        again = run("again", "coloured.png", "-o", "again.png")
+        check(again.returncode == 0 and open("again.png", "rb").read() == open("coloured.png", "rb").read(),
+              f"again of {words}: {again.stderr}")
     svg = open("one.svg", encoding="utf-8").read()
     check(">RK4<" in svg and "<circle" in svg, "the SVG has no letters or no dots")
     run("tui", "kepler", "--shot", "light.svg", "--theme", "light")

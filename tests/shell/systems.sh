@@ -753,6 +753,12 @@ refused 1 'trails=-1 is not yes, no or a time above 0' run vortices trails=-1
 refused 1 'portrait needs a plane: this system has 4 components' run kepler portrait=yes
 refused 1 'portrait needs a field that does not depend on t' run duffing portrait=yes
 refused 1 'portrait needs a plane: this system has constraints' run cartesian-pendulum portrait=yes
+{
+    printf 'geomint: 1\nchoice: state = plane of plane, space; which\nwhen: state = plane\ncomponents: x y\n'
+    printf 'rate: x = y\nrate: y = -x\nstart: x = 1, y = 0\nwhen: state = space\ncomponents: x y z\n'
+    printf 'rate: x = y\nrate: y = -x\nrate: z = -z\nstart: x = 1, y = 0, z = 1\n'
+} >states.system
+refused 1 'portrait needs a plane: this system has 3 components' run ./states.system state=space portrait=yes
 refused 1 'window=1,0,0,1 is empty' run lotka-volterra portrait=yes --window 1,0,0,1
 refused 1 'window=nan is not four finite numbers' run lotka-volterra portrait=yes --window nan
 refused 1 'the rate of x is not finite at the start' run system rate='x = sqrt(-1 - x^2)' rate='y = x' x=1 y=0 portrait=yes

@@ -311,7 +311,7 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_MESH_CROSSING] = "tangled its mesh",
             [GM_STEP_COLLAPSE] = "found no time step",
             [GM_OUT_OF_MEMORY] = "found no memory",
-            [GM_STEP_TOO_SMALL] = "needs steps below round-off",
+            [GM_STEP_TOO_SMALL] = "needs steps that are too small",
         };
         char sentence[GM_MESSAGE];
         snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,

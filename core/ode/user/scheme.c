@@ -546,6 +546,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
     }
     if (!scheme || elsewhere) {
         const char *near = scheme ? NULL : gm_scheme_near(name);
+        near = near && gm_scheme_composes(gm_scheme_find(near)) ? near : NULL;
         fail(making, span.begin,
              scheme ? "%.40s is not a scheme for ordinary differential equations%s%s"
                     : "there is no scheme \"%.40s\"%s%s",

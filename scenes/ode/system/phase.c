@@ -15,13 +15,9 @@ static const char chosen[] = "auto"; /* the window that the picture chooses */
 
 /* ---- parameters ---- */
 
-bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text, char *sentence)
+bool gm_system_is_plane(const struct gm_system_scene *system_scene, char *sentence)
 {
-    const struct gm_system_scene *system_scene = row->admitting;
     const struct gm_user_system *system = &system_scene->system;
-    if (strcmp(text, "yes") != 0) {
-        return true;
-    }
     if (system_scene->model.constraints.count > 0) {
         return gm_refuse(sentence, "portrait needs a plane: this system has constraints");
     }
@@ -30,6 +26,11 @@ bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text,
                          gm_plural((double)system->n));
     }
     return !system->timed || gm_refuse(sentence, "portrait needs a field that does not depend on t");
+}
+
+bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text, char *sentence)
+{
+    return strcmp(text, "yes") != 0 || gm_system_is_plane(row->admitting, sentence);
 }
 
 /* Reads "XMIN,XMAX,YMIN,YMAX". Returns false with a sentence for any other text. */
@@ -70,7 +71,9 @@ bool gm_system_window(const struct gm_system_lane *lane, const struct gm_sight *
 
 bool gm_system_has_portrait(const struct gm_system_lane *lane, const struct gm_sight *sight)
 {
-    return lane->portrait && sight->dimensions == 2 && sight->components[0] == 0 && sight->components[1] == 1;
+    char sentence[GM_MESSAGE];
+    return lane->portrait && sight->dimensions == 2 && sight->components[0] == 0 &&
+           sight->components[1] == 1 && gm_system_is_plane(lane->owner, sentence);
 }
 
 bool gm_system_portrait(const struct gm_lane *lane, struct gm_portrait *portrait)
@@ -93,7 +96,11 @@ bool gm_system_portrait(const struct gm_lane *lane, struct gm_portrait *portrait
         window.low[c] = low - margin;
         window.high[c] = high + margin;
     }
-    return gm_portrait_open(portrait, &lane->problem, &window);
+    const bool good = gm_portrait_open(portrait, &lane->problem, &window);
+    if (!good) {
+        gm_portrait_close(portrait);
+    }
+    return good;
 }
 
 /* ---- drawing ---- */

@@ -7,6 +7,10 @@
 #include "core/ode/portrait/portrait.h"
 #include "scenes/common/system/look.h"
 
+/* Returns true if a system has a portrait; else false with a sentence. With another word of a choice a file may be
+   another system, so this is about a lane's own. */
+bool gm_system_is_plane(const struct gm_system_scene *system_scene, char *sentence);
+
 /* Return true if a text is a value of portrait= for the system of the row, or of window=; else false with a
    sentence. */
 bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text, char *sentence);
