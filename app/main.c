@@ -208,7 +208,7 @@ static int run(int argc, char *argv[])
         gm_engine_choose(options->engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         struct gm_arena *arena = gm_arena_open();
         running.status = GM_EXIT_MEMORY; /* unless the command sets it */
-        if (!gm_arena_run(arena, obey, &running) && running.status != GM_EXIT_MEMORY) {
+        if (!gm_arena_run(arena, obey, &running)) {
             gm_complain("%s", gm_arena_reason(arena));
         }
         gm_arena_close(arena);

@@ -177,10 +177,10 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const double left = gm_observe(observable, &view) / initial_of(observable, &view);
     if (error <= lost_above(lane->scheme) && left >= 0) {
         snprintf(text, size,
-                 "%s is %.3g: the exact motion conserves this quantity, the scheme has %.1e of it left",
+                 "%s is %.3g: the scheme has %.1e left of a quantity that the exact motion conserves",
                  observable->key, error, left);
     } else {
-        snprintf(text, size, "%s is %.3g: the exact motion conserves this quantity, the scheme has lost it",
+        snprintf(text, size, "%s is %.3g: the scheme has lost a quantity that the exact motion conserves",
                  observable->key, error);
     }
 }

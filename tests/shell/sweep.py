@@ -160,7 +160,9 @@ def test_refusals(folder, one):
 def test_warnings(one):
     """What is told of rows that are ok is what runs alone say."""
     warned = []
-    for run, row in enumerate(rows(one)[:28]):
+    for run, row in enumerate(rows(one)):
+        if warned:
+            break
         alone = subprocess.run([geomint, "run", "kepler", "--json",
                                 *(f"{key}={row[key]}" for key in ("eccentricity", "dt", "scheme"))],
                                capture_output=True, text=True)

@@ -99,7 +99,7 @@ status 0 run lanes.system steps=1
 [ "$(grep -c 'lanes  ' out)" = 1 ] || fail 'a run is of one lane'
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 1, p = 0\nlanes: scheme=verlt\n' >lanes.system
 refused 1 'in the line "lanes:" of lanes: there is no scheme "verlt"' render lanes.system -o lanes.svg
-misplaced '4:14: schemes: verlt is no scheme' 'schemes: rk4 verlt'
+misplaced '4:14: schemes: verlt is not a scheme' 'schemes: rk4 verlt'
 misplaced '4:10: members: disk 3 is no whole number' 'members: disk 3'
 misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'
 misplaced '4:8: exact: x would begin at 2, and it starts at 1' 'exact: x = 2*x(0)*cos(t)'
@@ -664,8 +664,8 @@ refused 3 'No such file' sweep none.system x=1,2
 refused 3 'No such file' work-precision none.system
 refused 3 'No such file' stability none.system
 printf 'coordinates: q\nH: p_q^2/2\nstart: q = 1, p_q = 0\nschemes: vrlet\n' >scheme.system
-refused 1 'vrlet is no scheme' run scheme.system
-refused 1 'vrlet is no scheme' list scheme.system
+refused 1 'vrlet is not a scheme' run scheme.system
+refused 1 'vrlet is not a scheme' list scheme.system
 sed 's/^schemes: .*/members: few/' scheme.system >members.system
 refused 1 'members: few is no whole number' run members.system
 # what two systems of one name must not share
