@@ -879,7 +879,7 @@ static void refusals(void **unused)
         {"runge-kutta(let: sin = 1; 1/2; 1)", "sin", "reserved"},
         {"composition(verlet; 1, 1)", "1, 1)", "the steps sum to 2, not to 1"},
         {"composition(verlat; 1)", "verlat", "did you mean verlet"},
-        {"composition(zabusky-kruskal; 1)", "zabusky-kruskal", "no scheme for ordinary differential equations"},
+        {"composition(zabusky-kruskal; 1)", "zabusky-kruskal", "not a scheme for ordinary differential equations"},
         {"composition(tao2; 1)", "tao2", "cannot be a part"},
         {"composition(./a.scheme; 1)", "./a", "could not be read"},
         {"adjoint(avf2)", "", ""}, /* symmetric: its own adjoint */
@@ -905,7 +905,7 @@ static void refusals(void **unused)
         {"runge-kutta(oder: 1; 1/2; 1)", "oder", "did you mean order"},
         {"geomint: 1\na: 1/2\nb: 1\n", "geomint", "what kind of scheme"},
         {"kind: runge-cutta\na: 1/2\nb: 1\n", "runge-cutta", "did you mean runge-kutta"},
-        {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "said twice"},
+        {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "given twice"},
         {"geomint: 2\nkind: runge-kutta\na: 1/2\nb: 1\n", "2\nkind", "later format"},
         {"kind: runge-kutta\na:\nb: 1\n", "a:", "has no value"},
         {"kind: runge-kutta\na: 1/2\nb: \033[31m1\n", "\033", ""},
