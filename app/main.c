@@ -95,11 +95,11 @@ static int help(bool all)
     enum { COMMAND = 18 };
     static const char *const notes[] = {
         "geomint COMMAND --help explains the options of a command, geomint --help --all those of all commands.",
-        "key=value sets a parameter (geomint list SCENE shows them), and scheme=a,b,c the schemes. Every key takes "
-        "a list. The lanes are the product of the lists; zip=yes pairs them, and overlay=yes draws all lanes in "
-        "one panel. Numbers are typed as 1e-3 or pi/60. Ranges are 0..0.9:10, or 1e-4..1e-1:log7 by equal factors.",
-        "Exit status: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 5 not enough memory, "
-        "130 interrupted."};
+        ("key=value sets a parameter (geomint list SCENE shows them), and scheme=a,b,c the schemes. Every key takes "
+         "a list. The lanes are the product of the lists; zip=yes pairs them, and overlay=yes draws all lanes in "
+         "one panel. Numbers are typed as 1e-3 or pi/60. Ranges are 0..0.9:10, or 1e-4..1e-1:log7 by equal factors."),
+        ("Exit status: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 5 not enough memory, "
+         "130 interrupted.")};
     set_width();
     gm_print_wrapped("see what a geometric integrator conserves and what an ordinary one destroys",
                      printf("geomint %s: ", GM_VERSION), 2);
