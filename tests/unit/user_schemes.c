@@ -879,7 +879,8 @@ static void refusals(void **unused)
         {"runge-kutta(let: sin = 1; 1/2; 1)", "sin", "reserved"},
         {"composition(verlet; 1, 1)", "1, 1)", "the steps sum to 2, not to 1"},
         {"composition(verlat; 1)", "verlat", "did you mean verlet"},
-        {"composition(zabusky-kruskal; 1)", "zabusky-kruskal", "not a scheme for ordinary differential equations"},
+        {"composition(zabusky-kruskal; 1)", "zabusky-kruskal",
+         "not a scheme for ordinary differential equations"},
         {"composition(tao2; 1)", "tao2", "cannot be a part"},
         {"composition(./a.scheme; 1)", "./a", "could not be read"},
         {"adjoint(avf2)", "", ""}, /* symmetric: its own adjoint */
