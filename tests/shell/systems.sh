@@ -188,7 +188,7 @@ bends() { # SCHEME MEMBERS
     printf 'coordinates: q\nH: p_q^2/2 + sqrt(1 - q)\nstart: q = 0, p_q = 1\n' >bends.system
     "$geomint" run ./bends.system scheme="$1" members="$2" dt=0.2 >out 2>err
     [ $? = 2 ] || fail "$1: a root of what is negative is no failure"
-    grep -q 'led to no number: sqrt(1 - q) is not finite where 1 - q = -0\.' out || fail "$1 of $2: $(cat out)"
+    grep -q 'failed: sqrt(1 - q) is not finite where 1 - q = -0\.' out || fail "$1 of $2: $(cat out)"
 }
 bends verlet 1
 bends verlet 5
@@ -223,7 +223,7 @@ printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.syst
 
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
-refused 1 "^geomint: bracket= takes the place of a line in a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
+refused 1 "^geomint: bracket= replaces a line of a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
 # a formula that is none is told before values are asked for, and one without its scene finds it
 refused 1 'in H=, column 1: the formula ends where a number' run system H=
 refused 1 'in H=, column 8: the formula ends where a number' run system H='p^2/2 +'
