@@ -862,8 +862,8 @@ static void refusals(void **unused)
         {"runge-kutta(1, 2 | 3; 1, 1)", "3; 1", "row 2 of a has 1 entries, the first has 2"},
         {"runge-kutta(1/2; 1, 1)", "1, 1)", "b has 2 entries; the rows of a make 1 stages"},
         {"runge-kutta(1/2; 1; 1/3)", "1/3)", "row 1 of a sums to 0.5, c says 0.333333333333333"},
-        {"explicit(0, 1 | 1, 0; 1/2, 1/2)", "1 | 1", "entry 1, 2 stands above the diagonal"},
-        {"explicit(1/2; 1)", "1/2;", "entry 1, 1 stands on the diagonal"},
+        {"explicit(0, 1 | 1, 0; 1/2, 1/2)", "1 | 1", "entry 1, 2 is above the diagonal"},
+        {"explicit(1/2; 1)", "1/2;", "entry 1, 1 is on the diagonal"},
         {"runge-kutta(1/0; 1)", "1/0", "no finite number"},
         {"runge-kutta(log(-1); 1)", "log", "no finite number"},
         {"runge-kutta(1e300; 1)", "1e300", "no finite number"},
@@ -905,14 +905,14 @@ static void refusals(void **unused)
         {"runge-kutta(oder: 1; 1/2; 1)", "oder", "did you mean order"},
         {"geomint: 1\na: 1/2\nb: 1\n", "geomint", "what kind of scheme"},
         {"kind: runge-cutta\na: 1/2\nb: 1\n", "runge-cutta", "did you mean runge-kutta"},
-        {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "said twice"},
+        {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "given twice"},
         {"geomint: 2\nkind: runge-kutta\na: 1/2\nb: 1\n", "2\nkind", "later format"},
         {"kind: runge-kutta\na:\nb: 1\n", "a:", "has no value"},
         {"kind: runge-kutta\na: 1/2\nb: \033[31m1\n", "\033", ""},
         {"kind: runge-kutta\ntitle: a; b\na: 1/2\nb: 1\n", "a; b", "no semicolon"},
         {"kind: runge-kutta\ntitle: Kutta]s\na: 1/2\nb: 1\n", "Kutta]s",
          "closes its parentheses and brackets"},
-        {"nonsense", "", "a line begins with a word and a colon"},
+        {"nonsense", "", "a line needs a word and a colon"},
     };
     for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_fault fault;
