@@ -105,9 +105,9 @@ static void words_choose_systems(void **unused)
     assert_float_equal(test_observed(one, "speed"), -sin(1), 1e-12);
     assert_float_equal(test_observed(two, "other"), 0, 1e-15);
     assert_true(isnan(test_observed(one, "other")) && isnan(test_observed(two, "speed")));
-    assert_string_equal(missing(one, "other"), "with masses=one there is none");
-    assert_string_equal(missing(two, "speed"), "with masses=two there is none");
-    assert_string_equal(scene->idle(one->parameters, "c"), "with masses=one there is none");
+    assert_string_equal(missing(one, "other"), "it is not defined with masses=one");
+    assert_string_equal(missing(two, "speed"), "it is not defined with masses=two");
+    assert_string_equal(scene->idle(one->parameters, "c"), "it is not defined with masses=one");
     assert_null(scene->idle(two->parameters, "c"));
     gm_lane_close(one);
     gm_lane_close(two);
