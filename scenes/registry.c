@@ -21,7 +21,7 @@
 
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
-/* What stands for a scene that there was no memory for: it opens no lane. */
+/* Replaces a scene that there was no memory for: it opens no lane. */
 static bool refuse(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     (void)parameters;

@@ -41,7 +41,7 @@ static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY
 
 _Noreturn static void refuse(const struct gm_options *options, const char *why)
 {
-    gm_command_end(options, GM_EXIT_FILE, "%s cannot be made again: %s", options->arguments.words[0], why);
+    gm_command_end(options, GM_EXIT_FILE, "%s cannot be reproduced: %s", options->arguments.words[0], why);
 }
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
@@ -75,7 +75,7 @@ static void check_texts(const struct gm_options *options, char *const *texts)
 {
     for (size_t i = ARGUMENTS; i < NEEDED; i++) {
         if (!texts[i]) {
-            gm_command_end(options, GM_EXIT_FILE, "%.360s does not tell how it was made (it lacks %s)",
+            gm_command_end(options, GM_EXIT_FILE, "%.360s does not record how it was made (it lacks %s)",
                            options->arguments.words[0], keys[i]);
         }
     }
@@ -146,7 +146,7 @@ static int chart_again(const struct gm_options *options, const char *command)
         again->end = options->end;
         return chart->function(again);
     }
-    gm_complain("%s cannot be made again: %s", options->arguments.words[0], message);
+    gm_complain("%s cannot be reproduced: %s", options->arguments.words[0], message);
     return GM_EXIT_FILE;
 }
 
@@ -255,9 +255,9 @@ int gm_command_again(const struct gm_options *options)
     enum gm_format format = GM_FORMAT_PNG;
     const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
     if (format == GM_FORMAT_PDF) {
-        return gm_give_up(GM_EXIT_FILE,
-                          "again reads PNG and SVG files; a PDF, as %.300s, does not tell how it was made",
-                          path);
+        return gm_give_up(
+            GM_EXIT_FILE,
+            "again reads PNG and SVG files; a PDF, such as %.300s, does not record how it was made", path);
     }
     if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
         return gm_give_up(GM_EXIT_FILE, "%s", message);
@@ -268,7 +268,7 @@ int gm_command_again(const struct gm_options *options)
         }
     }
     if (!drawn && !take_painter(options, texts[PAINTER], message)) {
-        gm_command_end(options, GM_EXIT_USAGE, "%.300s cannot be made again: %s", path, message);
+        gm_command_end(options, GM_EXIT_USAGE, "%.300s cannot be reproduced: %s", path, message);
     }
     recall_system(options, texts);
     return texts[COMMAND] ? chart_again(options, texts[COMMAND]) : picture_again(options, texts);

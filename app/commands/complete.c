@@ -148,7 +148,7 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
     } else if (strcmp(option->name, "--format") == 0) {
         offer_named(stem, option->value);
     } else if (strcmp(option->name, "--engine") == 0) {
-        offer(stem, "auto", "compiled where that pays");
+        offer(stem, "auto", "compiled if that is faster");
         offer(stem, "interpreted", "at once, everywhere");
         offer(stem, "native", "compiled first");
     } else if (strcmp(option->name, "--theme") == 0) {

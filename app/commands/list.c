@@ -286,7 +286,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
         gm_print_wrapped(gm_observable_title(observable, title, sizeof title),
                          printf("  %s ", observable->key), KEY + 11);
     }
-    printf("\nlanes, where nothing more is said\n");
+    printf("\ndefault lanes\n");
     gm_print_wrapped(entry->run, printf("  run     "), 10);
     gm_print_wrapped(entry->render, printf("  render  "), 10);
     printf("\n");

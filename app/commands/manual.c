@@ -190,9 +190,9 @@ static void put_surroundings(void)
         {"GEOMINT_SYSTEMS", "a folder with systems, beside those of the program"},
         {"GEOMINT_ROOMS", "a folder with rooms, beside those of the program"},
         {"GEOMINT_SCHEMES", "a folder with schemes, beside those of the program"},
-        {"GEOMINT_KERNEL", "a folder with the sources of loops, in place of the installed one"},
+        {"GEOMINT_KERNEL", "a folder with the sources of loops, instead of the installed one"},
         {"GEOMINT_COMPILER_SECONDS", "seconds of a processor that the compiler of loops may take (10)"},
-        {"XDG_CACHE_HOME", "where the folder geomint with compiled loops is, in place of ~/.cache"},
+        {"XDG_CACHE_HOME", "the parent of the folder geomint with compiled code, instead of ~/.cache"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     put_terms("EXIT STATUS", exits, GM_COUNT(exits));

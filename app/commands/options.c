@@ -216,8 +216,7 @@ static bool settle_size(struct gm_options *options, char *message)
     const double width = round(options->page[0] / mm_an_inch * look->dpi);
     const double height = round(options->page[1] / mm_an_inch * look->dpi);
     if (!is_painted(width, height)) {
-        return gm_refuse(message,
-                         "--size %gx%gmm is %gx%g pixels at %g an inch; each is to be from 64 to 16384",
+        return gm_refuse(message, "--size %gx%gmm is %gx%g pixels at %g dpi; each must be from 64 to 16384",
                          options->page[0], options->page[1], width, height, look->dpi);
     }
     look->width = (int)width;
@@ -453,18 +452,18 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
         {"--at",
          "the first makes one picture",
          {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
-        {"--frames", "each says how many frames there are", {"--every", "--rate"}},
-        {"--every", "each says how many frames there are", {"--rate"}},
-        {"--every", "each says which steps have a row", {"--interval"}},
+        {"--frames", "each sets the number of frames", {"--every", "--rate"}},
+        {"--every", "each sets the number of frames", {"--rate"}},
+        {"--every", "each selects the steps that have a row", {"--interval"}},
         {"--output", "the first names the file", {"--out"}},
         {"--output",
          "the first makes one picture",
          {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
         {"--json", "they are two formats", {"--markdown", "--latex"}},
         {"--latex", "they are two formats", {"--markdown"}},
-        {"--list", "the first only tells of the tour", {"--movie", "--out"}},
+        {"--list", "the first only lists steps", {"--movie", "--out"}},
         {"--join", "the first makes no run", {"--table", "--shard", "--retry"}},
-        {"--region", "a region knows of no error", {"--judge"}},
+        {"--region", "a region has no error", {"--judge"}},
         {"--join", "the tables have the columns that they have", {"--measure"}},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {

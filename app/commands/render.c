@@ -376,7 +376,7 @@ static int paint_all(struct work *work, const char *name)
     }
     if (gm_interrupted) {
         return gm_give_up(GM_EXIT_INTERRUPTED,
-                          "stopped at %ld of %ld frame%s; the same command goes on from there", work->done,
+                          "stopped at %ld of %ld frame%s; the same command resumes from there", work->done,
                           work->schedule.ours, gm_plural((double)work->schedule.ours));
     }
     const int status = tell_end(work);

@@ -628,7 +628,7 @@ static bool fits_saved(const struct outcome *outcome, char *message)
         return true;
     }
     if (!is_spacing(outcome)) {
-        return gm_refuse(message, "what was saved before is spaced otherwise: go on with the same --every or "
+        return gm_refuse(message, "the saved rows are spaced otherwise: resume with the same --every or "
                                   "--interval, or save to another file");
     }
     return outcome->paused.saved == gm_save_identity(outputs->save) ||
@@ -775,7 +775,8 @@ static void check_options(const struct gm_options *options)
                        "standard output takes one of --csv -, --profile - and --json");
     }
     if ((options->every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
-        gm_command_end(options, GM_EXIT_USAGE, "--%s says which steps have a row: of --csv or --save",
+        gm_command_end(options, GM_EXIT_USAGE,
+                       "--%s selects the steps that have a row: it needs --csv or --save",
                        options->every > 0 ? "every" : "interval");
     }
 }
@@ -811,9 +812,8 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
             i++;
         }
         const bool keeps_to_itself = i < request->count; /* the library of a scheme does not give its state */
-        gm_refuse(message, "a run %s%s cannot be gone on with from a checkpoint",
-                  keeps_to_itself ? "by " : "",
-                  keeps_to_itself ? request->lanes[i].scheme->name : "that is changed in flight");
+        gm_refuse(message, "a run %s%s cannot be resumed from a checkpoint", keeps_to_itself ? "with " : "",
+                  keeps_to_itself ? request->lanes[i].scheme->name : "with changes");
         return GM_EXIT_USAGE;
     }
     if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {

@@ -117,7 +117,7 @@ int gm_command_tour(const struct gm_options *options)
     bool unreadable = false;
     if (options->arguments.count > 1) {
         return gm_give_up(GM_EXIT_USAGE,
-                          "tour takes one name; one of several words stands in quotation marks");
+                          "tour takes one name; put a name of several words in quotation marks");
     }
     if (options->arguments.count == 0 && (options->movie || options->out)) {
         return gm_give_up(GM_EXIT_USAGE, "which tour? geomint tour lists them");

@@ -82,7 +82,7 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
     if (held) {
         gm_refuse(message, "%.300s is being written by another process", path);
     } else if (go_on && errno == ENOENT) {
-        gm_refuse(message, "%.200s.part is not there: what was saved before cannot be gone on with", path);
+        gm_refuse(message, "%.200s.part is missing: the saved run cannot be resumed", path);
     } else if (there) {
         gm_refuse(message, "%.300s.part could not be opened: %s", path, strerror(errno));
     }

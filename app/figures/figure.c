@@ -522,7 +522,7 @@ void gm_verdict_number(double low, double high, char *text, size_t size)
     snprintf(first, sizeof first, "%.4g", low);
     snprintf(last, sizeof last, "%.4g", high);
     if (!(low <= high)) {
-        snprintf(text, size, "no number");
+        snprintf(text, size, "not a number");
     } else if (strcmp(first, last) == 0) {
         snprintf(text, size, "%s", first);
     } else {

@@ -328,8 +328,8 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
     fprintf(page,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-            "<meta name=\"generator\" content=\"geomint %s\">\n<title>Published figures, made again</title>\n"
-            "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, made again</h1>\n",
+            "<meta name=\"generator\" content=\"geomint %s\">\n<title>Published figures, reproduced</title>\n"
+            "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, reproduced</h1>\n",
             GM_VERSION, style);
     const struct gm_tally *said = &sum->of[GM_OF_DOCUMENT], *ours = &sum->of[GM_OF_OURS],
                           *variants = &sum->of[GM_OF_VARIANT];
@@ -347,7 +347,7 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
         ours->hold + ours->fail + ours->open, ours->hold, variants->hold + variants->fail + variants->open,
         variants->hold);
     fputs(
-        "<p class=\"soft\">Each figure comes with what its document says of it, the number that was found here, "
+        "<p class=\"soft\">Each figure comes with the statements of its document, the number that was found here, "
         "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "
         "gives a word, the word means the same throughout: a number <i>grows</i> whose largest value in the "
         "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
@@ -356,7 +356,7 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
         "<i>about</i> is up to twice as much; a time is met within 1 %, an order within 0.05. A statement is "
         "<i>open</i> that holds or not by the value of a key that the document does not give. A run that "
         "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
-        "stands under it.</p>\n",
+        "follows it.</p>\n",
         page);
     if (output->quick) {
         fputs("<p class=\"notice\">Made with --quick: smaller pictures, and the longest runs are made with "

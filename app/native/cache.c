@@ -50,8 +50,7 @@ bool gm_cache_folder(char path[GM_CACHE_PATH], char *sentence)
         return gm_refuse(sentence, "%.200s could not be made: %s", path, strerror(errno));
     }
     if (!S_ISDIR(about.st_mode) || about.st_uid != geteuid() || (about.st_mode & 077) != 0) {
-        return gm_refuse(sentence,
-                         "%.200s is not used: it is to be a folder of yours that nobody else may open", path);
+        return gm_refuse(sentence, "%.200s is not used: it must be a folder that only you may open", path);
     }
     return true;
 }

@@ -190,7 +190,7 @@ static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
 {
     struct head head;
     if (fread(&head, sizeof head, 1, file) != 1 || memcmp(head.magic, magic, sizeof magic) != 0) {
-        return "is no checkpoint";
+        return "is not a checkpoint";
     }
     size -= sizeof head;
     if (head.identity_size > size || size - head.identity_size != head.body_size) {
@@ -213,7 +213,7 @@ static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
     pause->position = head.position;
     return head.lanes == pause->count && take_apart(pause, bytes + head.identity_size, head.body_size)
                ? NULL
-               : "is no checkpoint of these lanes";
+               : "is not a checkpoint of these lanes";
 }
 
 static bool read_lanes(struct gm_pause *pause, const char *path, char *message)
@@ -285,7 +285,7 @@ bool gm_pause_restore(struct gm_pause *pause, size_t index, struct gm_lane *lane
         return true;
     }
     if (!unpack(pause, index, lane, lane->t0 + 1e300 * lane->run->dt, paused)) { /* at any time */
-        return gm_refuse(message, "%.360s is no checkpoint of these lanes", pause->from);
+        return gm_refuse(message, "%.360s is not a checkpoint of these lanes", pause->from);
     }
     if (lane->run->steps > pause->request->lanes[index].steps) {
         return gm_refuse(message, "%.300s has come to t = %.10g already, which is beyond the end asked for",

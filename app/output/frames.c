@@ -69,7 +69,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
     }
     const bool paced = pace->movie || !isnan(pace->rate) || !isnan(pace->fps);
     if (end >= GM_NEVER && (paced || pace->frames || pace->every)) {
-        return gm_refuse(message, "where a scheme chooses its steps, frames need until= instead of steps=");
+        return gm_refuse(message, "frames of an adaptive scheme need until= instead of steps=");
     }
     double count = 1;
     *schedule = (struct gm_schedule){.first = first, .last = end};

@@ -587,7 +587,8 @@ bool gm_session_turn(struct gm_session *session, char *message)
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_scheme *scheme = session->lanes[i]->scheme;
         if (scheme->family->adaptive || scheme->family->not_resumable) {
-            return gm_refuse(message, "%s chooses its own steps, and they only go forwards.", scheme->title);
+            return gm_refuse(message, "%s has step size control, and its steps only go forwards.",
+                             scheme->title);
         }
     }
     settle(session);

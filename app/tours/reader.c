@@ -90,7 +90,7 @@ static bool is_readable(const char *text)
 static void continue_entry(const struct reader *reader, long line, const char *text)
 {
     if (reader->count == 0) {
-        refuse(reader, line, "it begins with a blank, but there is no text above to go on with");
+        refuse(reader, line, "it begins with a blank, but there is no text above to continue");
     }
     struct entry *last = &reader->entries[reader->count - 1];
     last->text = gm_arena_print(reader->arena, "%s%s%s", last->text, last->text[0] ? " " : "", text);
@@ -103,7 +103,7 @@ static void read_line(struct reader *reader, long line, char *text)
         text[--length] = '\0';
     }
     if (!is_readable(text)) {
-        refuse(reader, line, "it holds something that is no letter of UTF-8");
+        refuse(reader, line, "it holds a byte that is not UTF-8");
     }
     const char *at = behind_blanks(text);
     if (*at == '\0' || *at == '#') {
@@ -140,7 +140,7 @@ static void read_lines(struct reader *reader)
         char *newline = memchr(text, '\n', (size_t)(end - text)), *const stop = newline ? newline : end;
         *stop = '\0';
         if (strlen(text) < (size_t)(stop - text)) {
-            refuse(reader, line, "it holds a byte 0, so this is no text");
+            refuse(reader, line, "it holds a byte 0, so this is not text");
         }
         read_line(reader, line, text);
         text = stop + 1;
@@ -290,7 +290,7 @@ static void take_entry(const struct reader *reader, const struct entry *entry, s
         break;
     default:
         if (!places[entry->word]) {
-            refuse(reader, entry->line, "%s: stands before the first step:", word_names[entry->word]);
+            refuse(reader, entry->line, "%s: belongs before the first step:", word_names[entry->word]);
         }
         take_text(reader, entry, places[entry->word]);
     }
@@ -381,7 +381,7 @@ static void read_head(const struct reader *reader, size_t count)
             tour->place = (long)place;
             break;
         default:
-            refuse(reader, entry->line, "%s: stands before the first step:", word_names[entry->word]);
+            refuse(reader, entry->line, "%s: belongs after the first step:", word_names[entry->word]);
         }
     }
     if (!tour->title) {

@@ -196,7 +196,7 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
     }
     const struct gm_parameter *row = gm_scene_parameter(scene, key);
     if (!row || !row->live) {
-        return gm_refuse(message, "%.60s cannot be changed in flight", text);
+        return gm_refuse(message, "%.60s cannot be changed during the run", text);
     }
     return gm_value_read(row, parameters, value, message);
 }

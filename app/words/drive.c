@@ -253,15 +253,14 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
     text[0] = '\0';
     if ((!solved || run->status == GM_STEP_COLLAPSE) &&
-        tell_part(lane, solved ? "was not found" : "led to no number", text, size)) {
+        tell_part(lane, solved ? "was not found" : "failed", text, size)) {
         return;
     }
     switch (run->status) {
     case GM_OK:
         return;
     case GM_BLOW_UP:
-        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
-                 run->limit);
+        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to NaN", run->t, run->limit);
         return;
     case GM_NO_CONVERGENCE:
         tell_unsolved(run, text, size);
@@ -276,7 +275,8 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         snprintf(text, size, "the steps after t = %.6g are too small for the tolerance", run->t);
         return;
     case GM_OUT_OF_MEMORY:
-        snprintf(text, size, "there was not enough memory to go on from t = %.6g, or to look at it", run->t);
+        snprintf(text, size, "there was not enough memory to continue from t = %.6g, or to observe it",
+                 run->t);
         return;
     }
 }
@@ -307,7 +307,7 @@ void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
     }
     if (adaptive && overshoot(drive) > 0) {
         snprintf(text, size,
-                 "the scheme chooses its steps: the first that reaches until = %.10g ends at t = %.10g",
+                 "the scheme is adaptive: the first step that reaches until = %.10g ends at t = %.10g",
                  drive->request->lanes[drive->index].until, drive->lane->run->t);
     }
 }
@@ -316,8 +316,7 @@ void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
 {
     text[0] = '\0';
     if (!drive->lane->scheme->family->adaptive && overshoot(drive) != 0) {
-        snprintf(text, size,
-                 "the run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
+        snprintf(text, size, "the run ends at t = %.10g: until = %.10g is not a whole number of steps",
                  drive->lane->run->t, drive->request->lanes[drive->index].until);
     }
     if (drive->lane->scheme->family->adaptive && is_far_beyond(drive)) {

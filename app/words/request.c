@@ -218,7 +218,7 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
         }
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
         const size_t count = gm_fitting_schemes(scene, fitting);
-        const char *between = "; those that do: ";
+        const char *between = "; these do: ";
         size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
         for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
             if (gm_scheme_takes(fitting[k], row)) {

@@ -138,7 +138,7 @@ static const struct gm_scheme *bring(void *data, const char *name, char *sentenc
     for (const struct reading *before = by; before; before = before->by, depth++) {
         if (found && before->path && stat(before->path, &there) == 0 && here.st_dev == there.st_dev &&
             here.st_ino == there.st_ino) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%.200s is made of itself", name);
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.200s contains itself", name);
             return NULL;
         }
     }

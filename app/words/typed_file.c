@@ -567,11 +567,10 @@ static bool put_typed(struct typing *typing, FILE *stream, struct gm_word_place 
         const char *key = of_files[key_of(typing->file->words[i], of_files, &value)];
         if (key) {
             *place = (struct gm_word_place){i, 0};
-            return gm_refuse(
-                message,
-                "%s= takes the place of a line in a system's file; what is typed without one has "
-                "H=, L= or rate=",
-                key);
+            return gm_refuse(message,
+                             "%s= replaces a line of a system's file; a system that is typed without one has "
+                             "H=, L= or rate=",
+                             key);
         }
     }
     if (!typing->has[FORMULA_H] && !typing->has[FORMULA_L] && !typing->has[FORMULA_RATE]) {

@@ -123,7 +123,7 @@ static bool parse_range(struct gm_range *range, const char *key, const char *tex
 
 const struct gm_common_key gm_common_keys[] = {
     {"scheme", "NAME,...", "a scheme or several; without it the scene's preferred ones", {NULL}},
-    {"steps", "N", "instead of until: so many steps", {NULL}},
+    {"steps", "N", "number of steps, instead of until", {NULL}},
     {"zip", "yes", "lists of equal length are paired, instead of multiplied", {"no", "yes", NULL}},
     {"overlay", "yes", "all lanes in one panel", {"no", "yes", NULL}},
     {"equal",

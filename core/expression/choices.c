@@ -134,8 +134,7 @@ struct blocks {
 static bool end_block(const struct blocks *blocks, struct gm_fault *fault)
 {
     return !(blocks->open && blocks->empty) ||
-           gm_fail(fault, blocks->place,
-                   "this block has no lines: those that hold for these words stand below it");
+           gm_fail(fault, blocks->place, "this block has no lines: write the lines for these words below it");
 }
 
 /* NAME = WORD, WORD or always */
@@ -158,7 +157,7 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
     }
     const struct gm_written_choice *choice = &blocks->choices->list[number];
     if (blocks->open && blocks->open != choice) {
-        return gm_fail(fault, name.begin, "a block of %s stands in one of %s: end that by \"when: always\"",
+        return gm_fail(fault, name.begin, "a block of %s is inside one of %s: end that by \"when: always\"",
                        choice->name, blocks->open->name);
     }
     *blocks = (struct blocks){blocks->choices, text, choice, false, true, name.begin};
@@ -181,7 +180,7 @@ static bool pass(struct blocks *blocks, const struct gm_text_line *line, struct 
     blocks->empty = false;
     return word != CHOICE || !blocks->open ||
            gm_fail(fault, line->word.begin,
-                   "a choice stands outside of blocks: write \"when: always\" above it");
+                   "a choice belongs outside of blocks: write \"when: always\" above it");
 }
 
 /* The assignments of a line: the text before its first semicolon, or before the second if the line is

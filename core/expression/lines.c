@@ -32,7 +32,7 @@ bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault)
     const size_t valid = gm_text_valid(text, length);
     if (valid < length) {
         return gm_fail(fault, valid,
-                       text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
+                       text[valid] ? "the byte 0x%02x is not UTF-8" : "a byte is 0: this is not text",
                        (unsigned char)text[valid]);
     }
     for (size_t i = 0; i + 1 < length; i++) {
@@ -54,7 +54,7 @@ static bool split(const char *text, struct gm_span span, struct gm_text_line *li
     }
     if (colon == span.end || text[colon] != ':') {
         return gm_fail(fault, colon,
-                       "a line begins with a word and a colon, or with a blank where it goes on");
+                       "a line needs a word and a colon, or a blank in front to continue another");
     }
     line->word = (struct gm_span){span.begin, colon};
     line->value = gm_span_trimmed(text, (struct gm_span){colon + 1, span.end});
@@ -80,7 +80,7 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
             continue;
         }
         if (span.begin > begin && (text[begin] == ' ' || text[begin] == '\t')) {
-            return gm_fail(fault, span.begin, "this line goes on, but there is none before it");
+            return gm_fail(fault, span.begin, "this line continues another, but it is the first");
         }
         return split(text, (struct gm_span){span.begin, end}, line, fault);
     }

@@ -160,7 +160,7 @@ static gm_node_id expected(struct reader *reader, const char *what)
         length++;
     }
     if (gm_text_valid(here, length) < length) {
-        return fail(reader, reader->at, "the byte 0x%02x is no text; %s was expected", (unsigned char)*here,
+        return fail(reader, reader->at, "the byte 0x%02x is not text; %s was expected", (unsigned char)*here,
                     what);
     }
     if ((unsigned char)*here < ' ') {
@@ -514,7 +514,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         return read_exact(reader);
     }
     if (exact && (sum || product || function != GM_CONSTANT || is_constant)) {
-        return fail(reader, begin, "%.*s is no component: it has no exact solution", brief, name.text);
+        return fail(reader, begin, "%.*s is not a component: it has no exact solution", brief, name.text);
     }
     if (sum || product || (function != GM_CONSTANT && (function != GM_OPERATION_BELOW || scope->derives))) {
         if (!take(reader, '(')) {
@@ -559,7 +559,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
                     brief, name.text, brief, name.text);
     }
     if (!reader->failed && peek(reader) == '(') {
-        return fail(reader, reader->at, "%.*s is no function; a product is written with *: %.*s*(", brief,
+        return fail(reader, reader->at, "%.*s is not a function; a product is written with *: %.*s*(", brief,
                     name.text, brief, name.text);
     }
     return node;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which files are built in, by kind and name. */
+/* The search for a built-in file, by kind and name. */
 #include "core/files/files.h"
 
 #include <string.h>

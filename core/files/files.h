@@ -17,7 +17,7 @@ enum gm_file_kind {
     GM_FILE_KINDS
 };
 
-/* How the names of their files end, ".system". */
+/* The endings of their file names, ".system". */
 extern const char *const gm_file_endings[GM_FILE_KINDS];
 
 struct gm_built_in {
@@ -37,7 +37,7 @@ const struct gm_built_in *gm_built_in_find(enum gm_file_kind kind, const char *n
 /* Returns the value of the text's first line `word:`, with one blank between its words, or "" without such a line.
    NULL: out of memory; the caller frees. */
 char *gm_file_line(const char *text, size_t length, const char *word);
-/* What lists call the file: its line `name:`, or else `title:`. As gm_file_line. */
+/* Returns the name of the file in lists, from its line `name:`, or else `title:`; like gm_file_line. */
 char *gm_file_title(const char *text, size_t length);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* For programs that the build runs, which read files of share/ and write C. */
+/* Functions for programs that the build runs, which read files of share/ and write C. */
 #ifndef GM_CORE_FILES_GENERATED_H
 #define GM_CORE_FILES_GENERATED_H
 

@@ -242,7 +242,7 @@ bool gm_declared_parameters(struct gm_reading *reading)
             variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
         }
         if (!reading->fault.failed && !isfinite(variable->value)) {
-            gm_fail_first(&reading->fault, entry->place, "%s is no finite number", variable->name);
+            gm_fail_first(&reading->fault, entry->place, "%s is not a finite number", variable->name);
         } else if (!reading->fault.failed &&
                    (variable->value < variable->low || variable->value > variable->high)) {
             gm_fail_first(&reading->fault, entry->place, "%s = %g lies outside of its range, %g .. %g",

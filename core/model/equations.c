@@ -414,7 +414,7 @@ static bool refuse_symmetry(struct gm_user_system *system, const struct gm_syste
     free(parts);
     free(variables);
     free(values);
-    return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s%s", broken.what, rate, point);
+    return gm_fail(fault, item->place, "this is not a symmetry: it changes %s%s%s", broken.what, rate, point);
 }
 
 /* True if a node depends only on parameters and the first `components` components. */
@@ -444,7 +444,7 @@ static bool check_surface(struct gm_user_system *system, const struct gm_system_
         if (!kept && !system->graph.failed) {
             return gm_fail(
                 fault, item->place,
-                "a surface stands still: its size is made of parameters, and of what the motion keeps");
+                "a surface does not move: its size depends only on parameters and conserved quantities");
         }
     }
     return true;
@@ -463,7 +463,7 @@ static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
             item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
             if (item->check == GM_NOT_ZERO && !forced) {
                 return gm_fail(fault, item->place,
-                               "%.60s is no invariant; what is only nearly kept is an observable, observe",
+                               "%.60s is not an invariant; observe: takes nearly conserved quantities",
                                item->name);
             }
         } else if (item->word == GM_WORD_SURFACE) {
@@ -479,7 +479,8 @@ static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
             item->check = check_casimir(system, item->nodes[0]);
             if (item->check == GM_NOT_ZERO) {
                 return gm_fail(fault, item->place,
-                               "%.60s is no Casimir: its bracket with the components is not 0", item->name);
+                               "%.60s is not a Casimir: its bracket with the components is not 0",
+                               item->name);
             }
         } else if (item->word == GM_WORD_SYMMETRY) {
             struct broken broken = {NULL, GM_NO_NODE};
@@ -1085,7 +1086,7 @@ static bool check_masses(struct gm_user_system *system, struct gm_fault *fault)
             return gm_fail(fault, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
         }
         if (known[field]) {
-            return gm_fail(fault, item->place, "the mass of %.60s is said twice",
+            return gm_fail(fault, item->place, "the mass of %.60s is given twice",
                            system->variables[field].name);
         }
         known[field] = true;
@@ -1147,7 +1148,7 @@ static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault
                 const size_t at = side == 0 ? i * n + j : j * n + i;
                 const struct gm_node *entry = &system->graph.nodes[entries[at]];
                 if (entry->operation == GM_CONSTANT && !isfinite(entry->value)) {
-                    return gm_fail(fault, places[at], "an entry of %s is no finite number", names[which]);
+                    return gm_fail(fault, places[at], "an entry of %s is not a finite number", names[which]);
                 }
             }
             const gm_node_id sum =

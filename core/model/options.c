@@ -47,7 +47,7 @@ static bool add_number(struct gm_reading *reading, struct gm_system_option *opti
         return false;
     }
     option->numbers[option->count++] = number;
-    return isfinite(number) || gm_fail_first(&reading->fault, span.begin, "this is no finite number");
+    return isfinite(number) || gm_fail_first(&reading->fault, span.begin, "this is not a finite number");
 }
 
 static bool add_numbers(struct gm_reading *reading, struct gm_system_option *option, struct gm_span rest)
@@ -144,7 +144,7 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
                              near ? near : "");
     }
     if (gm_system_option(item, (enum gm_system_option_word)row)) {
-        return gm_fail_first(&reading->fault, piece.begin, "%s is said twice", word);
+        return gm_fail_first(&reading->fault, piece.begin, "%s is given twice", word);
     }
     if (!is_range && some != (rows[row].follows != NOTHING)) {
         return gm_fail_first(&reading->fault, some ? value.begin : piece.begin,

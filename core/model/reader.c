@@ -70,7 +70,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
     const bool is_velocity =
         entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
     if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
-        return gm_fail_first(&reading->fault, target->name.begin, "%.*s is no component",
+        return gm_fail_first(&reading->fault, target->name.begin, "%.*s is not a component",
                              (int)(entry->length < 60 ? entry->length : 60), entry->name);
     }
     struct gm_system_variable *variable =
@@ -85,7 +85,7 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
                              variable->name);
     }
     if (*place != GM_NO_NODE) {
-        return gm_fail_first(&reading->fault, target->name.begin, "%s: %s is said twice",
+        return gm_fail_first(&reading->fault, target->name.begin, "%s: %s is given twice",
                              gm_system_words[word].word, variable->name);
     }
     *place = node;
@@ -166,7 +166,7 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
         return false;
     }
     if (*entry != GM_NO_NODE) {
-        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s and %s is said twice",
+        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s and %s is given twice",
                              system->variables[pair[0]].name, system->variables[pair[1]].name);
     }
     *entry = node;
@@ -275,7 +275,7 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
         const struct gm_system_item *other = &reading->system->items[i];
         if (gm_system_is_observed(other) && strcmp(other->name, item->name) == 0) {
-            return gm_fail_first(&reading->fault, target.name.begin, "%.60s is said twice", item->name);
+            return gm_fail_first(&reading->fault, target.name.begin, "%.60s is given twice", item->name);
         }
     }
     return gm_options_read(reading, item, rest);
@@ -331,7 +331,8 @@ static char *take_words(struct gm_reading *reading, struct gm_span *rest)
     const bool none = words && strcmp(words, "none") == 0;
     for (const char *word = words; word && *word && !none; word += strcspn(word, " "), word += *word == ' ') {
         if (strcspn(word, "=") >= strcspn(word, " ")) {
-            gm_fail_first(&reading->fault, piece.begin, "%.60s is no word key=value: until=100", word);
+            gm_fail_first(&reading->fault, piece.begin, "%.60s is not of the form key=value: until=100",
+                          word);
             break;
         }
     }
@@ -438,7 +439,7 @@ static bool read_view(struct gm_reading *reading, const struct gm_system_line *l
         (!equal || dimensions < 2 || dimensions > 3 || ends != (line->word == GM_WORD_ROD ? 2 : 1))) {
         return gm_fail_first(&reading->fault, line->value.begin,
                              line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
-                                                       : "a body stands at two or three coordinates: x, y");
+                                                       : "a body has two or three coordinates: x, y");
     }
     const struct gm_user_system *system = reading->system;
     for (size_t i = 0; i + 1 < system->item_count && !reading->fault.failed; i++) {
@@ -494,7 +495,7 @@ static bool check_space(struct gm_reading *reading)
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_SURFACE && !in_space) {
             return gm_fail_first(&reading->fault, item->place,
-                                 "a surface stands in space, among bodies: view: x, y, z");
+                                 "a surface needs bodies in space: view: x, y, z");
         }
         for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
             if (strcmp(item->name, keys[k]) == 0) {

@@ -115,7 +115,7 @@ static bool read_line(struct gm_reading *reading, const struct gm_text_line *tex
     }
     for (size_t i = 0; i < reading->line_count && gm_system_words[word].identity == GM_LINE_ONCE; i++) {
         if (reading->lines[i].word == word) {
-            return gm_fail_first(&reading->fault, place, "%s is said twice", name);
+            return gm_fail_first(&reading->fault, place, "%s is given twice", name);
         }
     }
     if (!gm_reading_reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
@@ -124,7 +124,7 @@ static bool read_line(struct gm_reading *reading, const struct gm_text_line *tex
     const struct gm_span value = text_line->value;
     reading->lines[reading->line_count++] = (struct gm_system_line){word, place, value};
     return value.begin < value.end ||
-           gm_fail_first(&reading->fault, place + letters + 1, "%s: says nothing", name);
+           gm_fail_first(&reading->fault, place + letters + 1, "%s: has no value", name);
 }
 
 bool gm_reading_lines(struct gm_reading *reading)
@@ -302,7 +302,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                      "%.*s is a list: an index was expected, %.*s[%ld] .. %.*s[%ld]", brief, name->text,
                      brief, name->text, low, brief, name->text, high);
         } else if (is_scalar) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no list", brief, name->text);
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is not a list", brief, name->text);
         } else {
             return GM_UNKNOWN;
         }
@@ -317,7 +317,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
             name->exact ? "component: it has no exact solution" : "component: it has no value at the start";
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no %s", brief, name->text,
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is not a %s", brief, name->text,
                  fixed ? "parameter: its value is not known here" : lacks);
         return GM_REFUSED;
     }

@@ -210,7 +210,7 @@ static bool read_file(struct reading *reading, struct gm_span span)
                                       "what kind of scheme is it? It needs a line kind:");
 }
 
-/* Where the parenthesis at span.begin is closed, or the end. */
+/* Returns the position of the parenthesis that closes the one at span.begin, or the end. */
 static size_t closing(const char *text, struct gm_span span)
 {
     int depth = 0;
@@ -409,7 +409,7 @@ static bool name_let(struct reading *reading, int i)
     return true;
 }
 
-/* In any order: those first that need no other one. */
+/* Reads the lines `let:`, which are in any order: first those that need no other one. */
 static bool read_lets(struct reading *reading)
 {
     const int count = reading->scheme->let_count;
@@ -500,7 +500,7 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
     return !reading->fault.failed;
 }
 
-/* What the node is, from those before it. */
+/* Returns the value of a node, from the values of earlier nodes. */
 static struct gm_ball ball_of(const struct reading *reading, const struct gm_ball *balls, gm_node_id id,
                               bool *known_here)
 {

@@ -73,10 +73,10 @@ struct gm_written_scheme {
     bool kick_first, nystrom; /* of a splitting */
 };
 
-/* What a kind is called: "runge-kutta". */
+/* Returns the name of a kind: "runge-kutta". */
 const char *gm_written_kind_name(enum gm_written_kind kind);
 
-/* Whether a text is a word: it begins with a kind and a parenthesis. */
+/* Returns true if a text is a word: it begins with a kind and a parenthesis. */
 bool gm_written_is_word(const char *text, size_t length);
 
 /* Reads text[begin .. end): a word, or else the lines of a file. False with a fault, whose sentence is empty

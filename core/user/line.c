@@ -79,7 +79,7 @@ void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *
     }
 }
 
-/* Whether number i of a block is finite: the component, and what is derived of it. */
+/* Returns true if number i of a block is finite, the component and its derivatives; else false with the suffix. */
 static bool is_finite(const struct gm_user_line *line, const double *values, size_t some, size_t i,
                       size_t component, const char **suffix)
 {

@@ -12,9 +12,9 @@
 struct gm_line_formulas {
     gm_node_id start[GM_MOST_OF_MATRICES], exact[GM_MOST_OF_MATRICES];
 };
-/* How many components a state has at each node: of waves one, with another level of it. */
+/* Returns the number of components of a state at each node; a wave has one, and another level of it. */
 size_t gm_line_components(const struct gm_user_system *system);
-/* Whether the exact solution of all of them is known. */
+/* Returns true if the exact solution of all components is known. */
 bool gm_line_is_solved(const struct gm_user_system *system);
 /* Derives the formulas; false where memory was refused. The graph grows. */
 bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *system);
@@ -35,19 +35,20 @@ void gm_user_line_close(struct gm_user_line *line);
 /* The exact solution of a component; NaN if the file gives none. */
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
 
-/* What starts at nodes from number `first` on, at most GM_LINE_ROOM, [output * that many + i]: how many. */
+/* Writes the outputs at nodes from number `first` on, at most GM_LINE_ROOM, [output * nodes + i]. Returns the number of
+   nodes. */
 enum { GM_LINE_ROOM = 128, GM_LINE_BLOCK = GM_LINE_ROOM * GM_MOST_OF_MATRICES };
 size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
                           double values[GM_LINE_BLOCK]);
-/* Of all nodes, [output * points + node]. */
+/* Writes the outputs at all nodes, [output * points + node]. */
 void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y);
 
 /* Between which values a component starts, and where at both ends. */
 struct gm_line_ends {
     double low, high, left, right;
 };
-/* Whether a component's start is finite, and, on a ring, the same at both ends but for the jump (NaN: it need not be) and
-   a thousandth of its range. A sentence if not. */
+/* Returns true if a component's start is finite and, on a ring, the same at both ends but for the jump (NaN: any) and a
+   thousandth of its range; else false with a sentence. */
 bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
                          double jump, struct gm_line_ends *ends, char *sentence, size_t size);
 

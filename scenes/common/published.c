@@ -224,7 +224,7 @@ static const struct gm_published published[] = {
          "As printed, the equations have no solution for the next time beyond the first turning point: the "
          "step grows without bound there. With a restart at each such point the run continues, but its "
          "phase drifts, the less the shorter the first step, τ₀.",
-     STATEMENTS({"the scheme as printed goes on over a period at least",
+     STATEMENTS({"the scheme as printed runs for at least one period",
                  .lanes = "scheme=variational-rectangle", .measure = GM_LASTS, AT_LEAST(2 * M_PI)},
                 {"with restarts it stays very close to the sine: its phase",
                  .lanes = "scheme=variational-rectangle-restart", .open = "tau0", .observable = "phase_error",

@@ -34,7 +34,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct gm_burgers_scene, burgers.lambda, "lambda", "0", -1e4, 1e4, "velocity of the frame"),
     GM_CHOICE_ROW(
         struct gm_burgers_scene, burgers.frame, "frame", "each", frames,
-        "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "
         "moving for the invariant schemes, fixed for the others"),
     GM_CHOICE_ROW(struct gm_burgers_scene, burgers.printed, "form", "conservative", forms,
                   "of the convection in ftcs and crank-nicolson: D(u²/2), or u Du as printed"),

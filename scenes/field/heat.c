@@ -41,7 +41,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct scene, heat.lambda, "lambda", "0", -1e3, 1e3, "velocity of the frame"),
     GM_CHOICE_ROW(
         struct scene, heat.frame, "frame", "each", frames,
-        "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "
         "moving for the invariant schemes, fixed for the other"),
     GM_FRAME_ROWS(struct scene, show, at, "0.5"),
 };

@@ -58,7 +58,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct scene, kdv.lambda, "lambda", "0", -1e3, 1e3, "velocity of the frame"),
     GM_CHOICE_ROW(
         struct scene, kdv.frame, "frame", "each", frames,
-        "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "
         "moving for the invariant schemes, fixed for the others"),
     GM_CHOICE_ROW(
         struct scene, show, "show", "field", shown,
@@ -216,7 +216,7 @@ static const struct gm_observable observables[] = {
     GM_LOG_OBSERVABLE(
         "solution_error", solution_error, "largest error of u",
         .missing =
-            "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring"),
+            "no exact solution is known for the cosine, nor for solitons whose tails meet on a short ring"),
     GM_LOCAL_LAWS,
     GM_LOG_OBSERVABLE("local_mass_residual", gm_view_content_residual, "residual of the local mass law",
                       .missing = GM_NO_LAW),
@@ -415,13 +415,13 @@ const struct gm_scene gm_scene_kdv = {
     .name = "kdv",
     .title = "Solitons of the Korteweg-de Vries equation",
     .blurb =
-        "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
-        "is bound by 0.385 Δx³/μ; the Euler box and the midpoint box are explicit and multisymplectic, bound by "
+        "One soliton, two, or Zabusky's and Kruskal's cosine, with the multisymplectic box and with leapfrog, whose "
+        "step is bounded by 0.385 Δx³/μ; the Euler box and the midpoint box are explicit and multisymplectic, bound by "
         "Δx³/4μ and Δx³/μ. Two schemes step in a moving frame, and give the same whatever lambda is.",
     .watch =
         "Watch what a step costs: at Δx = 0.2 leapfrog blows up beyond Δt = 0.003, the box runs with 0.05; at "
         "equal Δt and Δx its error is the larger one, by a factor of 1.5, so the box gains its step and nothing else. The "
-        "Fourier method has a hundredth of its error with Δt = 0.025, and blows up with 0.05, where the box goes on. From "
+        "Fourier method has a hundredth of its error with Δt = 0.025, and blows up with 0.05, unlike the box. From "
         "a frame of velocity 4 leapfrog's error is six times that at rest; the invariant one has the same to round-off.",
     .time = "that in which the equation has η and μ as given",
     .size = sizeof(struct scene),

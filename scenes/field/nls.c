@@ -140,7 +140,7 @@ static double natural_energy(const void *self)
     return solitons * 4 * a * a * a / 3;
 }
 
-static const char missing_solution[] = "no exact solution is known of a collision, nor of tails that meet";
+static const char missing_solution[] = "no exact solution is known for a collision, nor for tails that meet";
 
 static const struct gm_observable observables[] = {
     /* two gauges of the charge for two kinds of schemes; own_charge_error is a scheme's own loss */

@@ -565,8 +565,7 @@ static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4", NULL};
 static const struct kind forms = {
     ROWS(form_rows),
     OBSERVABLES(of_forms),
-    .no_walls =
-        "an equation by matrices is one on a ring: what its components are in the mirror of a wall is not told",
+    .no_walls = "an equation by matrices needs a ring: how a wall reflects its components is not defined",
     .schemes = boxes,
     .graphs = {{"energy_error"}, {"solution_error", "energy_error"}},
     .graph_count = MOST_GRAPHS,
@@ -914,7 +913,7 @@ static const char *title_of(struct user_field *field)
         return gm_system_title(system);
     }
     if (system->kind != GM_FIELD) {
-        return "A field of one’s own";
+        return "A user-defined field";
     }
     const struct gm_naming naming = gm_system_naming(system);
     char *formula = gm_formula_text(&system->graph, system->energy, &naming);
@@ -923,7 +922,7 @@ static const char *title_of(struct user_field *field)
     }
     return formula && strlen(formula) <= SHORT
                ? gm_arena_print(field->arena, "Waves in the potential V = %s", formula)
-               : "Waves in a potential of one’s own";
+               : "Waves in a user-defined potential";
 }
 
 static bool on_a_mesh(const struct gm_scheme *scheme)
@@ -1013,11 +1012,11 @@ static void make(struct gm_arena *arena, void *data)
     of_file->scene = (struct gm_scene){
         .name = making->name,
         .title = title_of(field),
-        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A field of one’s own.",
+        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined field.",
         .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
         .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME]
                 : in_potential      ? "what light needs for a length of 1"
-                                    : "that of the equation",
+                                    : "the unit of the equation",
         .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
         .initial = of_file->initial,
         .words = making->words,

@@ -245,7 +245,7 @@ static const struct gm_figure figures[] = {
     {
         .name = "tyranowski-13",
         .statement =
-            "the multiplier strategy keeps the energy, but for spikes at the bounces; order 4 better than 2",
+            "the multiplier strategy conserves the energy, except for spikes at the bounces; order 4 better than 2",
         .arguments = "scheme=multiplier-lobatto2,multiplier-lobatto4 solitons=2 points=25 alpha=1.5 dt=0.05 "
                      "until=300 show=energy",
     },

@@ -503,7 +503,7 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "razafindralandy-4",
-        .statement = "symplectic Euler deforms the disc, the midpoint rule does not; both keep its area",
+        .statement = "symplectic Euler deforms the disc, the midpoint rule does not; both preserve its area",
         .arguments = "scheme=symplectic-euler,midpoint dt=pi/12 until=3*pi/2 show=disc",
     },
     {
@@ -524,7 +524,7 @@ const struct gm_scene gm_scene_disc = {
     .name = "disc",
     .title = "A disc of initial conditions",
     .blurb =
-        "A disc in the phase plane of an oscillator or a pendulum, carried by a scheme. The exact flow keeps "
+        "A disc in the phase plane of an oscillator or a pendulum, carried by a scheme. The exact flow preserves "
         "its area (Liouville); a symplectic scheme does so too, whatever its step.",
     .watch = "Watch the area: a symplectic map may shear the disc, but it never grows.",
     .time = "1/2π of the oscillator’s period; of the pendulum √(l/g), 1/2π of the period of a small swing",

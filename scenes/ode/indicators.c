@@ -56,10 +56,9 @@ static struct followed *open_followed(const struct gm_view *view)
         return NULL;
     }
     if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
-        followed->why =
-            view->scheme->family->by_tolerance
-                ? "the lengths of its steps follow a tolerance and have no derivative"
-                : "what the scheme remembers lies with a library: its steps have no derivative here";
+        followed->why = view->scheme->family->by_tolerance
+                            ? "the lengths of its steps follow a tolerance and have no derivative"
+                            : "the state of the scheme is in a library: its steps have no derivative here";
         return followed;
     }
     followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,

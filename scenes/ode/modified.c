@@ -149,7 +149,7 @@ void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct g
         {"modified_energy6_error", "to Δt⁶"},
     };
     const bool one = gm_one_step(lanes, count);
-    picture->title = "What the scheme keeps: its modified energy";
+    picture->title = "The conserved quantity: the modified energy";
     picture->subtitle =
         gm_picture_text(picture, "%s%s%s;  errors of H + Δt H₁ + Δt² H₂ + …, cut off", lanes[0]->scene->title,
                         one ? ",  Δt = " : "", one ? gm_step_text(picture, lanes[0]->run->dt) : "");

@@ -159,9 +159,10 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
     const struct gm_manifold_defects defects = gm_manifold_defects(problem, values);
     free(values);
     return (defects.constraint <= 1e-8 && defects.hidden <= 1e-8) ||
-           gm_refuse(sentence,
-                     "the start breaks the constraints: they are off by %.3g, and their rates by %.3g",
-                     defects.constraint, defects.hidden);
+           gm_refuse(
+               sentence,
+               "the start violates the constraints: their residual is %.3g, and that of their rates %.3g",
+               defects.constraint, defects.hidden);
 }
 
 /* Returns true if momenta determine velocities at this lane's start; the file's start is checked when it is
@@ -598,7 +599,7 @@ static const char *title_of(struct gm_system_scene *system_scene)
         free(formula);
     }
     const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(system_scene, "%s", text) : NULL;
-    return kept ? kept : "A system of one’s own";
+    return kept ? kept : "A user-defined system";
 }
 
 /* Finds the hook that the file names, if it does. False with a sentence if it is unknown, or suits other
@@ -634,8 +635,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     system_scene->scene = (struct gm_scene){
         .name = name,
         .title = title_of(system_scene),
-        .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A system of one’s own.",
-        .time = system->texts[GM_WORD_TIME] ? system->texts[GM_WORD_TIME] : "that of its equations",
+        .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A user-defined system.",
+        .time = system->texts[GM_WORD_TIME] ? system->texts[GM_WORD_TIME] : "the unit of its equations",
         .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
         .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
         .initial = system_scene->initial,
@@ -662,7 +663,7 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     if (members && !system_scene->hook &&
         gm_parameter_set(&system_scene->common[GM_ROW_MEMBERS], system_scene->initial, members) !=
             GM_PARSED) {
-        return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
+        return gm_refuse(sentence, "members: %.60s is not a whole number from 1 to 1e6", members);
     }
     if (members && !system_scene->hook) {
         system_scene->common[GM_ROW_MEMBERS].standard = members;

@@ -53,7 +53,7 @@ static const struct gm_parameter parameters[] = {
                    .logarithmic = true),
     GM_REAL_ROW(
         struct gm_vortices, multipole, "multipole", "0", 0, 0.01,
-        "the most that a velocity errs by, of the sum of the speeds that the others give it one by one: cells "
+        "the largest error of a velocity, relative to the sum of the speeds that the others give it one by one: cells "
         "of vortices then act by their moments, which is faster from 2000 to 4000 on; 1e-9 and less for implicit "
         "schemes, whose equations a larger error that jumps leaves unsolved; 0: pair by pair"),
     GM_REAL_ROW(struct gm_vortices, strength, "strength", "150", -1e6, 1e6,
@@ -313,7 +313,7 @@ static const struct gm_observable observables[] = {
                       .missing = "only configuration=collision has a close pair", .error = true,
                       .symbol = "d"),
     GM_LOG_OBSERVABLE("position_error", position_error, "distance from the exact position",
-                      .missing = "an exact solution is known of configuration=square without tracers"),
+                      .missing = "only configuration=square without tracers has an exact solution"),
     GM_OBSERVABLE("tracers_lost", tracers_lost, "tracers lost"),
 };
 

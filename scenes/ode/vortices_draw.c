@@ -215,9 +215,9 @@ static const char *caption_of(const struct gm_vortices *vortices)
                      "at about the same time. The published contrast of two schemes is not reproduced here."
                    : "The symmetric motion is stable at this angle; what sets schemes apart is the angular impulse.";
     case GM_ONE_TURNED:
-        return "This motion is chaotic itself: only its invariants tell schemes apart.";
+        return "This motion is chaotic itself: only its invariants distinguish schemes.";
     case GM_PATCHES:
-        return "Two patches of like vorticity this near become one: they turn about each other, and what each gives up "
+        return "Two patches of similar vorticity this near merge: they turn about each other, and what each gives up "
                "is wound into arms.";
     case GM_VORTEX_COLLISION:
         return "A pair this close turns faster than the rest: a step that is too long for it goes wrong without a sound.";

@@ -91,7 +91,7 @@ status 0 run kepler eccentricity=0,0.5 until=1
 refused 1 'the nearest is 1e-7$' run kepler dt=0,2e9,1
 # parameters that schemes bring
 refused 1 'no scheme that fits scene disc takes tau0=' run disc tau0=0.1
-refused 1 'those that do: tao2, tao4$' run disc binding=3
+refused 1 'these do: tao2, tao4$' run disc binding=3
 refused 1 'which scene' run
 refused 1 'not of the form key=value' run disc verlet
 refused 1 'twice' run disc dt=1 dt=2
@@ -165,7 +165,7 @@ refused 1 'after the end' render disc --from 100 --frames 3
 refused 1 'no scheme' certify nothing
 refused 1 'no figure' figures razafindralandy-99
 refused 1 'needs --json' run disc --state
-refused 3 'not tell how it was made\|could not be read\|No such file' again nothing.png
+refused 3 'not record how it was made\|could not be read\|No such file' again nothing.png
 
 # output that cannot be written: one sentence, no half file
 mkdir closed && chmod a-w closed
@@ -341,10 +341,10 @@ for scheme in rk4 gsl-rk4 gsl-rk8pd gsl-msadams explicit-euler; do
 done
 # a scheme that chooses its steps ends where it ends: that is told, and no fault
 status 0 run oscillator scheme=variational-midpoint until=20 --strict --json
-grep -q '"status":"ok","message":"the scheme chooses its steps: the first that reaches until = 20 ends at t = 20\.[0-9]*","warning":"","t":20\.' out ||
+grep -q '"status":"ok","message":"the scheme is adaptive: the first step that reaches until = 20 ends at t = 20\.[0-9]*","warning":"","t":20\.' out ||
     fail "$(cat out)"
 status 0 run oscillator scheme=variational-midpoint until=20
-grep -q '^  status  *ok$' out && grep -q '^  message  *the scheme chooses its steps' out || fail "$(cat out)"
+grep -q '^  status  *ok$' out && grep -q '^  message  *the scheme is adaptive' out || fail "$(cat out)"
 for quiet in 'stiff' 'wave' 'wave courant=.5' 'disc until=0.6 dt=0.3' 'disc steps=7 dt=0.3' 'kepler scheme=rk2'; do
     # shellcheck disable=SC2086
     status 0 run $quiet --json
@@ -423,7 +423,7 @@ status 0 run cavity columns=4 rows=0 steps=1 --csv new/one/a.csv --profile new/t
 geomint: wrote new/two/b.csv' ] || fail "run does not say what it wrote: $(cat err)"
 cp out first
 status 0 certify rk4 --json
-refused 1 'which steps have a row' run disc --every 3
+refused 1 'selects the steps that have a row' run disc --every 3
 refused 1 'energy_error is named twice' run kepler --measure energy_error,lrl_angle,energy_error
 refused 1 'did you mean systems' list system
 # what cannot be compared says why
@@ -478,7 +478,7 @@ for scene in [json.loads(line)["scene"] for line in open("out")]:
         status, out, err = listed("run", scene, f"{key}={standard[key]}", "steps=0", "--json")
         nobody = f"no scheme that fits scene {scene} takes {key}=" in err
         own = status == 0 and key in json.loads(out)["parameters"]
-        elsewhere = "; those that do: " in err
+        elsewhere = "; these do: " in err
         assert nobody + own + elsewhere == 1, (scene, key, err)
         assert (key in keys) == (not nobody) == bool(re.search(f"^  {key} ", text, re.M)), (scene, key)
     # the lanes that are named are those that are run
@@ -530,9 +530,9 @@ refused 1 'did you mean render' help rendr
 # an end that is no whole number of steps is told once, where an end was asked for
 "$geomint" render disc scheme=gsl-rk4,gsl-rk8pd dt=.3 until=1 --size 128x96 -o end.png 2>err ||
     fail 'render until=1 dt=.3'
-[ "$(grep -c '^geomint: the run ends at t = 0.9 and not at until = 1' err)" = 1 ] || fail "an end that was not told: $(cat err)"
+[ "$(grep -c '^geomint: the run ends at t = 0.9: until = 1 is not a whole' err)" = 1 ] || fail "an end that was not told: $(cat err)"
 "$geomint" run disc scheme=gsl-rk4 dt=.3 until=1 --json >out || fail 'run until=1 dt=.3'
-grep -q '"status":"ok","message":"the run ends at t = 0.9 and not at until = 1: [^"]*","warning":""' out ||
+grep -q '"status":"ok","message":"the run ends at t = 0.9: until = 1 is [^"]*","warning":""' out ||
     fail "an end that is no note: $(cat out)"
 # with a fixed step size the last step is shortened; steps= makes whole steps
 for scheme in rk4 verlet gauss4 tao2 variational-newmark2 dopri5; do
@@ -563,7 +563,7 @@ status 0 version
 cmp -s version out || fail 'geomint version is not geomint -V'
 status 0 --version
 cmp -s version out || fail 'geomint --version is not geomint -V'
-for word in '^geomint [0-9]' '^pictures: PNG' '^loops: [a-z0-9]*; systems of one.s own: interpreted' 'libpng [0-9]' 'GSL [0-9]'; do
+for word in '^geomint [0-9]' '^pictures: PNG' '^loops: [a-z0-9]*; user-defined systems: interpreted' 'libpng [0-9]' 'GSL [0-9]'; do
     grep -q "$word" out || fail "--version does not say $word"
 done
 GEOMINT_PAINTER=own status 0 --version
@@ -590,7 +590,7 @@ LD_LIBRARY_PATH=$PWD/lost status 0 render disc until=1 -o lost/own.png --painter
 grep -aq 'geomint:painter.own' lost/own.png || fail 'a picture without OSMesa is not its own rasteriser'"'"'s'
 status 0 render disc until=1 -o lost/osmesa.png --painter auto
 grep -aq 'geomint:painter.osmesa, OpenGL' lost/osmesa.png || fail 'a picture is not OSMesa'"'"'s'
-LD_LIBRARY_PATH=$PWD/lost refused 1 "^geomint: lost/osmesa.png cannot be made again: ${lost#geomint: }" again lost/osmesa.png
+LD_LIBRARY_PATH=$PWD/lost refused 1 "^geomint: lost/osmesa.png cannot be reproduced: ${lost#geomint: }" again lost/osmesa.png
 LD_LIBRARY_PATH=$PWD/lost status 0 again lost/osmesa.png -o lost/again.svg
 LD_LIBRARY_PATH=$PWD/lost status 0 again lost/osmesa.png -o lost/again.png --painter own
 cmp -s lost/own.png lost/again.png || fail 'again --painter own is not own'

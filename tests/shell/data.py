@@ -738,7 +738,7 @@ def refusals():
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while not os.path.exists("two.npz.part/lane-0"):
         time.sleep(0.01)
-    check("a run by gsl-rk4 cannot be gone on with" in
+    check("a run with gsl-rk4 cannot be resumed" in
           geomint("run kepler scheme=verlet,gsl-rk4 steps=3 --checkpoint g.check", 1).stderr, "a scheme that has no way back")
     check("another process" in geomint("run kepler steps=3 --save two.npz", 3).stderr, "two processes, one file")
     process.kill()

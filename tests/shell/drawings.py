@@ -282,7 +282,7 @@ def test_refusals():
             ("render disc --dpi 1e9", 1, "--dpi 1e9 is not a number from 24 to 2400"),
             ("render disc --size 9x6in", 1, "--size 9x6in is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, "
              "or in cm or mm: 16x9cm"),
-            ("render disc --size 9x5mm", 1, "--size 9x5mm is 106x59 pixels at 300 an inch; each is to be from 64 to 16384"),
+            ("render disc --size 9x5mm", 1, "--size 9x5mm is 106x59 pixels at 300 dpi; each must be from 64 to 16384"),
             ("render disc --size 9x6m", 1, None),
             ("render disc --size 9x-6cm", 1, None),
             ("render disc --size 1e9x6cm", 1, None),

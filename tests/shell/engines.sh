@@ -40,7 +40,7 @@ done
 # one that spoils the cache, or is sent away while it works, leaves the interpreter
 printf '#!/bin/sh\nchmod 755 "$TMPDIR"\n' >bin/cc
 status 0 run lorenz until=1 --engine native
-grep -q 'nobody else may open' err || fail "a cache that is spoilt meanwhile: $(cat err)"
+grep -q 'only you may open' err || fail "a cache that is spoilt meanwhile: $(cat err)"
 chmod 700 "$XDG_CACHE_HOME/geomint"
 printf '#!/bin/sh\ntouch "%s/compiling"\nexec sleep 1000\n' "$folder" >bin/cc
 "$geomint" run lorenz until=1 --engine native >out 2>err &
@@ -150,5 +150,5 @@ refused 1 'none of: auto, interpreted, native' run lorenz --engine fast
 refused 1 'takes no word' cache everything
 refused 1 'no option --engine' certify rk4 --engine native
 chmod 755 "$XDG_CACHE_HOME/geomint"
-refused 3 'nobody else may open' cache
+refused 3 'only you may open' cache
 exit "$((failures > 0))"

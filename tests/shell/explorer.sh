@@ -140,9 +140,9 @@ drive_time() {
     keys '>'
     wait_for 'Run ahead to t = _'
     keys '1' Enter
-    wait_for 'lies behind already'
+    wait_for 'has already passed'
     keys Escape
-    wait_gone 'lies behind'
+    wait_gone 'already passed'
 }
 
 # Backwards the symmetric scheme returns; the others do not.
@@ -209,7 +209,7 @@ drive_lanes() {
     wait_for 't = π/3'
     keys s
     wait_for 'SWITCH TO'
-    wait_for 'from its present state on'
+    wait_for 'from its current state on'
     keys '?'
     wait_for 'AS MEASURED'
     keys '?'
@@ -550,7 +550,7 @@ clean 0
 open_disc scheme=explicit-euler,midpoint dt=2
 for i in 1 2 3 4 5 6 7; do keys ']'; done
 wait_for 'blow-up'
-wait_for 'stands still; the others go on'
+wait_for 'stands still; the others continue'
 keys q
 clean 0
 

@@ -62,7 +62,7 @@ wait_for 'left 0'
 open_scene stiff
 keys c c c c c
 wait_for 'remove one with x before adding another\.'
-wait_for 'space go on +\? help'
+wait_for 'space resume +\? help'
 keys Down Down Down
 wait_for '▸ springs'
 wait_for 'springs: number of stiff springs, of which the energies of the first three are'

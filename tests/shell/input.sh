@@ -105,14 +105,14 @@ refused 3 'size is damaged' again size.png
 refused 1 'no scene "?\[2J"' again command.png
 refused 3 'damaged or too large' again large.png
 refused 3 'more than 4 MB' again many.png
-refused 3 'does not tell how it was made' again pixels.png
+refused 3 'does not record how it was made' again pixels.png
 refused 3 'cut short' again cut.png
 refused 3 'damaged' again damaged.png
 (
     ulimit -v 100000 # kB: what is not asked for is not unpacked
     "$geomint" --help >/dev/null 2>&1 || exit 0 # a sanitizer wants more
     "$geomint" again bomb.png >out 2>err
-    [ $? = 3 ] && grep -q 'does not tell how it was made' err
+    [ $? = 3 ] && grep -q 'does not record how it was made' err
 ) || fail "texts of a gigabyte: $(cat err)"
 
 # words and names that a terminal would obey

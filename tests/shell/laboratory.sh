@@ -8,7 +8,7 @@ refused 1 "which scene" work-precision
 refused 1 "no scene" work-precision keplar
 refused 1 "only scheme and dt" work-precision kepler eccentricity=.1,.2
 refused 1 "no observable" work-precision kepler --measure energy-error
-refused 1 "says nothing" work-precision kepler perturbation=.01 --measure position_error
+refused 1 "is undefined" work-precision kepler perturbation=.01 --measure position_error
 refused 1 "nothing to measure" work-precision kepler until=0
 refused 1 "until= ends them together" work-precision kepler steps=10 dt=.1,.05
 refused 1 "which scene" stability

@@ -17,7 +17,7 @@ GUIDE = "docs/language.md"  # it quotes the words of the list
 MEAN = 17  # words per sentence, in all documents
 LIMITS = {"sentence": 35, "paragraph": 90, "cell": 30}  # words
 LINES = {"README.md": 120, "docs/architecture.md": 150, GUIDE: 120}
-MAY_ONLY_FALL = {"documents": 0, "strings": 191, "wrapper, Python, share": 0, "comments": 1, "openings": 16}
+MAY_ONLY_FALL = {"documents": 0, "strings": 0, "wrapper, Python, share": 0, "comments": 0, "openings": 0}
 OPENING = re.compile(r"(?:Of|What|That|Those|Where|Whether|As|By|How|Which|Whose|In|Also|Its|Their|For|To)\b")
 SENTENCE = re.compile(r"(?<=[.!?])[)\"”*]*\s+(?=[(\"“*]*[^\W\d_a-z]|[(\"“*]*[\d`])")
 TOKENS = re.compile(r"/\*.*?\*/|//[^\n]*|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)+'", re.S)

@@ -148,7 +148,7 @@ sleep $nap
 END
 leaves INT
 leaves TERM
-grep -q 'the same command goes on' err || fail "$name: $(cat err)"
+grep -q 'the same command resumes' err || fail "$name: $(cat err)"
 
 fake 'a stubborn ffmpeg' <<END
 trap '' HUP INT QUIT TERM

@@ -49,7 +49,7 @@ grep -q '90 of 90' err || fail "frames that are all there: $(cat err)"
 # a stop by a signal that can be caught leaves the state; it is used, and gone at the end
 kill_at TERM 40 stopped render $orbit --out stopped
 [ -f stopped/kepler-render.checkpoint ] || fail 'a stopped render leaves no checkpoint'
-grep -q 'the same command goes on' err || fail "a stopped render says: $(cat err)"
+grep -q 'the same command resumes' err || fail "a stopped render says: $(cat err)"
 cp -r stopped damaged
 cp -r stopped holed
 "$geomint" render $orbit --out stopped 2>err || fail 'a stopped render does not go on'

@@ -58,7 +58,7 @@ def files():
         check(texts[0] == texts[1], f"two files {ending} differ")
     lines = open("one.txt", encoding="utf-8").read().split("\n")
     check(len(lines) == 25 and {len(line) for line in lines[:-1]} == {80}, "not 24 lines of 80 cells", lines)
-    check("RK4" in "".join(lines) and "space go on" in lines[23], "RK4 or the keys are missing", lines)
+    check("RK4" in "".join(lines) and "space resume" in lines[23], "RK4 or the keys are missing", lines)
     check(b"geomint:command" in texts[0], "a PNG does not store its command")
     again = run("again", "one.png", "-o", "again.png")
     check(again.returncode == 0 and open("again.png", "rb").read() == texts[0], f"again: {again.stderr}")
@@ -103,7 +103,7 @@ def footer():
         has("Watch", "kepler", "1s", columns)
         lacks("Watch", "kepler", "9s", columns)
         has("Watch", "kepler", "9s ? ESC", columns)
-        has("go on", "kepler", "1s SPACE", columns)
+        has("resume", "kepler", "1s SPACE", columns)
     for keys in ("DOWN", "k", "SPACE . ,"):
         check(re.search(r"\? help.*esc back", shot("kepler", keys)[-1]), f"{keys}: no help or way back")
 
@@ -226,8 +226,8 @@ def drive():
         same(start, start + " PGUP PGUP PGDN PGDN", words, "through the past", columns)
         has(r"Run ahead to t = _ +\(enter alone: 4\.71239\)", words, start + " >", columns)
         has("t = 3π/2", words, start + " > ENTER", columns)
-        has("lies behind already", words, start + " > 20*pi ENTER > 1 ENTER", columns)
-        lacks("lies behind", words, start + " > 20*pi ENTER > 1 ENTER ESC", columns)
+        has("has already passed", words, start + " > 20*pi ENTER > 1 ENTER", columns)
+        lacks("already passed", words, start + " > 20*pi ENTER > 1 ENTER ESC", columns)
         # a live parameter acts on the present state; another one restarts
         has(r"▸ dt +0\.3", words, start + " RIGHT", columns)
         has("t = π/3|t = 1.0", words, start + " RIGHT", columns)

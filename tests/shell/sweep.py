@@ -144,7 +144,7 @@ def test_refusals(folder, one):
     says("--yes makes them", "sweep", "kepler", "eccentricity=0..0.9:1000000", "dt=1e-2..1e-1:1000000")
     says("is none of: ok, blow-up", "sweep", *SWEEP, "--table", one, "--retry", "bad")
     says("needs a table", "sweep", *SWEEP, "--shard", "1/2")
-    says("--table - is no file", "sweep", *SWEEP, "--table", "-")
+    says("--table - is not a file", "sweep", *SWEEP, "--table", "-")
     says("no observable", "sweep", *SWEEP, "--measure", "energy_eror")
     says("a sweep has none", "sweep", *SWEEP, "overlay=yes")
     # a full disk, in the middle of a row
@@ -273,7 +273,7 @@ def test_statuses(folder):
                  "energy_error")
     errors = [line.split(",")[-1] for line in done.stdout.splitlines()[1:]]
     check(len(errors) == 4 and errors[0] == errors[1] and errors[2] != errors[3], f"tolerance of GSL's: {errors}")
-    says("those that do", "sweep", "kepler", "scheme=verlet", "tolerance=1e-9,1e-3")
+    says("these do", "sweep", "kepler", "scheme=verlet", "tolerance=1e-9,1e-3")
     done = sweep("oscillator", "scheme=verlet,rk4", "dt=0.1,0.2", "zip=yes", "until=1")
     check(len(done.stdout.splitlines()) == 3, "zip=yes pairs")
 

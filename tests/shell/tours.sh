@@ -114,7 +114,7 @@ END
 broken 'line 1: it begins with a blank' <<'END'
  and more
 END
-broken 'line 2: say: stands before the first step:' <<'END'
+broken 'line 2: say: belongs after the first step:' <<'END'
 title: x
 say: y
 END
@@ -206,7 +206,7 @@ say: y
 show: disc
 at: 1 scheme=rk44
 END
-broken 'line 5: radius=1 cannot be changed in flight' <<'END'
+broken 'line 5: radius=1 cannot be changed during the run' <<'END'
 title: x
 step: one
 say: y
@@ -241,8 +241,8 @@ say: y
 show: disc
 say: z
 END
-printf 'title: a\033[2Jb\n' | broken 'line 1: it holds something that is no letter'
-printf 'title: \377\n' | broken 'line 1: it holds something that is no letter'
+printf 'title: a\033[2Jb\n' | broken 'line 1: it holds a byte that is not UTF-8'
+printf 'title: \377\n' | broken 'line 1: it holds a byte that is not UTF-8'
 printf 'title: x\nstep: \000\n' | broken 'line 2: it holds a byte 0'
 
 [ "$failures" = 0 ] && echo "tours: all passed"

@@ -84,14 +84,14 @@ refused 1 'wrong.scheme:2:4: a has 1 rows of 2 entries: it is not square' certif
 refused 1 'scheme, column 21: the steps sum to 2, not to 1' run disc 'scheme=composition(verlet; 1, 1)' until=1
 [ "$(sed -n 3p err)" = '                        ^' ] || fail "no caret: $(cat err)"
 printf 'kind: adjoint\nbase: me.scheme\n' >me.scheme
-refused 1 'me.scheme is made of itself' certify me.scheme
+refused 1 'me.scheme contains itself' certify me.scheme
 refused 1 'no kind of scheme "runge-kuta(...)"; did you mean runge-kutta(...)$' run disc 'scheme=runge-kuta(0 0; 1/2 1/2)'
 refused 1 'no kind of scheme "xyzzy(...)"; docs/own-schemes.md names them$' certify 'xyzzy(rk4)'
 printf 'kind: adjoint\nbase: other.scheme\n' >me.scheme
 printf 'kind: composition\nbase: me.scheme\nsteps: 1\n' >other.scheme
-refused 1 'me.scheme is made of itself' run disc scheme=me.scheme until=1
+refused 1 'me.scheme contains itself' run disc scheme=me.scheme until=1
 printf 'kind: adjoint\nbase: ./me.scheme\n' >me.scheme
-refused 1 'me.scheme is made of itself' run disc scheme=me.scheme until=1
+refused 1 'me.scheme contains itself' run disc scheme=me.scheme until=1
 refused 1 'cannot be shown' certify "$(printf 'a\033[31m.scheme')"
 for share in 1 2; do
     "$geomint" sweep kepler 'scheme=adjoint(rk4),rk4' dt=0.01..0.03:3 until=1 --table shares.csv --shard $share/2 \

@@ -105,9 +105,9 @@ static void words_choose_systems(void **unused)
     assert_float_equal(test_observed(one, "speed"), -sin(1), 1e-12);
     assert_float_equal(test_observed(two, "other"), 0, 1e-15);
     assert_true(isnan(test_observed(one, "other")) && isnan(test_observed(two, "speed")));
-    assert_string_equal(missing(one, "other"), "with masses=one there is none");
-    assert_string_equal(missing(two, "speed"), "with masses=two there is none");
-    assert_string_equal(scene->idle(one->parameters, "c"), "with masses=one there is none");
+    assert_string_equal(missing(one, "other"), "it is not defined with masses=one");
+    assert_string_equal(missing(two, "speed"), "it is not defined with masses=two");
+    assert_string_equal(scene->idle(one->parameters, "c"), "it is not defined with masses=one");
     assert_null(scene->idle(two->parameters, "c"));
     gm_lane_close(one);
     gm_lane_close(two);
@@ -172,8 +172,8 @@ static void what_is_wrong_is_named(void **unused)
         {"when: kind = b\nwhen: always\n", "kind = b\nwhen", "this block has no lines"},
         {"when: kind = b\n", "kind = b\n", "this block has no lines"},
         {"when: kind = b\nlet: y = 1\nwhen: other = v\nlet: z = 1\n", "other = v\nlet",
-         "a block of other stands in one of kind: end that by \"when: always\""},
-        {"when: kind = b\nchoice: c = p of p, q\n", "choice: c", "a choice stands outside of blocks"},
+         "a block of other is inside one of kind: end that by \"when: always\""},
+        {"when: kind = b\nchoice: c = p of p, q\n", "choice: c", "a choice belongs outside of blocks"},
         {"let: y = kind + 1\n", "kind + 1",
          "kind is a choice of words: write lines below \"when: kind = ...\""},
         {"parameter: kind = 1\n", "kind = 1", "kind is defined twice"},

@@ -209,9 +209,9 @@ static void what_has_no_number_says_so(void **unused)
     (void)unused;
     char text[64];
     gm_verdict_number(INFINITY, -INFINITY, text, sizeof text);
-    assert_string_equal(text, "no number");
+    assert_string_equal(text, "not a number");
     gm_verdict_number(NAN, NAN, text, sizeof text);
-    assert_string_equal(text, "no number");
+    assert_string_equal(text, "not a number");
     gm_verdict_number(0.25, 0.25, text, sizeof text);
     assert_string_equal(text, "0.25");
     gm_verdict_number(0.25, 0.5, text, sizeof text);

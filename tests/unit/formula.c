@@ -50,7 +50,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         if (strlen(names[i]) == name->length && memcmp(names[i], name->text, name->length) == 0) {
             *node = gm_formula_variable(graph, i);
             if (name->fixed || name->indexed) {
-                snprintf(sentence, GM_FAULT_SENTENCE, "%s is no %s", names[i],
+                snprintf(sentence, GM_FAULT_SENTENCE, "%s is not a %s", names[i],
                          name->fixed ? "parameter" : "list");
                 return GM_REFUSED;
             }

@@ -406,20 +406,20 @@ static void what_is_wrong_is_named(void **unused)
     static const struct {
         const char *line, *sentence;
     } wrong[] = {
-        {"caption: {scheme}\n", "caption: {scheme} is no value of this system"},
+        {"caption: {scheme}\n", "caption: {scheme} is not a value of this system"},
         {"level: q + t; grey\n", "level: t is not shown: a curve holds q and p"},
-        {"graph: energy; log\n", "graph: energy is no observable"},
-        {"work: ; measure far\n", "work: far is no observable"},
-        {"work: ; solves verlt\n", "work: verlt is no scheme"},
+        {"graph: energy; log\n", "graph: energy is not an observable"},
+        {"work: ; measure far\n", "work: far is not an observable"},
+        {"work: ; solves verlt\n", "work: verlt is not a scheme"},
         {"work: ; errors 1, 2, 3\n", "work: errors are three numbers that fall"},
         {"work: ; coarsest -1\n", "work: a ladder of steps begins above 0"},
         {"work: ; halvings 0\n", "work: a ladder of steps begins above 0"},
         {"work: ; schemes verlt\n", "schemes: verlt is not a scheme"},
         {"stability: until=1\n", "stability: a parameter and its values are missing"},
-        {"stability: ; g 1, 2\n", "stability: g is no parameter"},
+        {"stability: ; g 1, 2\n", "stability: g is not a parameter"},
         {"stability: ; k 1, 12\n", "stability: k lies between 0 and 9, and one of its values is 12"},
         {"stability: ; k 1, 2; steps 0, 1\n", "stability: a step is above 0"},
-        {"stability: ; k 1, 2; lost far\n", "stability: far is no observable"},
+        {"stability: ; k 1, 2; lost far\n", "stability: far is not an observable"},
     };
     for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         char text[600], sentence[GM_MESSAGE] = "";

@@ -516,7 +516,7 @@ static const struct {
     {"field: u\nrate: u = t*u\nstart: u = 0\n", "the rate of a field does not hold t"},
     {"field: u\nrate: u = u_x\nmass: u^2\nstart: u = 0\n", "a mass is linear in u"},
     {"field: u v\nrate: u = v, v = u\nmass: u - v_xx\nstart: u = 0, v = 0\n", "a mass is of one of"},
-    {"field: u\nrate: u = u_x\nmass: u\nmass: u - u_xx\nstart: u = 0\n", "the mass of u is said twice"},
+    {"field: u\nrate: u = u_x\nmass: u\nmass: u - u_xx\nstart: u = 0\n", "the mass of u is given twice"},
     {"field: u\nrate: u = u_x\nspace: spline\nstart: u = 0\n", "space is differences or fourier"},
     {"field: u\nrate: u = u_x\njump: 1\nstart: u = 0\n", "has no line \"jump\""},
     {"V: u^2\n", "which a line \"field\" names"},

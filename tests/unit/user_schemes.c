@@ -913,7 +913,7 @@ static void refusals(void **unused)
         {"kind: runge-kutta\ntitle: a; b\na: 1/2\nb: 1\n", "a; b", "no semicolon"},
         {"kind: runge-kutta\ntitle: Kutta]s\na: 1/2\nb: 1\n", "Kutta]s",
          "closes its parentheses and brackets"},
-        {"nonsense", "", "a line begins with a word and a colon"},
+        {"nonsense", "", "a line needs a word and a colon"},
     };
     for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_fault fault;

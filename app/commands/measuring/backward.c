@@ -57,7 +57,7 @@ static void print_table(const struct gm_grid *grid)
         print_line(&grid->lines[i]);
     }
     printf(
-        "\ngamma: terms go on as k! (dt/gamma)^k, estimated from the last two; they are smallest at k = gamma/dt, and "
+        "\ngamma: term k is about k! (dt/gamma)^k, estimated from the last two; it is smallest at k = gamma/dt, and "
         "what\nis left drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt)\n");
 }
 

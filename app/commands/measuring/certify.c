@@ -43,8 +43,7 @@ static void print_certificate(const struct gm_certificate *certificate)
         printf("  order %d, measured ", scheme->order);
         if (isnan(certificate->order)) {
             printf("nowhere: %s%s\n",
-                   certificate->order_reason ? certificate->order_reason
-                                             : "no errors stand clear of round-off",
+                   certificate->order_reason ? certificate->order_reason : "no errors exceed round-off",
                    broken);
         } else {
             printf("%.3f (%s)%s%s%s\n", certificate->order, certificate->order_problem,
@@ -64,8 +63,8 @@ static void print_certificate(const struct gm_certificate *certificate)
         printf("\n");
     } else if (scheme->word) {
         printf(
-            "  theory is not asked: the parts are no tableaus, splittings or Nystrom methods of one kind, or they have "
-            "more than 256 stages\n");
+            "  theory does not apply: the parts are not tableaus, splittings or Nystrom methods of one kind, or they "
+            "have more than 256 stages\n");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
@@ -89,7 +88,7 @@ static void print_certificate(const struct gm_certificate *certificate)
         } else if (reason) {
             printf(" %s", reason);
         } else if (measure->undecided) {
-            printf(" no step, however short, tells it from round-off (%s)", measure->problem);
+            printf(" no step, however short, separates it from round-off (%s)", measure->problem);
         }
         printf("\n");
     }

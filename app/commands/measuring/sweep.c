@@ -64,7 +64,7 @@ static void check(const struct gm_options *options)
     }
     if (options->table && strcmp(options->table, "-") == 0) {
         gm_command_end(options, GM_EXIT_USAGE,
-                       "--table - is no file; without --table the rows go to standard output");
+                       "--table - is not a file; without --table the rows go to standard output");
     }
     const bool streamed = gm_options_take_stdout(options);
     const bool named = options->table || (is_drawn(options) && !streamed);
@@ -167,7 +167,8 @@ static int join(const struct gm_options *options, struct gm_sweep *sweep)
     char message[GM_MESSAGE];
     size_t missing = 0;
     if (options->arguments.count > 0) {
-        return gm_give_up(GM_EXIT_USAGE, "--join needs no scene: %s.sweep tells of the sweep", options->join);
+        return gm_give_up(GM_EXIT_USAGE, "--join needs no scene: %s.sweep describes the sweep",
+                          options->join);
     }
     *options->end = GM_EXIT_FILE;
     gm_sweep_recall(options->arena, sweep, options->join);
@@ -176,7 +177,7 @@ static int join(const struct gm_options *options, struct gm_sweep *sweep)
     }
     if (missing > 0) {
         return gm_give_up(
-            GM_EXIT_FILE, "%s has %zu of %zu row%s; give the shares that end early again, and join once more",
+            GM_EXIT_FILE, "%s has %zu of %zu row%s; run the incomplete shards again, then join again",
             options->join, sweep->count - missing, sweep->count, gm_plural((double)sweep->count));
     }
     gm_complain("wrote %s", options->join);

@@ -272,7 +272,7 @@ static void put_scene(const struct gm_scene *scene)
 void gm_catalogue_scenes_markdown(void)
 {
     printf(
-        "# Scenes\n\nWritten by `geomint list scenes --markdown`. A live parameter acts on the present state when "
+        "# Scenes\n\nWritten by `geomint list scenes --markdown`. A live parameter acts on the current state when "
         "it is changed in the explorer; a change of any other starts the run again.\n\n");
     for (size_t i = 0; i < gm_scene_count(); i++) {
         put_scene(gm_scene_at(i));

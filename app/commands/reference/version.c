@@ -52,11 +52,11 @@ static void print_features(void)
     } else {
         gm_say("painter: %s", painter && *painter
                                   ? painter
-                                  : "auto (osmesa for PNG and movies where it can be loaded, else own)");
+                                  : "auto (osmesa for PNG and movies if it can be loaded, else own)");
     }
     gm_kernel_folder(kernels, sizeof kernels);
     const bool sources = stat(kernels, &about) == 0, compiler = sources && gm_compiler_find(path, &unused);
-    gm_say("loops: %s; systems of one's own: interpreted%s%s", gm_isa_name(gm_isa_best()),
+    gm_say("loops: %s; user-defined systems: interpreted%s%s", gm_isa_name(gm_isa_best()),
            compiler  ? ", or compiled by "
            : sources ? ", as there is no C compiler"
                      : ", as the sources of their loops are not there",

@@ -302,7 +302,7 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
     answers = &terminal->answers;
     leaving = resized = stopping = 0;
     if (tcgetattr(STDIN_FILENO, &before) != 0) {
-        return gm_refuse(message, "The terminal does not say how it is set: %s.", strerror(errno));
+        return gm_refuse(message, "The terminal does not report its settings: %s.", strerror(errno));
     }
     if (!open_input(terminal)) {
         close_input();

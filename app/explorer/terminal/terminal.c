@@ -179,7 +179,7 @@ static void ask(struct gm_terminal *terminal)
              answers->kitty ? "the terminal answered so"
              : multiplexer  ? "not asked: tmux and screen pass no such images on"
              : old          ? "not asked: such a terminal would show the question"
-                            : "the terminal did not say so when it was asked");
+                            : "the terminal did not confirm it");
     snprintf(terminal->sixel_why, GM_REASON, "%s",
              answers->sixel        ? "among its device attributes"
              : answers->attributes ? "not among its device attributes"
@@ -199,13 +199,13 @@ static void find_cell(struct gm_terminal *terminal)
                answers->text_height >= terminal->rows) {
         terminal->cell_width = answers->text_width / terminal->columns;
         terminal->cell_height = answers->text_height / terminal->rows;
-        snprintf(terminal->cell_why, GM_REASON, "the terminal told the size of its text area");
+        snprintf(terminal->cell_why, GM_REASON, "the terminal reported the size of its text area");
     } else if (terminal->cell_width == 0) {
-        snprintf(terminal->cell_why, GM_REASON, "neither the system nor the terminal tells");
+        snprintf(terminal->cell_why, GM_REASON, "neither the system nor the terminal reports it");
     }
     if (terminal->cell_width > 200 || terminal->cell_height > 400) { /* no font is that large */
         terminal->cell_width = terminal->cell_height = 0;
-        snprintf(terminal->cell_why, GM_REASON, "what was told cannot be");
+        snprintf(terminal->cell_why, GM_REASON, "the reported size is impossible");
     }
 }
 
@@ -249,7 +249,7 @@ static void find_graphics(struct gm_terminal *terminal)
     terminal->can_blocks[GM_ASCII] = true;
     terminal->can_blocks[GM_QUADRANTS] = terminal->can_blocks[GM_HALF_BLOCKS] = terminal->utf8;
     terminal->can_blocks[GM_BRAILLE] = terminal->utf8 && strcmp(terminal->name, "linux") != 0;
-    const char *hindrance = terminal->colours == GM_COLOURS_NONE ? "but there are to be no colours"
+    const char *hindrance = terminal->colours == GM_COLOURS_NONE ? "but colours are off"
                             : terminal->cell_width == 0          ? "but the size of a cell is unknown"
                                                                  : NULL;
     if (answers->kitty && hindrance) {
@@ -278,7 +278,7 @@ static void decide_graphics(struct gm_terminal *terminal, const struct demand *d
         if (ladder[rung].pixels && terminal->cell_width == 0) {
             terminal->cell_width = 10; /* the cell of the VT340, which its emulators use */
             terminal->cell_height = 20;
-            snprintf(terminal->cell_why, GM_REASON, "assumed, as nobody tells");
+            snprintf(terminal->cell_why, GM_REASON, "assumed, as nothing reports it");
         }
         terminal->can_pixels[ladder[rung].pixels] = true;
         terminal->can_blocks[ladder[rung].blocks] |= !ladder[rung].pixels;
@@ -395,7 +395,7 @@ bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
     if (!terminal->input || !terminal->output) {
         return gm_refuse(
             message,
-            "The explorer needs a terminal, but standard %s is none; `geomint render` makes pictures without.",
+            "The explorer needs a terminal, but standard %s is not one; `geomint render` makes pictures without.",
             terminal->input ? "output" : "input");
     }
     if (!*terminal->name) {

@@ -196,23 +196,22 @@ static int draw_commands(const struct gm_sheet *sheet, int scroll, const struct 
 static int draw_start_help(const struct gm_sheet *sheet, int scroll)
 {
     static const char *const rows[][2] = {
-        {"letters", "search names, titles, and what is told of scenes and tours; ⌫ takes one back"},
+        {"letters", "search names, titles and descriptions of scenes and tours; ⌫ takes one back"},
         {"↑ ↓", "choose; Home, End: the first, the last"},
         {"tab", "from the scenes to the tours, the systems and the rooms of files, and back"},
-        {"enter",
-         "open what is chosen; what was open goes on where it was left; “your own system” asks for a formula"},
-        {"esc", "search for nothing: all that there is"},
+        {"enter", "open the chosen entry; one that was open resumes; “your own system” asks for a formula"},
+        {"esc", "clear the search: the whole list"},
         {"?", "this page"},
         {"q", "quit, while nothing is typed"},
     };
     struct page page = {.sheet = *sheet, .scroll = scroll};
-    put(&page, 0, "The list of what there is", GM_INK, true);
+    put(&page, 0, "The list of scenes", GM_INK, true);
     page.row++;
     put_wrapped(
         &page, 0,
-        "A scene is a problem, and schemes to compare on it; a live look at the chosen one is beside the "
-        "list. A tour leads through scenes, step by step. Systems and rooms are scenes that files describe: those "
-        "that the program brings, and those of ~/.config/geomint.",
+        "A scene is a problem, and schemes to compare on it; a preview of the chosen one is beside the "
+        "list. A tour leads through scenes, step by step. Systems and rooms are scenes that files describe: bundled "
+        "files, and yours in ~/.config/geomint.",
         GM_INK);
     put_heading(&page, "KEYS HERE");
     for (size_t i = 0; i < GM_COUNT(rows); i++) {

@@ -40,7 +40,7 @@ static void key_hints(const struct gm_shot *shot, struct gm_hint hints[MOST_HINT
     qsort(rows, count, sizeof *rows, by_rank);
     for (size_t i = 0; i < count; i++) {
         bool go = rows[i]->keys[0].code == ' ' && shot->paused;
-        hints[i] = (struct gm_hint){rows[i]->label, go ? "go on" : rows[i]->hint, rows[i]->keys[0].code};
+        hints[i] = (struct gm_hint){rows[i]->label, go ? "resume" : rows[i]->hint, rows[i]->keys[0].code};
     }
     hints[count] = (struct gm_hint){NULL, NULL, 0};
 }
@@ -115,9 +115,9 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
     if (shot->running_ahead) {
         snprintf(text, size, "Running ahead: %.0f %%", 100 * shot->progress);
     } else if (face->choosing == GM_CHOOSE_SWITCH) {
-        snprintf(text, size, "Another scheme for %s, from its present state on", lane);
+        snprintf(text, size, "Another scheme for %s, from its current state on", lane);
     } else if (face->choosing == GM_CHOOSE_FORK) {
-        snprintf(text, size, "%s goes on, and from its present state with another scheme too", lane);
+        snprintf(text, size, "%s continues, and another scheme starts from its current state", lane);
     } else if (face->prompt == GM_PROMPT_AHEAD || (face->prompt == GM_PROMPT_VALUE && parameter)) {
         gm_prompt_text(face, shot, text, size);
     } else if (shot->message[0] && shot->message_number != face->read) {

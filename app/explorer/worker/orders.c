@@ -146,7 +146,7 @@ static bool run_ahead(struct gm_play *play, const char *text, char *message)
         return gm_refuse(message, "\"%s\" is not a time.", text);
     }
     if (gm_play_left_until(play, to) <= 0) {
-        return gm_refuse(message, "t = %g lies behind already.", to);
+        return gm_refuse(message, "t = %g has already passed.", to);
     }
     gm_play_run_ahead(play, to);
     return true;

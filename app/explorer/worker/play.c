@@ -156,7 +156,7 @@ static void stop_at_home(struct gm_play *play)
         play->homewards = false;
         play->paused = true;
         gm_play_say(play,
-                    "Back at the start: “from start” tells how near each scheme comes to where it began.");
+                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
     }
 }
 
@@ -316,7 +316,7 @@ void gm_play_watch_frozen(struct gm_play *play)
         char sentence[GM_MESSAGE];
         snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
                  sentences[latest->run->status], latest->run->t,
-                 frozen < play->session.count ? "; the others go on" : "");
+                 frozen < play->session.count ? "; the others continue" : "");
         gm_play_say(play, sentence);
     }
     play->frozen = frozen;

@@ -325,7 +325,7 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
         return;
     }
     if (requested) {
-        gm_arena_refuse(grid->arena, "%s says nothing with these parameters", requested);
+        gm_arena_refuse(grid->arena, "%s is undefined with these parameters", requested);
     }
     grid->measure = solution_error;
     grid->observed = false;

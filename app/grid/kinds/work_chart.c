@@ -182,7 +182,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
                                         grid->parameter ? grid->parameter->key : "");
     const char *const titles[] = {"error against run time", "error against evaluations",
                                   gm_picture_text(picture, "error against %s", finer)};
-    const char *const labels[] = {"processor time, s", "evaluations of f or force", finer};
+    const char *const labels[] = {"CPU time, s", "evaluations of f or force", finer};
     double *points = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *points);
     if (!points) {
         return;

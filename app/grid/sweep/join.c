@@ -40,7 +40,8 @@ void gm_sweep_note(const struct gm_sweep *sweep, const char *path)
     const bool same = before && strcmp(before, text) == 0;
     free(before);
     if (!same) {
-        gm_arena_refuse(sweep->arena, "%.360s tells of another sweep; its tables are left as they are", note);
+        gm_arena_refuse(sweep->arena, "%.360s describes another sweep; its tables are left as they are",
+                        note);
     }
 }
 
@@ -65,8 +66,8 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
          *shares = find(note, "\nshares: ");
     if (!words || !measure || !shares || strncmp(note, "geomint: 1\n", 11) != 0 ||
         strtoul(shares, NULL, 10) == 0) {
-        gm_arena_refuse(arena, "%.300s.sweep, which tells what the shares are of, could not be read%s%s",
-                        path, note ? "" : ": ", note ? "" : reason);
+        gm_arena_refuse(arena, "%.300s.sweep, which describes the sweep, could not be read%s%s", path,
+                        note ? "" : ": ", note ? "" : reason);
     }
     words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
     gm_arena_need(arena, gm_arguments_split(arguments, words));

@@ -131,7 +131,7 @@ void gm_field_note_form(struct gm_certificate *certificate, struct gm_field_subj
              name);
     } else if (subject->scheme->family->form) {
         gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
-                                "the step has no derivative that could be told at this state");
+                                "the step could not be differentiated at this state");
     }
     gm_run_close(subject->run);
 }
@@ -217,7 +217,7 @@ static double tell(const struct refined *refined, double by_differences, double 
     }
     ladder->settled = true;
     *reason = exactly && by_errors < wanted && by_differences > by_errors + 0.5
-                  ? "runs agree with one another, but not with the solution that exact: tells"
+                  ? "runs agree with one another, but not with the solution of exact:"
                   : NULL;
     return exactly ? by_errors : by_differences;
 }
@@ -280,7 +280,7 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
             const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
             refined.change[k - 1] = change;
             if (change < 1e-11 * size) {
-                *reason = "differences between runs on finer grids do not stand clear of round-off";
+                *reason = "differences between runs on finer grids do not exceed round-off";
                 free(state);
                 break;
             }

@@ -146,9 +146,10 @@ static void open_terms(struct opening *opening)
     struct gm_coefficients coefficients;
     gm_arena_keep(energy->arena, &energy->modified, close_modified);
     if (!gm_scheme_coefficients_open(opening->scheme, &coefficients)) {
-        snprintf(opening->why, GM_MODIFIED_WHY,
-                 "what %.80s solves is not worked out: it is no Runge-Kutta method, splitting or composition",
-                 title);
+        snprintf(
+            opening->why, GM_MODIFIED_WHY,
+            "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, splitting or composition",
+            title);
         gm_arena_leave(energy->arena);
     }
     gm_coefficients_reduce(&coefficients);
@@ -156,7 +157,7 @@ static void open_terms(struct opening *opening)
         snprintf(opening->why, GM_MODIFIED_WHY,
                  "%.80s is not symplectic: the equation that it solves has no Hamiltonian", title);
     } else if (coefficients.nystrom > 0) {
-        snprintf(opening->why, GM_MODIFIED_WHY, "what a Nystrom method solves is not worked out");
+        snprintf(opening->why, GM_MODIFIED_WHY, "the modified equation of a Nystrom method is unknown");
     }
     const bool good =
         !opening->why[0] && gm_modified_open(&energy->modified, &coefficients, energy->power + 1);

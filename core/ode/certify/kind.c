@@ -66,9 +66,9 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_GROUP, "the bracket of angular momenta, or of a top",
      "systems with the bracket of angular momenta, or of a top"},
     {GM_NEEDS_PIECES,
-     "a bracket, and an energy that falls into pieces whose flows are exact: of components that commute, and in whose "
+     "a bracket, and an energy that splits into pieces whose flows are exact: of components that commute, and in whose "
      "flow the others are linear",
-     "Poisson systems whose energy falls into pieces with exact flows"},
+     "Poisson systems whose energy splits into pieces with exact flows"},
     {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
     {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
     {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",
@@ -84,7 +84,7 @@ static const struct gm_facet_words words[] = {
      "fields on a ring, with a linear part"},
     {GM_NEEDS_LAGRANGIAN, "a Lagrangian of one degree of freedom", "Lagrangians of one degree of freedom"},
     {GM_NEEDS_MONITOR, "a monitor, the density of steps", "systems with a monitor, the density of steps"},
-    {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not fall into T(p) + V(q)",
+    {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not split into T(p) + V(q)",
      "Hamiltonian systems that do not separate"},
     {GM_NEEDS_NYSTROM, "a quadratic kinetic energy T(p)",
      "separable Hamiltonian systems of quadratic kinetic energy"},
@@ -262,7 +262,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     const char *const no_constraints = "the system has no constraints";
     const char *const no_derivative = n > GM_SUBJECT_TANGENTS
                                           ? "a step is differentiated for at most 64 components"
-                                          : "the scheme chooses its steps";
+                                          : "the scheme is adaptive";
     const struct {
         enum gm_claim claim;
         bool measured;
@@ -344,10 +344,9 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     if (gm_ode_of(system->problem)->rough) {
         certificate->order = NAN;
         certificate->ladder.settled = false;
-        certificate->order_reason = "the system is not smooth, so that no order can be told";
+        certificate->order_reason = "the system is not smooth, so that no order can be measured";
     } else if (isnan(certificate->order)) {
-        certificate->order_reason =
-            "no errors of steps from 8 dt down stand clear of round-off: take a longer dt";
+        certificate->order_reason = "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     gm_certificate_withhold_all(certificate, UINT_MAX, "it means nothing of ordinary differential equations");

@@ -363,7 +363,8 @@ static struct own *compose(const struct making *making, const struct substeps *s
         carrying = carrying && scheme->family->carries_passive;
         needs |= scheme->needs;
         if (!gm_scheme_composes(scheme)) {
-            fail(making, place, "%.60s cannot be a part of a step: it remembers, or chooses its step itself",
+            fail(making, place,
+                 "%.60s cannot be a part of a step: it is adaptive, or carries data between steps",
                  scheme->name);
         }
     }
@@ -485,7 +486,8 @@ static struct own *adjoint_composition(const struct making *making, const struct
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
     if (!scheme->exact && !scheme->family->coefficients_open) {
-        fail(making, place, "the adjoint of %.60s is not known: it is no Runge-Kutta method and no splitting",
+        fail(making, place,
+             "the adjoint of %.60s is unknown: it is neither a Runge-Kutta method nor a splitting",
              scheme->name);
     }
     struct gm_coefficients *exact = take_coefficients(making, 1);
@@ -686,7 +688,7 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
         gm_arena_keep(making->arena, gm_written_word(written, row->title, words), free);
     row->reference = reference->said
                          ? gm_arena_keep(making->arena, gm_span_words(written->text, reference->value), free)
-                         : "brought along";
+                         : "user-defined";
 }
 
 /* Fills order and claims that the text does not give from theory; without theory the order is that of the

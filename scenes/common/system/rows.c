@@ -169,7 +169,7 @@ bool gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[
     free(values);
     const double steps = good ? numbers[GM_SYSTEM_TIMES - 1] : NAN;
     if (steps < 0 || (isfinite(steps) && steps != floor(steps))) {
-        return gm_refuse(sentence, "steps: %.10g is no whole number", steps);
+        return gm_refuse(sentence, "steps: %.10g is not a whole number", steps);
     }
     return good;
 }

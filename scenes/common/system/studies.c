@@ -16,7 +16,7 @@ static bool is_observable(const struct gm_system_scene *system_scene, const stru
 {
     const char *key = gm_system_option_text(item, word, NULL);
     return !key || gm_scene_observable(&system_scene->scene, key) >= 0 ||
-           gm_refuse(sentence, "%s: %.60s is no observable", gm_system_words[item->word].word, key);
+           gm_refuse(sentence, "%s: %.60s is not an observable", gm_system_words[item->word].word, key);
 }
 
 /* Reads the schemes that an option names, ended by NULL; *list is NULL for the usual ones. */
@@ -74,7 +74,7 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     const char *const known[] = {solves, reference};
     for (size_t i = 0; i < GM_COUNT(known); i++) {
         if (known[i] && !gm_scheme_find(known[i])) {
-            return gm_refuse(sentence, "work: %.60s is no scheme", known[i]);
+            return gm_refuse(sentence, "work: %.60s is not a scheme", known[i]);
         }
     }
     if (errors && (errors->count != 3 ||
@@ -146,8 +146,8 @@ static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian
         .label = "h ω",
         .unit = radian,
         .told =
-            "ω is the largest frequency, or rate where nothing turns, of the linearised field at the start, or "
-            "1 where none is found",
+            "ω is the largest frequency of the linearised field at the start; without one, the largest rate; "
+            "without either, 1",
         .steps = steps,
         .step_count = GM_COUNT(steps),
         .throughout = true,
@@ -167,7 +167,7 @@ static bool read_map(struct gm_system_scene *system_scene, const struct gm_probl
                                   *steps = gm_system_option(item, GM_OPTION_STEPS);
     const struct gm_parameter *row = values ? gm_scene_parameter(&system_scene->scene, item->name) : NULL;
     if (!row) {
-        return values ? gm_refuse(sentence, "stability: %.60s is no parameter", item->name)
+        return values ? gm_refuse(sentence, "stability: %.60s is not a parameter", item->name)
                       : gm_refuse(sentence, "stability: a parameter and its values are missing: q 0, 1");
     }
     for (size_t i = 0; i < values->count; i++) {
@@ -215,7 +215,7 @@ bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct g
                                 *graph;
     for (size_t i = 0; (graph = gm_system_item_of(&system_scene->system, GM_WORD_GRAPH, i)); i++) {
         if (gm_scene_observable(&system_scene->scene, graph->name) < 0) {
-            return gm_refuse(sentence, "graph: %.60s is no observable", graph->name);
+            return gm_refuse(sentence, "graph: %.60s is not an observable", graph->name);
         }
     }
     const char *missing = item ? gm_system_option_text(item, GM_OPTION_MISSING, NULL) : NULL;

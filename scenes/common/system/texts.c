@@ -133,7 +133,7 @@ static bool check_keys(const struct gm_system_scene *system_scene, const struct 
         snprintf(key, sizeof key, "%.*s", (int)(length < 60 ? length : 60), brace + 1);
         if (item->nodes[k] == GM_NO_NODE && strcmp(key, "schemes") != 0 &&
             !gm_scene_parameter(&system_scene->scene, key)) {
-            return gm_refuse(sentence, "%s: {%s} is no value of this system",
+            return gm_refuse(sentence, "%s: {%s} is not a value of this system",
                              gm_system_words[item->word].word, key);
         }
     }

@@ -160,7 +160,7 @@ static bool join(struct gm_system_scene *own, struct gm_system_scene *first, con
 /* Notes the value by which a system lacks rows of the others. False when out of memory. */
 static bool lack(struct gm_system_scene *own, const char *key, const char *value)
 {
-    own->lacks = gm_system_kept_text(own, "with %s=%s there is none", key, value);
+    own->lacks = gm_system_kept_text(own, "it is not defined with %s=%s", key, value);
     return own->lacks != NULL;
 }
 

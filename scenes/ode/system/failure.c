@@ -135,7 +135,7 @@ static void tell_monitor(const struct gm_view *view, const double *slope, double
     double here, there;
     look_ahead(view, slope, density_of_monitor, ahead, &here, &there);
     if (!(there > 0)) {
-        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g where the step leads",
+        snprintf(text, size, "the monitor, the density of steps, is %.3g, and %.3g where the step leads",
                  here, there);
     }
 }

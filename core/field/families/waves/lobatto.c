@@ -390,7 +390,7 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "lobatto-box2",
         .title = "Lobatto box, r = 3, s = 2",
-        .formula = IN_SPACE "u″ = Lu − V′(u) by Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
+        .formula = IN_SPACE "u″ = Lu − V′(u) with Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
         .reference = "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847",
         .coefficients = &rows[0],
         .order = 2,
@@ -412,7 +412,7 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "lobatto-nystrom4",
         .title = "Lobatto in x, Nyström in t",
-        .formula = IN_SPACE "u″ = Lu − V′(u) by Verlet with c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
+        .formula = IN_SPACE "u″ = Lu − V′(u) with Verlet: c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
         .reference =
             "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; M. Suzuki, Phys. "
             "Lett. A 146 (1990) 319",

@@ -88,7 +88,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Tao 2",
         .formula =
             "A(h/2) B(h/2) C(h) B(h/2) A(h/2) on (q, p; x, y):\n"
-            "H(q, y) + H(x, p) + ω (|q − x|² + |p − y|²)/2;  stiff springs of frequency Ω bear ω ≤ 1/(hΩ)²",
+            "H(q, y) + H(x, p) + ω (|q − x|² + |p − y|²)/2;  stiff springs of frequency Ω allow ω ≤ 1/(hΩ)²",
         .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
         .coefficients = &gm_composition_none,
         .order = 2,
@@ -98,7 +98,7 @@ static const struct gm_scheme schemes[] = {
         .name = "tao4",
         .title = "Tao 4",
         .formula = "three steps of Tao 2 of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2);\n"
-                   "stiff springs of frequency Ω bear ω ≤ 1/2(hΩ)²",
+                   "stiff springs of frequency Ω allow ω ≤ 1/2(hΩ)²",
         .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
         .coefficients = &gm_composition_yoshida4,
         .order = 4,
