@@ -55,12 +55,6 @@ static bool has_portrait(const struct gm_lane *lane)
     return row && lane->scene->portrait && gm_parameter_get(row, lane->parameters) != 0;
 }
 
-/* The reason why a portrait has no equilibria; NULL: it has some, or the window has none. */
-static const char *no_equilibria(const struct gm_portrait *portrait)
-{
-    return portrait->is_finite ? NULL : "the field is nowhere finite in the window";
-}
-
 static bool is_standard_output(const char *path)
 {
     return path && strcmp(path, "-") == 0;
@@ -183,7 +177,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     const char *none = NULL;
     if (has_portrait(lane) && lane->scene->portrait(lane, &portrait)) {
         print_equilibria(&row, &portrait);
-        none = no_equilibria(&portrait);
+        none = portrait.missing;
         gm_portrait_close(&portrait);
     }
     bool reasoned = none != NULL;
@@ -231,9 +225,9 @@ static void tell_equilibria(const struct gm_lane *lane, int width)
             printf("%.7g ± %.7gi\n", values[0][0], values[0][1]);
         }
     }
-    if (portrait.count == 0) {
-        const char *why = no_equilibria(&portrait);
-        printf("  %-*s none%s%s\n", width, "equilibrium", why ? ": " : " in the window", why ? why : "");
+    if (portrait.count == 0 || portrait.missing) {
+        printf("  %-*s %s\n", width, "equilibrium",
+               portrait.missing ? portrait.missing : "none in the window");
     }
     gm_portrait_close(&portrait);
 }

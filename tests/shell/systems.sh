@@ -780,6 +780,8 @@ damped --window 4,5,1,2
 grep -q 'equilibrium  *none in the window' out || fail "a window without equilibria: $(cat out)"
 status 0 run system rate='x = sqrt(1.5 - x)' rate='y = x' x=1 y=0 dt=0.01 steps=1 portrait=yes --window 2,3,0,1 --json
 grep -qF '"equilibria":"the field is nowhere finite in the window"' out || fail "a field without values: $(cat out)"
+status 0 run system rate='x = y' rate='y = x*y' x=1 y=1 dt=0.01 steps=1 portrait=yes --window -1,2,-1,2 --json
+grep -qF '"equilibria":"equilibria fill a curve, which is not listed"' out || fail "a line of equilibria: $(cat out)"
 "$geomint" render lotka-volterra show=t:x+y portrait=no trails=1 until=1 -o time.png 2>/dev/null &&
     "$geomint" again time.png -o again.png 2>/dev/null && cmp -s time.png again.png || fail 'again, over time'
 sed 's/; a$/; x/' space.system >moves.system

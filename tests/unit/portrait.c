@@ -280,7 +280,7 @@ static void test_poles(void **state)
         snprintf(text, sizeof text, "components: x y\nrate: x = %s\nrate: y = -y\nstart: x = 1, y = 0\n",
                  rates[i].rate);
         open_text(&portrait, text, (const double[]){rates[i].low, rates[i].high, -1, 1.2});
-        assert_int_equal(portrait.is_finite, rates[i].is_finite);
+        assert_int_equal(portrait.missing == NULL, rates[i].is_finite);
         const size_t row = GM_PORTRAIT_COLUMNS + 1;
         size_t changes = 0;
         for (size_t k = 1; k < row; k++) { /* along the lowest row */
@@ -293,18 +293,41 @@ static void test_poles(void **state)
     }
 }
 
-/* A line of equilibria gives at most as many as a portrait holds, each on the line. */
-static void test_line_of_equilibria(void **state)
+/* Equilibria that fill a line or a circle are not listed; isolated ones beside them are. */
+static void test_curves_of_equilibria(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rates;
+        size_t count;
+        bool fills_curve;
+    } curves[] = {{"rate: x = y\nrate: y = y*x\n", 0, true},
+                  {"rate: x = y*(x^2 + y^2 - 1)\nrate: y = -x*(x^2 + y^2 - 1)\n", 1, true},
+                  {"rate: x = x*(y - 1)\nrate: y = x*(y + 1)\n", 0, true},
+                  {"rate: x = 0\nrate: y = 0\n", 0, true},
+                  {"rate: x = x^2\nrate: y = y^2\n", 1, false},
+                  {"rate: x = x^2\nrate: y = -y\n", 1, false},
+                  {"rate: x = x^3 - y\nrate: y = -y\n", 1, false}};
+    for (size_t i = 0; i < sizeof curves / sizeof *curves; i++) {
+        struct gm_portrait portrait;
+        char text[256];
+        snprintf(text, sizeof text, "components: x y\n%sstart: x = 1, y = 1\n", curves[i].rates);
+        open_text(&portrait, text, (const double[]){-1, 2, -1.2, 2});
+        assert_int_equal(portrait.count, curves[i].count);
+        assert_int_equal(portrait.missing != NULL, curves[i].fills_curve);
+        gm_portrait_close(&portrait);
+    }
+}
+
+/* A portrait that is full says so. */
+static void test_many_equilibria(void **state)
 {
     (void)state;
     struct gm_portrait portrait;
-    open_text(&portrait, "components: x y\nrate: x = y\nrate: y = y*x\nstart: x = 1, y = 1\n",
-              (const double[]){-1, 2, -1, 2});
-    assert_in_range(portrait.count, 10, GM_MOST_EQUILIBRIA);
-    for (size_t k = 0; k < portrait.count; k++) {
-        expect_near(portrait.equilibria[k].at[1], 0, 1e-9);
-        assert_string_equal(gm_equilibrium_kind_name(portrait.equilibria[k].kind), "degenerate");
-    }
+    open_text(&portrait, "components: x y\nrate: x = sin(x)\nrate: y = sin(y)\nstart: x = 1, y = 1\n",
+              (const double[]){-16, 15, -16, 15});
+    assert_int_equal(portrait.count, GM_MOST_EQUILIBRIA);
+    assert_non_null(strstr(portrait.missing, "64"));
     gm_portrait_close(&portrait);
 }
 
@@ -314,7 +337,8 @@ int main(void)
         cmocka_unit_test(test_known_equilibria),
         cmocka_unit_test(test_random_cubics),
         cmocka_unit_test(test_poles),
-        cmocka_unit_test(test_line_of_equilibria),
+        cmocka_unit_test(test_curves_of_equilibria),
+        cmocka_unit_test(test_many_equilibria),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

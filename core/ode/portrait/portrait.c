@@ -245,12 +245,37 @@ static int compare(const struct search *search, const double *a, const double *b
     return 0;
 }
 
-/* Adds the equilibrium that Newton's method finds from a point, in its place, unless it is there. */
+/* Returns true if an equilibrium is one point of a curve of them: from a point beside it, along the null vector of J,
+   Newton's method finds another. It finds the same one if that is isolated. */
+static bool is_on_curve(const struct search *search, const struct gm_equilibrium *equilibrium)
+{
+    static const double aside = 1e-3; /* of the window */
+    const double *j = equilibrium->jacobian, *row = hypot(j[0], j[1]) > hypot(j[2], j[3]) ? j : j + 2,
+                 null[] = {row[1], -row[0]};
+    const double largest = fmax(fabs(null[0]) / search->size[0], fabs(null[1]) / search->size[1]);
+    for (double sign = -1; sign <= 1; sign += 2) {
+        double other[2], jacobian[4], moved = 0;
+        for (size_t k = 0; k < 2; k++) {
+            other[k] =
+                equilibrium->at[k] + sign * aside * (largest > 0 ? null[k] / largest : search->size[k]);
+        }
+        const bool found = solve(search, other, jacobian);
+        for (size_t k = 0; found && k < 2; k++) {
+            moved = fmax(moved, fabs(other[k] - equilibrium->at[k]) / search->size[k]);
+        }
+        if (moved > aside / 2) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Adds the equilibrium that Newton's method finds from a point, in its place, unless it is there or on a curve. */
 static void add_from(const struct search *search, double x, double y)
 {
     struct gm_portrait *portrait = search->portrait;
     struct gm_equilibrium found = {.at = {x, y}};
-    if (portrait->count == GM_MOST_EQUILIBRIA || !solve(search, found.at, found.jacobian)) {
+    if (!solve(search, found.at, found.jacobian)) {
         return;
     }
     size_t place = 0;
@@ -261,6 +286,14 @@ static void add_from(const struct search *search, double x, double y)
         return;
     }
     classify(&found);
+    if (found.kind == GM_DEGENERATE && is_on_curve(search, &found)) {
+        portrait->missing = "equilibria fill a curve, which is not listed";
+        return;
+    }
+    if (portrait->count == GM_MOST_EQUILIBRIA) {
+        portrait->missing = "the window has more than 64 equilibria; a smaller one shows the others";
+        return;
+    }
     memmove(portrait->equilibria + place + 1, portrait->equilibria + place,
             (portrait->count - place) * sizeof found);
     portrait->equilibria[place] = found;
@@ -287,9 +320,11 @@ bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *pro
     if (!fill_fields(portrait, problem)) {
         return false;
     }
-    for (size_t k = 0; k < CORNERS && !portrait->is_finite; k++) {
-        portrait->is_finite = isfinite(portrait->fields[0][k]) && isfinite(portrait->fields[1][k]);
+    bool is_finite = false;
+    for (size_t k = 0; k < CORNERS && !is_finite; k++) {
+        is_finite = isfinite(portrait->fields[0][k]) && isfinite(portrait->fields[1][k]);
     }
+    portrait->missing = is_finite ? NULL : "the field is nowhere finite in the window";
     find_scale(&search);
     mark_poles(portrait, problem);
     size_t cells = 0;
@@ -299,7 +334,7 @@ bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *pro
             add_from_cell(&search, cell, COLUMNS, ROWS);
         }
     }
-    for (size_t cell = 0; cell < (size_t)START_COLUMNS * START_ROWS && portrait->is_finite; cell++) {
+    for (size_t cell = 0; cell < (size_t)START_COLUMNS * START_ROWS && is_finite; cell++) {
         add_from_cell(&search, cell, START_COLUMNS, START_ROWS);
     }
     return true;

@@ -40,7 +40,8 @@ struct gm_portrait {
     /* Each component of f at the corners of a grid of cells, row by row from the lower left; NaN beside a pole or a
        jump, so that the lines on which it changes its sign are the nullclines. One block of memory. */
     double *fields[2];
-    bool is_finite; /* f is finite somewhere in the window */
+    /* What the list lacks: "equilibria fill a curve, which is not listed" ...; NULL: nothing. */
+    const char *missing;
 };
 
 /* Opens the portrait of a problem of two components; its m does not matter. Returns false when out of memory. The
