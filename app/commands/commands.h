@@ -112,9 +112,9 @@ void gm_put_duration(double seconds, char *text, size_t size);
    exit status. */
 int gm_list_system(const struct gm_options *options, const struct gm_file *file);
 
-/* Puts "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
-void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
-                      const struct gm_scheme *const *same, size_t count);
+/* Puts "schemes" and "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
+void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *schemes,
+                         const struct gm_scheme *const *same, size_t count);
 /* "file":"systems/toda.system","source":"..."; both are null without a file. */
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 

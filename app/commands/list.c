@@ -310,12 +310,7 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     gm_row_close(&parameters);
     put_keys(&row, "observables", scene->observables, scene->observable_count);
     put_keys(&row, "asked", scene->asked, scene->asked_count);
-    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
-    for (size_t i = 0; i < entry->scheme_count; i++) {
-        gm_row_text(&schemes, NULL, entry->schemes[i]->name);
-    }
-    gm_row_close(&schemes);
-    gm_list_put_same(&row, entry->schemes, entry->same, entry->scheme_count);
+    gm_list_put_schemes(&row, entry->schemes, entry->same, entry->scheme_count);
     gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
     printf("}\n");
 }

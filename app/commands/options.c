@@ -141,32 +141,24 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
                                        [RATE] = {0, INFINITY},
                                        [FPS] = {0.01, 1000},
                                        [SCALE] = {GM_LEAST_SCALE, GM_MOST_SCALE},
-                                       [DPI] = {GM_LEAST_DPI, GM_MOST_DPI}};
+                                       [DPI] = {GM_LEAST_DPI, GM_MOST_DPI},
+                                       [WHOLE] = {1, 1e9}};
     const double low = bounds[row->kind][0], high = bounds[row->kind][1];
-    const bool open = isinf(high);
+    const bool open = isinf(high), whole = row->kind == WHOLE;
     double number = NAN;
     char what[64];
     if (!gm_number_parse(value, &number) || !isfinite(number) || number > high ||
-        !(open ? number > low : number >= low)) {
+        !(open ? number > low : number >= low) || (whole && number != floor(number))) {
         snprintf(what, sizeof what,
-                 !open        ? "is not a number from %g to %g"
+                 whole        ? "is not a whole number from 1 to 1e9"
+                 : !open      ? "is not a number from %g to %g"
                  : isinf(low) ? "is not a number"
                               : "is not a number above 0",
                  low, high);
         return refuse(message, row->name, value, what);
     }
-    memcpy(place, &number, sizeof number);
-    return true;
-}
-
-static bool store_whole(char *place, const struct gm_option *row, const char *value, char *message)
-{
-    double number = NAN;
-    if (!gm_number_parse(value, &number) || !(number >= 1 && number <= 1e9) || number != floor(number)) {
-        return refuse(message, row->name, value, "is not a whole number from 1 to 1e9");
-    }
-    const long whole = (long)number;
-    memcpy(place, &whole, sizeof whole);
+    const long integer = whole ? (long)number : 0;
+    memcpy(place, whole ? (const void *)&integer : &number, sizeof number);
     return true;
 }
 
@@ -267,7 +259,6 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
         memcpy(place, &(int){1}, sizeof(int));
         return true;
     case WHOLE:
-        return store_whole(place, row, value, message);
     case TIME:
     case RATE:
     case FPS:
@@ -372,35 +363,31 @@ static bool is_given(const bool given[ROWS], const char *name)
     return false;
 }
 
-/* A path whose folder has no detours; malloc'ed, NULL: it leads nowhere. */
-static char *straight(const char *path)
+/* The folder of a path, and its name there; false: the folder is missing. */
+static bool find_folder(const char *path, struct stat *folder, const char **name)
 {
-    char *copy = strdup(path), *slash = copy ? strrchr(copy, '/') : NULL, *whole = NULL;
-    const char *name = slash ? slash + 1 : copy;
-    if (slash) {
-        *slash = '\0';
-    }
-    char *folder = copy ? realpath(!slash ? "." : slash == copy ? "/" : copy, NULL) : NULL;
-    if (!folder || asprintf(&whole, "%s/%s", folder, name) < 0) {
-        whole = NULL;
-    }
-    free(folder);
-    free(copy);
-    return whole;
+    const char *slash = strrchr(path, '/');
+    char text[4096];
+    *name = slash ? slash + 1 : path;
+    snprintf(text, sizeof text, "%.*s.", (int)(*name - path), path);
+    return stat(text, folder) == 0;
+}
+
+static bool are_one(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
 static bool is_same_file(const char *a, const char *b)
 {
     struct stat x, y;
+    const char *one, *other;
     const bool there = stat(a, &x) == 0;
     if (stat(b, &y) == 0 && there) {
-        return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+        return S_ISREG(x.st_mode) && are_one(&x, &y);
     }
-    char *one = straight(a), *other = straight(b);
-    const bool same = one && other && strcmp(one, other) == 0;
-    free(one);
-    free(other);
-    return same;
+    return find_folder(a, &x, &one) && find_folder(b, &y, &other) && are_one(&x, &y) &&
+           strcmp(one, other) == 0;
 }
 
 /* Returns true if no file is written twice or also read; `again` may overwrite its picture. */

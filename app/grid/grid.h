@@ -170,6 +170,9 @@ struct gm_study_row {
 };
 extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: GM_STUDY_NONE */
 
+/* The parameters that all lanes share. */
+struct gm_timing *gm_grid_timing(const struct gm_grid *grid);
+
 /* The kind with that name, or GM_STUDY_NONE. */
 enum gm_study_kind gm_study_find(const char *name);
 

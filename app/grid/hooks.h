@@ -8,9 +8,6 @@
 
 /* ---- layout ---- */
 
-/* The parameters that all lanes share. */
-struct gm_timing *gm_grid_timing(const struct gm_grid *grid);
-
 /* Adds a value that is not there yet. */
 void gm_axis_add(struct gm_grid_axis *axis, double value);
 /* The line of a scheme, or NULL. */

@@ -106,8 +106,8 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
                          const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message);
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
 
-/* "FILE.csv" of a table; "FILE.I-of-N.csv" of a shard. malloc'ed. Returns NULL when out of memory. */
-char *gm_sweep_shard_path(const char *path, size_t shard, size_t shards);
+/* "FILE.csv" of the table FILE.csv; "FILE.I-of-N.csv" of its shard I of N. In a body of the arena. */
+const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t shard, size_t shards);
 
 /* ---- shards ---- */
 

@@ -132,8 +132,9 @@ bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, cons
     return good;
 }
 
-void gm_chosen_close(struct gm_chosen *chosen)
+void gm_chosen_close(void *self)
 {
+    struct gm_chosen *chosen = self;
     free(chosen->numbers);
     *chosen = (struct gm_chosen){0};
 }

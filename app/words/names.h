@@ -37,7 +37,7 @@ struct gm_chosen {
 /* Opens the observables with these keys, "KEY,KEY"; NULL: the scene's default ones. Returns false with a
    sentence. The caller closes it in both cases. */
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
-void gm_chosen_close(struct gm_chosen *chosen);
+void gm_chosen_close(void *chosen);
 /* Returns true if an observable on request is among them. Such observables follow the steps of a run, which must
    all have the same size. */
 bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_scene *scene);

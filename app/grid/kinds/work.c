@@ -82,37 +82,31 @@ static void note_settings(struct gm_grid *grid, const struct gm_arguments *words
     }
 }
 
-/* Takes "best" out of the list of schemes; false: it is not among them. */
-static bool take_best(struct gm_arguments *words)
+/* Takes "best" out of the list of schemes. */
+static void edit(struct gm_grid *grid, struct gm_arguments *words)
 {
     static const char key[] = "scheme=", best[] = "best";
     for (int i = 1; i < words->count; i++) {
         char *const list = words->words[i];
+        const char *others = "";
         if (strncmp(list, key, sizeof key - 1) != 0) {
             continue;
         }
         struct gm_span rest = {sizeof key - 1, strlen(list)}, name;
         while (gm_span_take(list, &rest, ",", &name)) {
-            if (name.end - name.begin == sizeof best - 1 &&
-                memcmp(list + name.begin, best, sizeof best - 1) == 0) {
-                /* cut with the comma after it, or else the one before, so that the rest is a list */
-                const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
-                const size_t from = last && !alone ? name.begin - 1 : name.begin,
-                             to = last ? name.end : rest.begin;
-                memmove(list + from, list + to, strlen(list + to) + 1);
-                return true;
+            const int length = (int)(name.end - name.begin);
+            if (length == sizeof best - 1 && memcmp(list + name.begin, best, sizeof best - 1) == 0) {
+                grid->best = true;
+            } else {
+                others = gm_arena_print(grid->arena, "%s%s%.*s", others, *others ? "," : "", length,
+                                        list + name.begin);
             }
         }
-    }
-    return false;
-}
-
-static void edit(struct gm_grid *grid, struct gm_arguments *words)
-{
-    grid->best = take_best(words);
-    for (int i = 1; grid->best && i < words->count; i++) {
-        if (strcmp(words->words[i], "scheme=") == 0) {
+        if (grid->best && !*others) {
             gm_arena_refuse(grid->arena, "best are those to compare a scheme with: scheme=my.scheme,best");
+        }
+        if (grid->best) {
+            strcpy(list + sizeof key - 1, others);
         }
     }
 }

@@ -154,7 +154,7 @@ size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
     struct joining joining = {.sweep = sweep, .shards = tables + 1, .missing = missing}, *self = &joining;
     allow_files();
     for (size_t i = 1; i <= sweep->shards; i++) {
-        const char *shard = gm_arena_keep(arena, gm_sweep_shard_path(path, i, sweep->shards), free);
+        const char *shard = gm_sweep_shard_path(arena, path, i, sweep->shards);
         open_table(sweep, shard, "not a shard of this sweep: its columns are others", &tables[i]);
     }
     open_table(sweep, path, "the table of another sweep; it is left as it is", &tables[0]);

@@ -42,10 +42,11 @@ static bool refuse_writing(char *message, const char *path)
                      strerror(errno));
 }
 
-char *gm_sweep_shard_path(const char *path, size_t shard, size_t shards)
+const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t shard, size_t shards)
 {
     const size_t front = strlen(path) - (gm_word_ends(path, ".csv") ? strlen(".csv") : 0);
-    return shards == 1 ? strdup(path) : gm_text("%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
+    return shards == 1 ? gm_arena_print(arena, "%s", path)
+                       : gm_arena_print(arena, "%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
 }
 
 /* ---- existing rows ---- */
@@ -237,7 +238,7 @@ struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct 
     gm_arena_keep(arena, table, close_table);
     fflush(stdout);
     if (path) {
-        table->path = gm_arena_keep(arena, gm_sweep_shard_path(path, sweep->shard, sweep->shards), free);
+        table->path = gm_sweep_shard_path(arena, path, sweep->shard, sweep->shards);
         open_file(table, retry);
     }
     return table;
