@@ -1273,12 +1273,15 @@ bool gm_equations_open(struct gm_user_system *system, const char *text, size_t l
 {
     const bool good =
         gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
+    bool named = false;
     for (size_t i = system->choices.count; i > 0 && !good && fault->sentence[0]; i--) {
         const struct gm_written_choice *choice = &system->choices.list[i - 1];
         const struct gm_fault plain = *fault;
         if (choice->chosen != choice->standard) {
-            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s: %.240s", choice->name,
-                     choice->words[choice->chosen], plain.sentence);
+            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s%s%.240s", choice->name,
+                     choice->words[choice->chosen], named ? ", " : ": ",
+                     plain.sentence + (named ? strlen("with ") : 0));
+            named = true;
         }
     }
     return good;

@@ -478,7 +478,7 @@ static bool read_surface(struct gm_reading *reading, const struct gm_system_line
     return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
 }
 
-/* A system in space has the keys of a camera, which are reserved; surfaces need space. */
+/* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
 static bool check_space(struct gm_reading *reading)
 {
     static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
@@ -502,9 +502,9 @@ static bool check_space(struct gm_reading *reading)
             }
         }
     }
-    for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
         const struct gm_entry *entry = gm_reading_entry(reading, keys[k], strlen(keys[k]), false, 0);
-        if (entry) {
+        if (entry && (in_space || entry->role == GM_ENTRY_CHOICE)) {
             return gm_fail_first(&reading->fault, entry->place, taken, keys[k]);
         }
     }

@@ -168,7 +168,8 @@ static void what_is_wrong_is_named(void **unused)
         {"when: knd = b\nlet: y = 1\n", "knd", "there is no choice \"knd\"; did you mean kind"},
         {"when: other = w\nlet: y = 1\n", "w\nlet", "there is no word \"w\""},
         {"when: other = u, vv\nlet: y = 1\n", "vv", "there is no word \"vv\"; did you mean v"},
-        {"when: kind = \nlet: y = 1\n", NULL, "there is no word \"\""},
+        {"when: kind = \nlet: y = 1\n", NULL, "a word was expected"},
+        {"when: = a\nlet: y = 1\n", "= a\nlet", "a choice was expected"},
         {"when: kind = b\nwhen: always\n", "kind = b\nwhen", "this block has no lines"},
         {"when: kind = b\n", "kind = b\n", "this block has no lines"},
         {"when: kind = b\nlet: y = 1\nwhen: other = v\nlet: z = 1\n", "other = v\nlet",
@@ -178,13 +179,20 @@ static void what_is_wrong_is_named(void **unused)
          "kind is a choice of words: write lines below \"when: kind = ...\""},
         {"parameter: kind = 1\n", "kind = 1", "kind is defined twice"},
         {"choice: kind = p of p, q\n", "kind = p of", "kind is defined twice"},
-        {"choice: c = p\n", "c = p", "a choice has a name and 2 to 16 words"},
-        {"choice: c = p of p\n", "c = p of", "a choice has a name and 2 to 16 words"},
+        {"choice: c = p\n", "c = p", "a choice has a name, a default and words"},
+        {"choice: c of p, q\n", "c of p", "a choice has a name, a default and words"},
+        {"choice: c = p of p\n", "c = p of", "a choice has at least two words"},
         {"choice: c = r of p, q\n", "r of", "there is no word \"r\""},
+        {"choice: c =  of p, q\n", NULL, "a word was expected"},
         {"choice: c = p of p, q, p\n", "p\n", "p is named twice"},
-        {"choice: 1c = p of p, q\n", "1c", "a choice has a name"},
-        {"choice: c = p of p, q r\n", "c = p", "a choice has a name"},
+        {"choice: 1c = p of p, q\n", "1c", "the name of a choice has 1 to 31 letters, digits and _"},
+        {"choice: c = p of p, q r\n", "q r", "a word of a choice has 1 to 31 bytes without blanks"},
+        {"choice: c = p of p, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, q\n", "q\n",
+         "a choice has at most 16 words"},
         {"choice: show = p of p, q\n", "show", "the name show is reserved"},
+        {"choice: H = p of p, q\n", "H = p", "the name H is reserved"},
+        {"choice: lanes = p of p, q\n", "lanes = p", "the name lanes is reserved"},
+        {"choice: azimuth = p of p, q\n", "azimuth = p", "the name azimuth is reserved"},
         {"when: kind = b\nrate: x = zz\n", "zz", "with kind=b: there is no name zz"},
         {"when: kind = b\nrate: y = x\n", "x = 1", "with kind=b: y has no value at the start"},
         {"when: kind = b\nstart: y = 1\n", "y = 1", "with kind=b: there is no name y"},
@@ -232,12 +240,34 @@ static void lines_are_replaced(void **unused)
     }
 }
 
+/* The time to choose lines is proportional to their number. */
+static void many_blocks_are_read(void **unused)
+{
+    (void)unused;
+    enum { BLOCKS = 20000 };
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    assert_non_null(stream);
+    fputs("choice: kind = a of a, b\nrate: x = f1\nstart: x = 1\n", stream);
+    for (int i = 0; i < BLOCKS; i++) {
+        fprintf(stream, "let: f%d = 1\nwhen: kind = b\nlet: f%d = 2\nwhen: always\n", i, i);
+    }
+    fclose(stream);
+    const struct gm_system_value value = {"kind", "b"};
+    struct gm_user_system system;
+    struct gm_fault fault;
+    assert_true(gm_equations_open(&system, text, size, &value, 1, &fault));
+    assert_true(system.graph.nodes[system.rates[0]].value == 2);
+    gm_system_close(&system);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_choose_systems),
-        cmocka_unit_test(choices_are_combined),
-        cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(many_blocks_are_read), cmocka_unit_test(words_choose_systems),
+        cmocka_unit_test(choices_are_combined), cmocka_unit_test(what_is_wrong_is_named),
         cmocka_unit_test(lines_are_replaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
