@@ -7,6 +7,7 @@
    axis: the last member is in the middle, all others of a disc are on the edge. Observables are values of the
    centre; if the state is a plane, also the disc's area. */
 #include "scenes/ode/system.h"
+#include "scenes/ode/hooks/hook.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,6 +21,10 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/studies.h"
+#include "scenes/common/system/texts.h"
+#include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/asked.h"
 #include "scenes/ode/system/aim.h"
@@ -27,11 +32,7 @@
 #include "scenes/ode/system/failure.h"
 #include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/observed.h"
-#include "scenes/ode/system/pieces.h"
 #include "scenes/ode/system/sights.h"
-#include "scenes/ode/system/studies.h"
-#include "scenes/ode/system/texts.h"
-#include "scenes/ode/system/variants.h"
 
 enum { DT, UNTIL };
 enum {

@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_AIM_H
 #define GM_SCENES_ODE_SYSTEM_AIM_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Sets the coordinates of a start with which the nearest moving body is at the point (x, y), or as near as
    possible; the momenta stay. Returns how many, at most GM_CHOICES; 0 if no body moves, more coordinates

@@ -8,9 +8,9 @@
 
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
+#include "scenes/common/system/texts.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/levels.h"
-#include "scenes/ode/system/texts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 

@@ -3,7 +3,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_DRAW_H
 #define GM_SCENES_ODE_SYSTEM_DRAW_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 

@@ -10,7 +10,7 @@
 
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Writes a formula that is not finite: "log(x) is not finite where x = -0.3". */
 static void tell_node(const struct gm_user_system *system, gm_node_id node, const double *values, char *text,

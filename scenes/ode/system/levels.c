@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 enum {
     SOUGHT = 63, /* cells per side while the range is sought: odd, so that the middle is in a cell */

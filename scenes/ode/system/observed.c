@@ -2,6 +2,7 @@
 /* Observables of a user-defined system: its energy, the quantities that its file names, the area of a disc of
    members, the distance from the exact solution. */
 #include "scenes/ode/system/observed.h"
+#include "scenes/ode/hooks/hook.h"
 
 #include <complex.h>
 #include <math.h>
@@ -16,7 +17,7 @@
 #include "core/ode/variational/manifold.h"
 #include "core/schemes.h"
 #include "scenes/common/rows.h"
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 /* ---- formulas during the run ---- */
 

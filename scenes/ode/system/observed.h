@@ -3,7 +3,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_OBSERVED_H
 #define GM_SCENES_ODE_SYSTEM_OBSERVED_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Makes the observables; false with a sentence, or when out of memory. */
 bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 /* Returns true if a formula turns with an angle: 2 pi more of that changes it by 2 pi or -2 pi. */
 static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)

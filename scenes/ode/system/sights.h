@@ -3,7 +3,7 @@
 #ifndef GM_SCENES_ODE_SYSTEM_SIGHTS_H
 #define GM_SCENES_ODE_SYSTEM_SIGHTS_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Makes the sights, the section and the words of show=, with space for one more; false when out of memory. */
 bool gm_system_make_sights(struct gm_system_scene *system_scene);

@@ -3,7 +3,7 @@
 #define GM_SCENES_ODE_SYSTEM_SPACE_H
 
 #include "scenes/common/space.h"
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* A user-defined system in space: its bodies, rods and surfaces from the lane's camera. */
 

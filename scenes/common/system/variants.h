@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The systems of one file: one for each of the words of its choices, and of the values of parameters that equations are
    built on. Their tables have the same rows, so that lanes of several are one scene. */
-#ifndef GM_SCENES_ODE_SYSTEM_VARIANTS_H
-#define GM_SCENES_ODE_SYSTEM_VARIANTS_H
+#ifndef GM_SCENES_COMMON_SYSTEM_VARIANTS_H
+#define GM_SCENES_COMMON_SYSTEM_VARIANTS_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Makes the scene of the text with these values; NULL with a fault, or only a sentence. */
 typedef struct gm_system_scene *(*gm_system_maker)(const struct gm_system_scene *first,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Common functions for making the scene of a user-defined system. */
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts of a system's file with values in them: {x}, {dt:pi}, {schemes}. */
-#ifndef GM_SCENES_ODE_SYSTEM_TEXTS_H
-#define GM_SCENES_ODE_SYSTEM_TEXTS_H
+#ifndef GM_SCENES_COMMON_SYSTEM_TEXTS_H
+#define GM_SCENES_COMMON_SYSTEM_TEXTS_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Opens the tapes of texts, requirements and levels. False with a sentence on failure. */
 bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence);

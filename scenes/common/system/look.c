@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas of a user-defined system, in a view of its scene. */
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 #include <math.h>
 #include <stdlib.h>

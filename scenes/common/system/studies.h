@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figures and studies of a system's scene: from its file, or suited to its frequencies. */
-#ifndef GM_SCENES_ODE_SYSTEM_STUDIES_H
-#define GM_SCENES_ODE_SYSTEM_STUDIES_H
+#ifndef GM_SCENES_COMMON_SYSTEM_STUDIES_H
+#define GM_SCENES_COMMON_SYSTEM_STUDIES_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Makes figures, work and stability of a scene that has rows, observables and schemes. `radian` is 1 / the
    largest frequency at the start, the unit of steps unless the file names another. False with a sentence on

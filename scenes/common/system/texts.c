@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts with values, and requirements for a start. */
-#include "scenes/ode/system/texts.h"
+#include "scenes/common/system/texts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 #include "core/model/scope.h"
 #include "scenes/common/graph.h"
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 enum { SIZE = 1024 };
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of the scene of a user-defined system: the lines of its file, its texts and tapes, values at the
    start. */
-#ifndef GM_SCENES_ODE_SYSTEM_PIECES_H
-#define GM_SCENES_ODE_SYSTEM_PIECES_H
+#ifndef GM_SCENES_COMMON_SYSTEM_PIECES_H
+#define GM_SCENES_COMMON_SYSTEM_PIECES_H
 
-#include "scenes/ode/system/look.h"
+#include "scenes/common/system/look.h"
 
 /* Returns the number of items of a word. */
 size_t gm_system_count_items(const struct gm_user_system *system, enum gm_system_word word);

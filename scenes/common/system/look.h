@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene of a user-defined system, and the sights of its state. */
-#ifndef GM_SCENES_ODE_SYSTEM_LOOK_H
-#define GM_SCENES_ODE_SYSTEM_LOOK_H
+#ifndef GM_SCENES_COMMON_SYSTEM_LOOK_H
+#define GM_SCENES_COMMON_SYSTEM_LOOK_H
 
 #include <stdint.h>
 
@@ -10,7 +10,6 @@
 #include "scenes/common/camera.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/hooks/hook.h"
 
 /* The variable of a row without one: a choice, or a row of other systems. */
 #define GM_NO_VARIABLE SIZE_MAX
@@ -37,6 +36,8 @@ enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
 enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and possibly the modified energy */ };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
 enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12, GM_MOST_SURFACES = 8 };
+
+struct gm_hook; /* scenes/ode/hooks/hook.h */
 
 /* The data that follows from a system once. */
 struct gm_system_scene {

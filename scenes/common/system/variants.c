@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The systems of one file, and the rows that their tables have in common. */
-#include "scenes/ode/system/variants.h"
+#include "scenes/common/system/variants.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/memory.h"
-#include "scenes/ode/system/pieces.h"
+#include "scenes/common/system/pieces.h"
 
 enum { MOST_BUILDING = 16 };
 
