@@ -215,16 +215,13 @@ static struct gm_span assignments(const char *text, struct gm_span rest)
     return piece;
 }
 
-/* A line that replaces others: its word, and one of the names to which it assigns; empty without names. */
+/* A line with one of the names to which it assigns, or without a name. Lines in blocks replace the lines
+   outside of them with the same word and name. */
 struct heading {
     const char *text;
-    struct gm_span word, name;
-};
-
-/* The headings of lines in blocks that hold. */
-struct headings {
-    struct heading *list;
-    size_t count;
+    struct gm_text_line line;
+    struct gm_span name;
+    bool inside, goes;
 };
 
 static int compare_spans(const char *text, struct gm_span a, struct gm_span b)
@@ -233,92 +230,84 @@ static int compare_spans(const char *text, struct gm_span a, struct gm_span b)
     return one != other ? (one > other) - (one < other) : memcmp(text + a.begin, text + b.begin, one);
 }
 
+static int compare_headings(const struct heading *a, const struct heading *b)
+{
+    const int words = compare_spans(a->text, a->line.word, b->line.word);
+    return words != 0 ? words : compare_spans(a->text, a->name, b->name);
+}
+
+/* Equal headings are in the order: inside of blocks, outside. */
 static int compare(const void *a, const void *b)
 {
     const struct heading *one = a, *other = b;
-    const int words = compare_spans(one->text, one->word, other->word);
-    return words != 0 ? words : compare_spans(one->text, one->name, other->name);
+    const int headings = compare_headings(one, other);
+    return headings != 0 ? headings : other->inside - one->inside;
 }
 
-/* Calls `visit` for each heading of a line while it returns true. Returns false if it did not. */
-static bool each_heading(const char *text, const struct gm_text_line *line, enum gm_line_identity identity,
-                         bool (*visit)(struct headings *headings, const struct heading *heading),
-                         struct headings *headings)
+/* Adds a line once, or with each of its names. Returns the new number of headings. */
+static size_t add_line(struct heading *list, size_t count, struct heading heading, bool named)
 {
-    struct gm_span rest = assignments(text, line->value), piece;
-    struct heading heading = {.text = text, .word = line->word};
-    if (identity != GM_LINE_NAMED) {
-        return identity == GM_LINE_ADDED || visit(headings, &heading);
-    }
-    while (gm_span_take(text, &rest, ",", &piece)) {
+    const char *text = heading.text;
+    struct gm_span rest = assignments(text, heading.line.value), piece;
+    list[count] = heading;
+    while (named && gm_span_take(text, &rest, ",", &piece)) {
         const size_t equals = gm_span_until(text, piece, "=");
-        heading.name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals});
-        if (equals < piece.end && heading.name.begin < heading.name.end && !visit(headings, &heading)) {
-            return false;
-        }
+        list[count].name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals});
+        count += equals < piece.end && list[count].name.begin < list[count].name.end;
+        list[count] = heading;
     }
-    return true;
+    return count + !named;
 }
 
-/* Returns false when out of memory. */
-static bool add(struct headings *headings, const struct heading *heading)
+/* Makes a comment of a line. */
+static void remove_line(char *text, const struct gm_text_line *line)
 {
-    const size_t count = headings->count;
-    struct heading *list = headings->list;
-    if ((count & (count - 1)) == 0) { /* the capacity is a power of two */
-        list = realloc(list, (count > 0 ? 2 * count : 1) * sizeof *list);
+    for (size_t i = line->word.begin; i < line->value.end; i++) {
+        text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
     }
-    if (list) {
-        headings->list = list;
-        list[headings->count++] = *heading;
-    }
-    return list != NULL;
 }
 
-static bool is_missing(struct headings *headings, const struct heading *heading)
+/* Removes the lines outside of blocks that a line in a block replaces. */
+static void replace(char *text, struct heading *list, size_t count)
 {
-    return headings->count == 0 ||
-           !bsearch(heading, headings->list, headings->count, sizeof *heading, compare);
-}
-
-static bool apply(const struct gm_written_choices *choices, char *text, size_t length,
-                  enum gm_line_identity (*identity)(const char *text, struct gm_span word),
-                  struct headings *headings, struct gm_fault *fault)
-{
-    for (int last = 0; last < 2; last++) { /* all headings are known before lines go */
-        struct blocks blocks = {.choices = choices, .text = text};
-        struct gm_text_line line;
-        for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
-            if (!pass(&blocks, &line, fault)) {
-                return false;
-            }
-            const bool own = gm_span_among(text, line.word, own_words) <= WHEN;
-            const enum gm_line_identity kind = own ? GM_LINE_ADDED : identity(text, line.word);
-            if (!last && blocks.open && blocks.holds && !each_heading(text, &line, kind, add, headings)) {
-                return false;
-            }
-            const bool passed = own || (blocks.open && !blocks.holds) ||
-                                (!blocks.open && !each_heading(text, &line, kind, is_missing, headings));
-            for (size_t i = line.word.begin; last && passed && i < line.value.end; i++) {
-                text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
-            }
-        }
-        if (!end_block(&blocks, fault)) {
-            return false;
-        }
-        if (headings->count > 0 && !last) {
-            qsort(headings->list, headings->count, sizeof *headings->list, compare);
+    qsort(list, count, sizeof *list, compare);
+    for (size_t i = 0, first = 0; i < count; i++) {
+        first = compare_headings(&list[first], &list[i]) == 0 ? first : i;
+        list[i].goes = list[first].inside && !list[i].inside;
+    }
+    for (size_t i = 0; i < count; i++) { /* all were compared while the text was whole */
+        if (list[i].goes) {
+            remove_line(text, &list[i].line);
         }
     }
-    return true;
 }
 
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
                       enum gm_line_identity (*identity)(const char *text, struct gm_span word),
                       struct gm_fault *fault)
 {
-    struct headings headings = {0};
-    const bool good = apply(choices, text, length, identity, &headings, fault);
-    free(headings.list);
+    struct blocks blocks = {.choices = choices, .text = text};
+    struct gm_text_line line;
+    size_t count = 0, most = 1;
+    for (size_t i = 0; i < length && choices->count > 0; i++) {
+        most += text[i] == '\n' || text[i] == '=';
+    }
+    struct heading *list = malloc((most + 1) * sizeof *list);
+    bool good = list != NULL;
+    for (size_t at = 0; good && gm_lines_next(text, length, &at, &line, fault);) {
+        good = pass(&blocks, &line, fault);
+        const enum gm_line_identity kind = identity(text, line.word);
+        if (gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds)) {
+            remove_line(text, &line);
+        } else if (choices->count > 0 && kind != GM_LINE_ADDED) {
+            const struct heading heading = {.text = text, .line = line, .inside = blocks.open};
+            count = add_line(list, count, heading, kind == GM_LINE_NAMED);
+        }
+    }
+    good = good && end_block(&blocks, fault);
+    if (good) {
+        replace(text, list, count);
+    }
+    free(list);
     return good;
 }

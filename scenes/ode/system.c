@@ -129,12 +129,13 @@ static void record_crossing(const struct gm_view *view, double *entry)
 static struct gm_system_scene *make_other(const struct gm_system_scene *first,
                                           const struct gm_system_value *values, size_t count,
                                           struct gm_fault *fault, char *sentence);
+static const struct gm_system_maker maker = {make_other, gm_system_scene_close};
 
 /* Derives values that were not given from those that were, by the file's formulas. */
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
     struct gm_system_lane *lane = parameters;
-    if (!gm_system_choose(lane, make_other, sentence)) {
+    if (!gm_system_choose(lane, &maker, sentence)) {
         return false;
     }
     const struct gm_system_scene *system_scene = lane->owner;
@@ -406,7 +407,7 @@ static const char *idle(const void *parameters, const char *key)
         const struct gm_parameter *at = &lane->owner->rows[row];
         if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE &&
             lane->owner->variables[row] == GM_NO_VARIABLE) {
-            return lane->owner->lacks;
+            return lane->owner->lacks[row];
         }
     }
     return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
@@ -497,9 +498,11 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
     const size_t skipped = gm_system_skipped(system_scene);
     const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + n;
-    system_scene->rows = calloc(most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
-    system_scene->variables = calloc(most, sizeof *system_scene->variables);
-    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
+    system_scene->rows =
+        gm_arena_take(system->arena, most + GM_COMMON_ROWS + GM_CAMERA_KEYS, sizeof *system_scene->rows);
+    system_scene->variables = gm_arena_take(system->arena, most, sizeof *system_scene->variables);
+    system_scene->initial =
+        gm_arena_take(system->arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
@@ -775,16 +778,21 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         system_scene->scene.stops = gm_system_stops;
         system_scene->scene.follow = 1;
     }
-    const bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
-                      gm_system_check_exact(system_scene, &problem, sentence) &&
-                      make_schemes(system_scene, &problem, sentence) &&
-                      gm_system_make_studies(system_scene, &problem, radian_time, sentence);
+    bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
+                gm_system_check_exact(system_scene, &problem, sentence) &&
+                make_schemes(system_scene, &problem, sentence) &&
+                gm_system_make_studies(system_scene, &problem, radian_time, sentence);
     gm_user_problem_close(&problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
     system_scene->scene.asked = gm_ode_asked + skipped;
     system_scene->scene.asked_count = GM_ODE_ASKED - skipped;
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
+    for (size_t i = 0; good && i < system->choices.count; i++) {
+        const char *key = system->choices.list[i].name;
+        good = gm_scene_observable(&system_scene->scene, key) < 0 ||
+               gm_refuse(sentence, "choice: %s is an observable of this system: take another name", key);
+    }
     if (good && system_scene->observable_count > MOST_OBSERVED) {
         return gm_refuse(sentence, "a system has at most %d observables and invariants; this has %zu",
                          MOST_OBSERVED, system_scene->observable_count);
@@ -826,13 +834,7 @@ static struct gm_system_scene *make_other(const struct gm_system_scene *first,
     } else if (gm_system_is_field(&system)) {
         gm_refuse(sentence, "choice: %s=%s is a field, and other words are none", values->name, values->text);
     } else {
-        struct gm_system_scene *made =
-            open_one(&system, first->scene.name, first->scene.words, false, sentence);
-        if (made && !gm_system_lack(made, values[count - 1].name, values[count - 1].text)) {
-            gm_system_scene_close(&made->scene);
-            made = NULL;
-        }
-        return made;
+        return open_one(&system, first->scene.name, first->scene.words, false, sentence);
     }
     gm_system_close(&system);
     return NULL;
@@ -845,7 +847,7 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
     struct gm_system_scene *first = open_one(system, name, words, typed, sentence);
     const unsigned long refusals = gm_memory_refusals();
     *fault = (struct gm_fault){0};
-    if (first && (!gm_system_unite(first, make_other, fault, sentence) || gm_memory_refusals() != refusals)) {
+    if (first && (!gm_system_unite(first, &maker, fault, sentence) || gm_memory_refusals() != refusals)) {
         gm_system_scene_close(&first->scene);
         return NULL;
     }
@@ -873,8 +875,6 @@ void gm_system_scene_close(const struct gm_scene *scene)
     for (size_t i = 0; system_scene->of_items && i < system_scene->system.item_count; i++) {
         gm_tape_close(&system_scene->of_items[i]);
     }
-    free(system_scene->of_items);
-    free(system_scene->figures);
     struct gm_tape *const others[] = {&system_scene->where,     &system_scene->stop,
                                       &system_scene->exact,     &system_scene->timing[0],
                                       &system_scene->timing[1], &system_scene->timing[2]};
@@ -884,14 +884,5 @@ void gm_system_scene_close(const struct gm_scene *scene)
     gm_kept_texts_close(&system_scene->texts);
     gm_user_model_close(&system_scene->model);
     gm_system_close(&system_scene->system);
-    free(system_scene->sights);
-    free(system_scene->shows);
-    free(system_scene->all_shows);
-    free(system_scene->observables);
-    free(system_scene->formulas);
-    free(system_scene->terms);
-    free(system_scene->variables);
-    free(system_scene->rows);
-    free(system_scene->initial);
     free(system_scene);
 }

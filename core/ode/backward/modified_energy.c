@@ -163,8 +163,7 @@ static bool open_formula(struct gm_modified_energy *energy, const struct gm_prob
     }
     if (good) {
         energy->weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
-        node =
-            gm_simplified(&graph, GM_OPERATION_MULTIPLY, gm_formula_constant(&graph, energy->weight), node);
+        node = gm_product(&graph, gm_formula_constant(&graph, energy->weight), node);
         good = !graph.failed && field_of(&graph, node, n, field);
     }
     int most = 0;

@@ -6,18 +6,19 @@
 
 #include "scenes/common/system/look.h"
 
-/* Makes the scene of the text with these values; NULL with a fault, or only a sentence. */
-typedef struct gm_system_scene *(*gm_system_maker)(const struct gm_system_scene *first,
-                                                   const struct gm_system_value *values, size_t count,
-                                                   struct gm_fault *fault, char *sentence);
+/* The functions that make and close a system. */
+struct gm_system_maker {
+    /* Makes the scene of the text with these values; NULL with a fault, or only a sentence. */
+    struct gm_system_scene *(*make)(const struct gm_system_scene *first, const struct gm_system_value *values,
+                                    size_t count, struct gm_fault *fault, char *sentence);
+    void (*close)(const struct gm_scene *scene);
+};
 
 /* Makes the systems of all words of the choices, and gives all of them, and the first, the same rows. False
    with a fault, or only a sentence. */
-bool gm_system_unite(struct gm_system_scene *first, gm_system_maker make, struct gm_fault *fault,
-                     char *sentence);
-/* Notes the value by which a system lacks rows of the others. False when out of memory. */
-bool gm_system_lack(struct gm_system_scene *own, const char *key, const char *value);
+bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_maker *maker,
+                     struct gm_fault *fault, char *sentence);
 /* Gives a lane the system of its values. False with a sentence on failure. */
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_maker make, char *sentence);
+bool gm_system_choose(struct gm_system_lane *lane, const struct gm_system_maker *maker, char *sentence);
 
 #endif

@@ -341,6 +341,21 @@ static size_t average(double *points, size_t count)
     return made;
 }
 
+/* Writes the title of a curve over time above one of its points, those of several curves side by side. */
+static void draw_title(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       size_t body, const double *points, size_t count)
+{
+    const struct gm_system_item *item = gm_system_item_of(&own_of(lane)->owner->system, GM_WORD_VIEW, body);
+    const char *title = item ? gm_system_option_text(item, GM_OPTION_TITLE, NULL) : NULL;
+    const size_t bodies = gm_system_sight(lane->parameters)->bodies;
+    const double *at = points + 2 * ((bodies - body) * count / (bodies + 1)); /* parts differ late */
+    const double height = panel->y.high - panel->y.low;
+    if (title && count > 20 && at[1] < panel->y.high - 0.1 * height) {
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1}, at[0],
+                     at[1] + 0.05 * height, GM_ANCHOR_CENTRE, title);
+    }
+}
+
 static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_paths *paths, size_t body, const double *now)
 {
@@ -360,6 +375,7 @@ static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const 
         gm_mark_switches(picture, panel, lane, false);
         gm_mark_points(picture, panel, (struct gm_style){role, 1, 3.4, GM_SOLID}, points,
                        last && count < 1500 ? count : 0);
+        draw_title(picture, panel, lane, body, points, count);
         return;
     }
     if (is_curve(panel, points, count)) {
