@@ -28,20 +28,6 @@ gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node
     return gradient;
 }
 
-/* gradient of a node over all variables, freed by the caller; NULL when out of memory */
-static gm_node_id *gradient_of(struct gm_user_system *system, gm_node_id node)
-{
-    bool *all = malloc(system->variable_count);
-    gm_node_id *gradient = NULL;
-    system->graph.failed |= !all;
-    if (all) {
-        memset(all, true, system->variable_count);
-        gradient = gm_equations_gradient(system, node, all);
-    }
-    free(all);
-    return gradient;
-}
-
 static void derive_poisson(struct gm_user_system *system, const gm_node_id *gradient)
 {
     const size_t n = system->n;
@@ -83,7 +69,7 @@ static bool derive(struct gm_user_system *system)
 {
     const size_t half = system->n / 2;
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
-    gm_node_id *gradient = rates ? NULL : gradient_of(system, system->energy);
+    gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
     if (system->kind == GM_CANONICAL && !system->graph.failed) {
         for (size_t i = 0; i < half; i++) {
             system->rates[i] = gradient[half + i];
@@ -317,7 +303,7 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
         return direction ? all : GM_UNTESTED;
     }
     gm_node_id map = zero, change = zero;
-    gm_node_id *gradient = gradient_of(system, system->energy);
+    gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
         const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
         map = gm_sum(&system->graph, map, gm_product(&system->graph, momentum, item->nodes[i]));
@@ -325,7 +311,8 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
     }
     /* H: lift to momenta, -p dX/dq; L: lift to velocities, dX/dq v */
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
-        gm_node_id *slopes = gradient_of(system, system->kind == GM_CANONICAL ? map : item->nodes[i]);
+        gm_node_id *slopes =
+            gm_equations_gradient(system, system->kind == GM_CANONICAL ? map : item->nodes[i], NULL);
         for (size_t k = 0; k < half && !system->graph.failed; k++) {
             if (system->kind == GM_CANONICAL && i == 0) {
                 change = gm_difference(&system->graph, change,
