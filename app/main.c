@@ -170,7 +170,9 @@ static int run(int argc, char *argv[])
         gm_engine_choose(options->engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         struct gm_arena *arena = gm_arena_open();
         running.status = GM_EXIT_MEMORY; /* unless the command sets it */
-        gm_arena_run(arena, obey, &running);
+        if (!gm_arena_run(arena, obey, &running) && running.status != GM_EXIT_MEMORY) {
+            gm_complain("%s", gm_arena_reason(arena));
+        }
         gm_arena_close(arena);
         gm_canvas_settle();
     } else {

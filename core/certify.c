@@ -78,8 +78,11 @@ double gm_invariant_value(const void *invariant, const double *y, const double *
     return of->value(of->problem, y);
 }
 
-double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
-                           const double *direction)
+/* Differences of this many steps, up to 3, of a conserved quantity from a state of n numbers along a
+   direction, relative to the size of its values: 0 for a polynomial of lower degree. NaN when out of
+   memory. */
+static double differences_of(const struct gm_kept *kept, const double *start, size_t n, int steps,
+                             const double *direction)
 {
     static const double weights[][4] = {{0}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
     double *y = malloc(n * sizeof *y), sum = 0, size = 0;
@@ -110,11 +113,11 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
             all[c] = size * sin(k * (double)(3 * c + 1)); /* any direction */
             *(c < half ? &q[c] : &p[c]) = all[c];
         }
-        varies = varies || !(gm_kept_differences(kept, start, n, 1, all) < none);
-        linear = linear && gm_kept_differences(kept, start, n, 2, all) < none;
-        quadratic = quadratic && gm_kept_differences(kept, start, n, 3, all) < none;
-        bilinear = bilinear && gm_kept_differences(kept, start, n, 2, q) < none &&
-                   gm_kept_differences(kept, start, n, 2, p) < none;
+        varies = varies || !(differences_of(kept, start, n, 1, all) < none);
+        linear = linear && differences_of(kept, start, n, 2, all) < none;
+        quadratic = quadratic && differences_of(kept, start, n, 3, all) < none;
+        bilinear = bilinear && differences_of(kept, start, n, 2, q) < none &&
+                   differences_of(kept, start, n, 2, p) < none;
         of_momenta = of_momenta && fabs(kept->value(kept->data, q, NULL)) <=
                                        none * fabs(kept->value(kept->data, all, NULL));
     }
@@ -264,25 +267,27 @@ static void ask_theory(struct gm_certificate *certificate)
     certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
 }
 
-void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_trial *trial,
-                              const double *start)
+void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_problem *problem,
+                              const struct gm_settings *settings, double dt, const double *start)
 {
-    struct gm_trial twin = *trial;
-    twin.scheme = gm_scheme_same_as(trial->scheme, trial->problem);
-    const size_t n = trial->problem->n;
+    enum { STEPS = 9 };
+    const struct gm_trial trial = {problem, certificate->scheme, settings, dt, STEPS};
+    struct gm_trial twin = trial;
+    twin.scheme = gm_scheme_same_as(certificate->scheme, problem);
+    const size_t n = problem->n;
     double *ends = twin.scheme ? malloc(2 * n * sizeof *ends) : NULL, size = 0;
     if (!ends) {
         return;
     }
-    const bool good = gm_trial_advance(trial, start, ends) && gm_trial_advance(&twin, start, ends + n);
+    const bool good = gm_trial_advance(&trial, start, ends) && gm_trial_advance(&twin, start, ends + n);
     for (size_t c = 0; c < n; c++) {
         size = fmax(size, fabs(ends[c]));
     }
     const double difference = gm_distance(ends, ends + n, n) / (size > 0 ? size : 1);
     struct gm_sameness *same = &certificate->same;
     if (good && (!same->other || !(difference <= same->difference))) {
-        *same = (struct gm_sameness){
-            .other = twin.scheme, .difference = difference, .problem = trial->problem->name};
+        *same =
+            (struct gm_sameness){.other = twin.scheme, .difference = difference, .problem = problem->name};
     }
     free(ends);
 }

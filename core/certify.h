@@ -77,12 +77,6 @@ struct gm_invariant {
 };
 double gm_invariant_value(const void *invariant, const double *y, const double *memory);
 
-/* Differences of this many steps, up to 3, of a conserved quantity from a state of n numbers along a
-   direction, relative to the size of its values: 0 for a polynomial of lower degree. NaN when out of
-   memory. */
-double gm_kept_differences(const struct gm_kept *kept, const double *start, size_t n, int steps,
-                           const double *direction);
-
 /* Returns the claims that a conserved quantity tests, as bits: it may be linear, quadratic, of the form q'
    A p, or of the form p' x(q) with x affine, the momentum map of the symmetry whose generator is x
    (Noether's theorem, read backwards). Differences along directions of this size decide, in the first
@@ -141,12 +135,10 @@ struct gm_trial {
    Returns false if a step fails; `end` is then the last good state. */
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end);
 
-enum { GM_SAME_STEPS = 9 };
-
-/* Compares the trial's steps of the certificate's scheme with the steps of the scheme that is the same on
-   this problem, if any. */
-void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_trial *trial,
-                              const double *start);
+/* Compares steps dt of the certificate's scheme with those of the scheme that is the same on this problem, if
+   any. */
+void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_problem *problem,
+                              const struct gm_settings *settings, double dt, const double *start);
 
 /* Writes the state of a run that reverses after its steps and makes as many more: with the step -dt, or
    with the second half of the state, momenta or velocities, reflected. `push` is added to the first

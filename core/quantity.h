@@ -43,6 +43,11 @@ enum { GM_QUANTITIES = 16 /* most of a kind */, GM_QUANTITY_AXES = 3 };
    with the run. */
 size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 
+/* The quantities of each kind, for its row (struct gm_kind). */
+#define GM_KIND(name) size_t gm_##name##_quantities(const struct gm_run *run, struct gm_quantity *quantities);
+#include "core/kinds.def"
+#undef GM_KIND
+
 /* The quantities without a system's time, for rows that have their own. Returns their number. */
 size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
 

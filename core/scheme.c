@@ -8,32 +8,39 @@
 #include "core/theory/coefficients.h"
 
 static const struct {
-    const char *letter, *word;
+    const char *letter; /* on screens */
+    const char *key;    /* in files and JSON */
+    const char *word;   /* in sentences and tables */
 } rows[GM_CLAIM_COUNT] = {
-    {"S", "symplectic"},
-    {"=", "symmetric"},
-    {"R", "reversible"},
-    {"H", "keeps energy"},
-    {"Q", "keeps quadratic invariants"},
-    {"L", "keeps linear invariants"},
-    {"V", "keeps volume"},
-    {"M", "multisymplectic"},
-    {"G", "equivariant"},
-    {"D", "divergence-free"},
-    {"C", "keeps constants"},
-    {"B", "closes budgets"},
-    {"A", "keeps bilinear invariants"},
-    {"N", "keeps momentum maps"},
-    {"F", "conformal symplectic"},
-    {"K", "keeps constraints"},
-    {"T", "keeps hidden constraints"},
-    {"O", "keeps Casimirs"},
-    {"P", "a Poisson map"},
+    {"S", "symplectic", "symplectic"},
+    {"=", "symmetric", "symmetric"},
+    {"R", "reversible", "reversible"},
+    {"H", "keeps energy", "conserves energy"},
+    {"Q", "keeps quadratic invariants", "conserves quadratic invariants"},
+    {"L", "keeps linear invariants", "conserves linear invariants"},
+    {"V", "keeps volume", "preserves volume"},
+    {"M", "multisymplectic", "multisymplectic"},
+    {"G", "equivariant", "equivariant"},
+    {"D", "divergence-free", "divergence-free"},
+    {"C", "keeps constants", "preserves constants"},
+    {"B", "closes budgets", "closes budgets"},
+    {"A", "keeps bilinear invariants", "conserves bilinear invariants"},
+    {"N", "keeps momentum maps", "conserves momentum maps"},
+    {"F", "conformal symplectic", "conformal symplectic"},
+    {"K", "keeps constraints", "satisfies constraints"},
+    {"T", "keeps hidden constraints", "satisfies hidden constraints"},
+    {"O", "keeps Casimirs", "conserves Casimirs"},
+    {"P", "a Poisson map", "a Poisson map"},
 };
 
 const char *gm_claim_letter(unsigned bit)
 {
     return rows[bit].letter;
+}
+
+const char *gm_claim_key(unsigned bit)
+{
+    return rows[bit].key;
 }
 
 const char *gm_claim_word(unsigned bit)
@@ -48,8 +55,8 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
     for (size_t at = 0; at < length && !none; at += strspn(words + at, " \t\n\r,")) {
         unsigned found = GM_CLAIM_COUNT;
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const size_t letters = strlen(rows[bit].word), left = length - at;
-            if (letters <= left && memcmp(words + at, rows[bit].word, letters) == 0 &&
+            const size_t letters = strlen(rows[bit].key), left = length - at;
+            if (letters <= left && memcmp(words + at, rows[bit].key, letters) == 0 &&
                 (letters == left || strchr(" \t\n,", words[at + letters]))) {
                 found = bit;
             }
@@ -59,7 +66,7 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
             return false;
         }
         *claims |= 1u << found;
-        at += strlen(rows[found].word);
+        at += strlen(rows[found].key);
     }
     return true;
 }
@@ -79,7 +86,7 @@ const struct gm_parameter gm_settings_parameters[] = {
         .key = "binding",
         .unit = "",
         .help =
-            "frequency that binds the two copies of phase space (tao2, tao4); stiff springs bear up to 1/(dt Ω)², and half of it",
+            "frequency that binds the two copies of phase space; stiff springs allow at most 1/(dt Ω)² (tao2), half of it (tao4)",
         .type = GM_REAL,
         .offset = offsetof(struct gm_settings, binding),
         .standard = "20",
@@ -89,7 +96,7 @@ const struct gm_parameter gm_settings_parameters[] = {
     {
         .key = "tau0",
         .unit = "",
-        .help = "first time step of the schemes that choose their step by the variational principle",
+        .help = "first time step of the schemes whose step follows from the variational principle",
         .type = GM_REAL,
         .offset = offsetof(struct gm_settings, tau0),
         .standard = "0.02",

@@ -30,11 +30,12 @@ enum gm_claim {
     GM_CLAIM_COUNT = 19,
 };
 
-/* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
+/* A claim by its bit number: its letter in the explorer ("H"), its key in files and JSON ("keeps energy"), and its word in
+   sentences ("conserves energy"). */
 const char *gm_claim_letter(unsigned bit);
+const char *gm_claim_key(unsigned bit);
 const char *gm_claim_word(unsigned bit);
-/* Reads claims by their words, one after the other, or "none". Returns false with the position of another
-   word. */
+/* Reads claims by their keys, one after the other, or "none". Returns false with the position of another word. */
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 
 /* Parameters of schemes; every lane whose scheme uses one shares it. */

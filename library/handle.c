@@ -534,9 +534,8 @@ static bool put_lane(FILE *stream, const struct gm_drive *drive)
     if (meta) {
         fprintf(stream, "%.*s", (int)strlen(meta) - 1, meta); /* without its last brace */
         struct gm_row row = {.stream = stream, .form = GM_ROW_JSON, .begun = true};
-        gm_row_text(&row, "warning", warning);
-        gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
-        gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
+        gm_row_put(&row, "warning %s, evaluations %.0f, solves %.0f", warning,
+                   gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
         fputc('}', stream);
     }
     free(meta);

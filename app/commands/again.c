@@ -44,11 +44,6 @@ _Noreturn static void refuse(const struct gm_options *options, const char *why)
     gm_command_end(options, GM_EXIT_FILE, "%s cannot be made again: %s", options->arguments.words[0], why);
 }
 
-static void close_lane(void *lane)
-{
-    gm_lane_close(lane);
-}
-
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static const struct gm_lane *const *drive(const struct gm_options *options, const struct gm_request *request,
                                           const char *steps)
@@ -66,7 +61,7 @@ static const struct gm_lane *const *drive(const struct gm_options *options, cons
         if (!lane) {
             refuse(options, message);
         }
-        lanes[i] = gm_arena_keep(options->arena, lane, close_lane);
+        lanes[i] = gm_lane_in(options->arena, lane, message);
         struct gm_drive one = {.lane = lane, .request = request, .index = i};
         if (!gm_drive_to(&one, step, true, message)) {
             refuse(options, message);

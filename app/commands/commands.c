@@ -36,8 +36,8 @@ void gm_command_end(const struct gm_options *options, int status, const char *fo
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    *options->end = gm_give_up(status, "%s", sentence);
-    gm_arena_leave(options->arena);
+    *options->end = status;
+    gm_arena_refuse(options->arena, "%s", sentence);
 }
 
 /* ---- long runs ---- */

@@ -215,22 +215,18 @@ static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome
 static void print_json(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "figure", job->figure->name);
-    gm_row_text(&row, "scene", gm_figure_word(job));
-    gm_row_text(&row, "arguments", job->arguments);
-    gm_row_text(&row, "statement", job->figure->statement);
-    gm_row_flag(&row, "made", outcome->progress == GM_MADE);
-    gm_row_text(&row, "message", outcome->progress == GM_NOT_MADE ? outcome->message : "");
-    gm_row_number(&row, "seconds", outcome->seconds, 17);
+    gm_row_put(&row, "figure %s, scene %s, arguments %s, statement %s, made %d, message %s, seconds %.17g",
+               job->figure->name, gm_figure_word(job), job->arguments, job->figure->statement,
+               outcome->progress == GM_MADE, outcome->progress == GM_NOT_MADE ? outcome->message : "",
+               outcome->seconds);
     struct gm_row statements = gm_row_open(&row, "statements", ']');
     for (size_t i = 0; i < outcome->verdict_count; i++) {
         const struct gm_statement *statement = &job->published->statements[i];
         const double scale = outcome->verdicts[i].scale;
         struct gm_row said = gm_row_open(&statements, NULL, '}');
-        gm_row_text(&said, "says", statement->says);
-        gm_row_text(&said, "of", gm_source_name(gm_statement_source(job, i)));
-        gm_row_text(&said, "verdict", gm_verdict_word(job, outcome, i));
-        gm_row_text(&said, "note", job->shortened ? "" : outcome->verdicts[i].note);
+        gm_row_put(&said, "says %s, of %s, verdict %s, note %s", statement->says,
+                   gm_source_name(gm_statement_source(job, i)), gm_verdict_word(job, outcome, i),
+                   job->shortened ? "" : outcome->verdicts[i].note);
         gm_row_list(&said, "found", (const double[]){outcome->verdicts[i].low, outcome->verdicts[i].high}, 2);
         gm_row_list(&said, "expected", (const double[]){statement->low * scale, statement->high * scale}, 2);
         gm_row_close(&said);
@@ -239,9 +235,8 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
     struct gm_row lanes = gm_row_open(&row, "lanes", ']');
     for (size_t i = 0; outcome->progress == GM_MADE && i < outcome->lane_count; i++) {
         struct gm_row lane = gm_row_open(&lanes, NULL, '}');
-        gm_row_text(&lane, "lane", outcome->lanes[i].label);
-        gm_row_number(&lane, "t", outcome->lanes[i].t, 17);
-        gm_row_text(&lane, "message", outcome->lanes[i].failure);
+        gm_row_put(&lane, "lane %s, t %.17g, message %s", outcome->lanes[i].label, outcome->lanes[i].t,
+                   outcome->lanes[i].failure);
         struct gm_row observables = gm_row_open(&lane, "observables", '}');
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
             gm_row_number(&observables, job->scene->observables[k].key, outcome->lanes[i].observables[k], 17);

@@ -163,10 +163,8 @@ static int list_figures(const struct gm_options *options)
             const struct gm_figure *figure = &scene->figures[f];
             if (options->json) {
                 struct gm_row row = gm_row_begin(stdout);
-                gm_row_text(&row, "figure", figure->name);
-                gm_row_text(&row, "scene", scene->name);
-                gm_row_text(&row, "arguments", figure->arguments);
-                gm_row_text(&row, "statement", figure->statement);
+                gm_row_put(&row, "figure %s, scene %s, arguments %s, statement %s", figure->name, scene->name,
+                           figure->arguments, figure->statement);
                 printf("}\n");
             } else {
                 gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
@@ -196,11 +194,8 @@ static void put_parameter(struct gm_row *rows, const struct gm_parameter *parame
 {
     char range[256];
     struct gm_row row = gm_row_open(rows, NULL, '}');
-    gm_row_text(&row, "key", parameter->key);
-    gm_row_text(&row, "default", parameter->standard);
-    gm_row_text(&row, "range", gm_catalogue_range(parameter, range, sizeof range));
-    gm_row_flag(&row, "live", parameter->live);
-    gm_row_text(&row, "help", parameter->help);
+    gm_row_put(&row, "key %s, default %s, range %s, live %d, help %s", parameter->key, parameter->standard,
+               gm_catalogue_range(parameter, range, sizeof range), parameter->live, parameter->help);
     gm_row_close(&row);
 }
 
@@ -294,12 +289,8 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
 {
     const struct gm_scene *scene = entry->scene;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "scene", scene->name);
-    gm_row_text(&row, "title", scene->title);
-    gm_row_text(&row, "watch", scene->watch);
-    gm_row_text(&row, "time_unit", scene->time);
-    gm_row_text(&row, "run", entry->run);
-    gm_row_text(&row, "render", entry->render);
+    gm_row_put(&row, "scene %s, title %s, watch %s, time_unit %s, run %s, render %s", scene->name,
+               scene->title, scene->watch, scene->time, entry->run, entry->render);
     struct gm_row parameters = gm_row_open(&row, "parameters", ']');
     for (size_t i = 0; i < entry->row_count; i++) {
         put_parameter(&parameters, entry->rows[i]);

@@ -36,8 +36,8 @@ struct work {
     struct gm_provenance provenance;
     /* the files of a sequence */
     struct gm_frames frames;
-    char *checkpoint; /* the checkpoint's path; NULL: the lanes cannot be resumed from a snapshot */
-    long done;        /* the number of existing frames */
+    const char *checkpoint; /* the checkpoint's path; NULL: the lanes cannot be resumed from a snapshot */
+    long done;              /* the number of existing frames */
     struct gm_sink *pictures, *movie; /* NULL: not requested */
 };
 
@@ -73,26 +73,20 @@ static bool drive_to(struct work *work, long frame, char *message)
 }
 
 /* Passes a painted frame to the pictures, with its metadata. */
-static bool put_picture(struct work *work, unsigned char *rgb, long frame)
+static void put_picture(struct work *work, unsigned char *rgb, long frame)
 {
-    struct gm_png_text texts[3];
-    char *steps = gm_provenance_steps(lanes_of(work), work->request->count);
-    char *failures = gm_provenance_failures(lanes_of(work), work->request->count);
-    char *place = gm_frames_text(&work->frames, frame);
-    const bool good = steps && failures && place;
-    size_t count = 0;
-    if (good) {
-        texts[count++] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        if (failures[0]) {
-            texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
-        }
-        texts[count++] = (struct gm_png_text){GM_KEY_FRAME, place};
-        gm_sink_put(work->pictures, rgb, frame, texts, count);
+    struct gm_arena *arena = work->options->arena;
+    const size_t mark = gm_arena_mark(arena), lanes = work->request->count;
+    const char *steps = gm_arena_keep(arena, gm_provenance_steps(lanes_of(work), lanes), free);
+    const char *failures = gm_arena_keep(arena, gm_provenance_failures(lanes_of(work), lanes), free);
+    struct gm_png_text texts[3] = {{GM_KEY_STEPS, steps}};
+    size_t count = 1;
+    if (failures[0]) {
+        texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
     }
-    free(steps);
-    free(failures);
-    free(place);
-    return good;
+    texts[count++] = (struct gm_png_text){GM_KEY_FRAME, gm_frames_text(&work->frames, frame)};
+    gm_sink_put(work->pictures, rgb, frame, texts, count);
+    gm_arena_release(arena, mark);
 }
 
 static bool paint_frame(struct work *work, long frame, char *message)
@@ -117,9 +111,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
         memcpy(copy, rgb, 3 * (size_t)work->options->look.width * (size_t)work->options->look.height);
         gm_sink_put(work->movie, copy, frame, NULL, 0);
     }
-    if (!put_picture(work, rgb, frame)) {
-        return gm_refuse(message, "not enough memory for a frame's texts");
-    }
+    put_picture(work, rgb, frame);
     return true;
 }
 
@@ -133,14 +125,12 @@ static bool reuse_frame(struct work *work, long frame, char *message)
     if (!rgb) {
         return false; /* the sink reports the reason when it is closed */
     }
-    char *path = gm_frames_path(&work->frames, frame);
-    const bool good =
-        path && gm_png_read(path, work->options->look.width, work->options->look.height, rgb, message);
-    if (good) {
-        gm_sink_put(work->movie, rgb, frame, NULL, 0);
+    if (!gm_png_read(gm_frames_path(&work->frames, frame), work->options->look.width,
+                     work->options->look.height, rgb, message)) {
+        return false;
     }
-    free(path);
-    return good;
+    gm_sink_put(work->movie, rgb, frame, NULL, 0);
+    return true;
 }
 
 static void close_lanes(struct work *work)
@@ -267,29 +257,28 @@ static bool open_sinks(struct work *work, const char *name, char *message)
                            !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
         return false;
     }
-    if (!gm_frames_open(&work->frames, &work->schedule, folder_of(options), name, &work->provenance,
-                        message)) {
-        return false;
-    }
+    gm_frames_open(&work->frames, options->arena, &work->schedule, folder_of(options), name,
+                   &work->provenance);
     if (gm_checkpoint_fits(work->request)) {
         work->checkpoint = gm_checkpoint_path(&work->frames);
     }
-    work->pictures = gm_sink_open_png(work->frames.pattern, &settings, message);
+    const char *pattern =
+        gm_arena_print(options->arena, "%s/%s-%%06ld.png", work->frames.folder, work->frames.name);
+    work->pictures = gm_sink_open_png(pattern, &settings, message);
     return work->pictures != NULL;
 }
 
-/* The failures of lanes in the shard's last frame, painted now or read from its file. malloc'ed. */
+/* The failures of lanes in the shard's last frame, painted now or read from its file. */
 static char *last_failures(const struct work *work)
 {
     const long last = gm_schedule_last(&work->schedule);
     if (work->schedule.still || last < 0 || !work->frames.there[last]) {
-        return gm_provenance_failures(lanes_of(work), work->request->count);
+        char *text = gm_provenance_failures(lanes_of(work), work->request->count);
+        return gm_arena_keep(work->options->arena, text, free);
     }
     char message[GM_MESSAGE];
-    char *path = gm_frames_path(&work->frames, last);
-    char *text = path ? gm_png_read_text(path, GM_KEY_FAILURES, message) : NULL;
-    free(path);
-    return text ? text : strdup("");
+    char *text = gm_png_read_text(gm_frames_path(&work->frames, last), GM_KEY_FAILURES, message);
+    return gm_arena_keep(work->options->arena, text ? text : strdup(""), free);
 }
 
 /* Prints the warnings on the last frame's lanes, if it was painted now. */
@@ -327,12 +316,10 @@ static void tell_other_ends(const struct work *work)
 static int tell_end(const struct work *work)
 {
     char *failures = last_failures(work), *rest = NULL;
-    const bool failed = failures && failures[0];
-    for (char *line = failures ? strtok_r(failures, "\n", &rest) : NULL; line;
-         line = strtok_r(NULL, "\n", &rest)) {
+    const bool failed = failures[0] != '\0';
+    for (char *line = strtok_r(failures, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         gm_complain("%s", line);
     }
-    free(failures);
     tell_warnings(work);
     tell_other_ends(work);
     return work->options->strict && failed ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
@@ -366,6 +353,7 @@ static int paint_all(struct work *work, const char *name)
 {
     char message[GM_MESSAGE] = "";
     const struct gm_options *options = work->options;
+    *options->end = GM_EXIT_FILE;
     work->canvas = gm_canvas_open(&options->look, message);
     bool good = work->canvas != NULL;
     if (good && !gm_provenance_make(&work->provenance, work->request, &options->look,
@@ -438,9 +426,9 @@ static int paint_still(struct work *work, const char *name)
 static void close_work(void *data)
 {
     struct work *work = data;
+    char message[GM_MESSAGE];
+    close_sinks(work, false, message);
     close_lanes(work);
-    free(work->checkpoint);
-    gm_frames_close(&work->frames);
     gm_provenance_close(&work->provenance);
     gm_picture_close(work->picture);
     gm_canvas_close(work->canvas);

@@ -108,25 +108,22 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     char sentence[GM_MESSAGE], key[128];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "scene", lane->scene->name);
+    gm_row_put(&row, "scene %s", lane->scene->name);
     gm_meta_source(&row, lane->scene);
-    gm_row_text(&row, "scheme", lane->scheme->name);
+    gm_row_put(&row, "scheme %s", lane->scheme->name);
     if (gm_engine_of(lane)) {
-        gm_row_text(&row, "engine", gm_engine_of(lane));
+        gm_row_put(&row, "engine %s", gm_engine_of(lane));
     }
     gm_meta_parameters(&row, lane);
-    gm_row_text(&row, "status", status);
-    gm_row_text(&row, "message", sentence);
-    gm_row_text(&row, "warning", outcome->warning);
-    gm_row_number(&row, "t", run->t, 17);
+    gm_row_put(&row, "status %s, message %s, warning %s, t %.17g", status, sentence, outcome->warning,
+               run->t);
     if (lane->scene->stop) {
-        gm_row_flag(&row, "stopped", gm_lane_stopped(lane));
+        gm_row_put(&row, "stopped %d", gm_lane_stopped(lane));
     }
-    gm_row_count(&row, "steps", (double)run->steps);
-    gm_row_count(&row, "evaluations", gm_run_per_member(run, run->evaluations));
-    gm_row_count(&row, "solves", gm_run_per_member(run, run->solves));
+    gm_row_put(&row, "steps %.0f, evaluations %.0f, solves %.0f", (double)run->steps,
+               gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
     if (run->factor_solves > 0) {
-        gm_row_count(&row, "factor_solves", gm_run_per_member(run, run->factor_solves));
+        gm_row_put(&row, "factor_solves %.0f", gm_run_per_member(run, run->factor_solves));
     }
     printf(",\"seconds\":%.6g", outcome->drive.seconds);
     struct gm_row observables = gm_row_open(&row, "observables", '}');
@@ -155,7 +152,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         char layout[128];
         snprintf(layout, sizeof layout, "y[component * m + member], n = %zu components, m = %zu members",
                  lane->problem.n, lane->problem.m);
-        gm_row_text(&row, "layout", layout);
+        gm_row_put(&row, "layout %s", layout);
         /* null: a lost tracer */
         gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }

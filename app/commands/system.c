@@ -462,8 +462,7 @@ static void put_fact(struct gm_row *row, const char *word, const char *of, bool 
     char key[80];
     snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
     struct gm_row fact = gm_row_open(row, key, '}');
-    gm_row_flag(&fact, "holds", holds);
-    gm_row_text(&fact, "reason", reason);
+    gm_row_put(&fact, "holds %d, reason %s", holds, reason);
     gm_row_close(&fact);
 }
 
@@ -471,9 +470,8 @@ static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "title", gm_system_title(system) ? gm_system_title(system) : "");
-    gm_row_text(&row, "kind", kinds[system->kind].word);
-    gm_row_flag(&row, "timed", system->timed);
+    gm_row_put(&row, "title %s, kind %s, timed %d", gm_system_title(system) ? gm_system_title(system) : "",
+               kinds[system->kind].word, system->timed);
     put_values(&row, report);
     put_equations(&row, report);
     struct gm_row structure = gm_row_open(&row, "structure", '}');
@@ -735,8 +733,7 @@ void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes
 
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)
 {
-    gm_row_text(row, "file", file ? file->path : NULL);
-    gm_row_text(row, "source", file ? source : NULL);
+    gm_row_put(row, "file %s, source %s", file ? file->path : NULL, file ? source : NULL);
 }
 
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)

@@ -22,9 +22,8 @@ int gm_list_tours(const struct gm_options *options)
     for (size_t i = 0; i < count; i++) {
         if (options->json) {
             struct gm_row row = gm_row_begin(stdout);
-            gm_row_text(&row, "tour", tours[i].name);
-            gm_row_text(&row, "title", tours[i].title);
-            gm_row_text(&row, "about", tours[i].about ? tours[i].about : "");
+            gm_row_put(&row, "tour %s, title %s, about %s", tours[i].name, tours[i].title,
+                       tours[i].about ? tours[i].about : "");
             printf(",\"steps\":%zu}\n", tours[i].count);
             continue;
         }

@@ -32,10 +32,10 @@ void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane)
 void gm_meta_source(struct gm_row *row, const struct gm_scene *scene)
 {
     if (scene->text) {
-        gm_row_text(row, "system", scene->text);
+        gm_row_put(row, "system %s", scene->text);
     }
     if (scene->room) {
-        gm_row_text(row, "room", scene->room);
+        gm_row_put(row, "room %s", scene->room);
     }
 }
 
@@ -48,17 +48,14 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
         return NULL;
     }
     struct gm_row row = gm_row_begin(stream);
-    gm_row_text(&row, "version", "geomint " GM_VERSION);
-    gm_row_text(&row, "scene", lane->scene->name);
+    gm_row_put(&row, "version %s, scene %s", "geomint " GM_VERSION, lane->scene->name);
     gm_meta_source(&row, lane->scene);
-    gm_row_text(&row, "scheme", lane->scheme->name);
+    gm_row_put(&row, "scheme %s", lane->scheme->name);
     gm_meta_parameters(&row, lane);
-    gm_row_text(&row, "status", status);
-    gm_row_text(&row, "message", sentence);
-    gm_row_number(&row, "t", lane->run->t, 17);
-    gm_row_count(&row, "steps", (double)lane->run->steps);
+    gm_row_put(&row, "status %s, message %s, t %.17g, steps %.0f", status, sentence, lane->run->t,
+               (double)lane->run->steps);
     struct gm_row units = gm_row_open(&row, "units", '}');
-    gm_row_text(&units, "t", lane->scene->time ? lane->scene->time : "");
+    gm_row_put(&units, "t %s", lane->scene->time ? lane->scene->time : "");
     fputs("}}", stream);
     fclose(stream);
     return text;

@@ -7,6 +7,7 @@
 
 #include "app/base/arguments.h"
 #include "app/words/request.h"
+#include "core/arena.h"
 #include "core/field/field.h"
 #include "core/memory.h"
 #include "core/mesh/moving_mesh.h"
@@ -57,92 +58,90 @@ static double error_of_lane(const void *data, double t, const double *y)
     return kept->row->evaluate(&view);
 }
 
-/* The same field with half the step size on a grid twice as fine; NULL if there is no such grid, or when
-   out of memory. */
-static struct gm_lane *open_finer(const struct gm_lane *lane)
+/* The same field with half the step size on a grid twice as fine; NULL if there is no such grid. */
+static struct gm_lane *open_finer(struct gm_arena *arena, const struct gm_lane *lane)
 {
     const struct gm_parameter *points = gm_scene_parameter(lane->scene, "points");
-    struct gm_timing *timing = points ? gm_parameters_copy(lane->scene, lane->parameters) : NULL;
-    struct gm_lane *finer = NULL;
-    char unused[GM_MESSAGE];
-    if (timing) {
-        /* points between walls are counted with both */
-        const double twice = 2 * gm_parameter_get(points, timing) - (lane->problem.line.walls ? 1 : 0);
-        timing->dt /= 2;
-        if (gm_parameter_put(points, timing, twice) == GM_PARSED) {
-            finer = gm_lane_open(lane->scene, timing, &lane->settings, lane->scheme, unused);
-        }
+    char message[GM_MESSAGE];
+    if (!points) {
+        return NULL;
     }
-    free(timing);
-    return finer;
+    struct gm_timing *timing = gm_arena_keep(arena, gm_parameters_copy(lane->scene, lane->parameters), free);
+    /* points between walls are counted with both */
+    const double twice = 2 * gm_parameter_get(points, timing) - (lane->problem.line.walls ? 1 : 0);
+    timing->dt /= 2;
+    struct gm_lane *finer = gm_parameter_put(points, timing, twice) == GM_PARSED
+                                ? gm_lane_open(lane->scene, timing, &lane->settings, lane->scheme, message)
+                                : NULL;
+    return finer ? gm_lane_in(arena, finer, message) : NULL;
 }
 
 enum { FINER = 3 }; /* grids beside a field's own */
 
 struct grid {
-    struct gm_lane *lane;
+    const struct gm_lane *lane;
     struct kept error;
     struct gm_certified_system system;
 };
 
-/* Opens the finer grids of a field and sets the exact solution on all of them; `first` is the lane's grid. */
-static void refine(const struct gm_lane *lane, struct grid first[1 + FINER])
+/* Opens the finer grids of a field and sets the exact solution on all of them. */
+static void refine(struct gm_arena *arena, struct grid grids[1 + FINER])
 {
-    const struct gm_scene *scene = lane->scene;
+    const struct gm_scene *scene = grids->lane->scene;
     const int measured =
         scene->work && scene->work->measure ? gm_scene_observable(scene, scene->work->measure) : -1;
-    for (size_t k = 0; k <= FINER; k++) {
-        struct grid *grid = &first[k];
-        const struct gm_lane *self = k > 0 ? grid->lane : lane;
+    for (struct grid *grid = grids; grid; grid++) {
         if (measured >= 0) {
-            grid->error =
-                (struct kept){self, &self->problem, gm_scene_observable_at(scene, (size_t)measured), NULL};
+            grid->error = (struct kept){grid->lane, &grid->lane->problem,
+                                        gm_scene_observable_at(scene, (size_t)measured), NULL};
             grid->system.error = error_of_lane;
             grid->system.error_data = &grid->error;
         }
-        struct gm_lane *finer = k < FINER ? open_finer(self) : NULL;
+        const struct gm_lane *finer = grid < grids + FINER ? open_finer(arena, grid->lane) : NULL;
         if (!finer) {
-            break;
+            return;
         }
-        first[k + 1].lane = finer;
-        first[k + 1].system = (struct gm_certified_system){
-            .problem = &finer->problem, .start = finer->start, .dt = finer->run->dt};
-        grid->system.finer = &first[k + 1].system;
+        grid[1] = (struct grid){
+            .lane = finer,
+            .system = {.problem = &finer->problem, .start = finer->start, .dt = finer->run->dt}};
+        grid->system.finer = &grid[1].system;
     }
 }
 
-static bool certify_lane(const struct gm_lane *lane, struct gm_certificate *certificate, char *message)
+/* Refuses a system that cannot be measured. */
+static void check(struct gm_arena *arena, const struct gm_lane *lane)
+{
+    const struct gm_kind *kind = lane->problem.kind;
+    if (!kind->certify_on) {
+        gm_arena_refuse(
+            arena,
+            "--on takes ordinary differential equations and waves on a line or on moving meshes; %s is none of these",
+            lane->scene->name);
+    }
+    if (lane->problem.n > kind->most_certified || lane->problem.passive > 0) {
+        gm_arena_refuse(arena, "--on takes systems of at most %zu components, all of which move each other",
+                        kind->most_certified);
+    }
+}
+
+static struct gm_certificate certify(struct gm_arena *arena, const struct gm_lane *lane)
 {
     const struct gm_scene *scene = lane->scene;
-    const struct gm_kind *kind = lane->problem.kind;
     struct gm_problem problem = lane->problem;
-    const size_t n = problem.n;
     const unsigned long refusals = gm_memory_refusals();
-    if (!kind->certify_on) {
-        return gm_refuse(
-            message,
-            "--on takes ordinary differential equations and waves on a line or on moving meshes; %s is none of these",
-            scene->name);
-    }
-    if (n > kind->most_certified || problem.passive > 0) {
-        return gm_refuse(message,
-                         "--on takes systems of at most %zu components, all of which move each other",
-                         kind->most_certified);
-    }
     problem.m = 1;
-    const struct gm_problem *const motion = kind == &gm_kind_ode ? gm_ode_of(&problem)->motion : NULL;
+    const struct gm_problem *const motion = problem.kind == &gm_kind_ode ? gm_ode_of(&problem)->motion : NULL;
     struct gm_problem alone = motion ? *motion : problem;
     alone.parameters = problem.parameters;
-    double *start = malloc(n * sizeof *start);
-    struct kept *data = calloc(scene->observable_count + 1, sizeof *data);
-    struct gm_kept *kept = calloc(scene->observable_count + 1, sizeof *kept);
+    double *start = gm_arena_take(arena, problem.n, sizeof *start);
+    struct kept *data = gm_arena_take(arena, scene->observable_count, sizeof *data);
+    struct gm_kept *kept = gm_arena_take(arena, scene->observable_count, sizeof *kept);
     struct grid grids[1 + FINER] = {
-        {.system = {.problem = &alone, .start = start, .dt = lane->run->dt, .kept = kept}}};
-    const bool good = start && data && kept;
-    for (size_t c = 0; good && c < alone.n; c++) {
-        start[c] = lane->start[(motion ? place_of(motion, n, c) : c) * lane->problem.m];
+        {.lane = lane, .system = {.problem = &alone, .start = start, .dt = lane->run->dt, .kept = kept}}};
+    for (size_t c = 0; c < alone.n; c++) {
+        start[c] = lane->start[(motion ? place_of(motion, problem.n, c) : c) * lane->problem.m];
     }
-    for (size_t i = 0; good && i < scene->observable_count; i++) {
+    for (size_t i = 0; i < scene->observable_count; i++) {
         const struct gm_observable *row = &scene->observables[i];
         data[i] = (struct kept){lane, &problem, row, motion};
         if (row->kept && isfinite(value_of_kept(&data[i], start, NULL))) {
@@ -150,63 +149,50 @@ static bool certify_lane(const struct gm_lane *lane, struct gm_certificate *cert
                 (struct gm_kept){.name = row->key, .value = value_of_kept, .data = &data[i]};
         }
     }
-    if (good) {
-        if (kind == &gm_kind_field) {
-            refine(lane, grids);
-        }
-        *certificate = gm_certify_on(lane->scheme, &grids->system);
+    if (problem.kind == &gm_kind_field) {
+        refine(arena, grids);
     }
-    for (size_t k = 1; k <= FINER; k++) {
-        gm_lane_close(grids[k].lane);
-    }
-    free(start);
-    free(data);
-    free(kept);
+    const struct gm_certificate certificate = gm_certify_on(lane->scheme, &grids->system);
     /* measurements without memory would give wrong results */
-    return gm_memory_refusals() == refusals || gm_refuse(message, "not enough memory");
+    gm_arena_need(arena, gm_memory_refusals() == refusals);
+    return certificate;
 }
 
 /* The request of these words. */
-static bool ask(const char *scheme, const char *system, int count, const char *const words[],
-                struct gm_request *request, int *status, char *message)
+static const struct gm_request *ask(struct gm_arena *arena, const char *system,
+                                    const struct gm_arguments *typed, int *status)
 {
-    struct gm_arguments typed = {0};
-    char *choice = gm_text("scheme=%s", scheme);
-    bool good = choice && gm_arguments_add(&typed, system) && gm_arguments_add(&typed, choice);
-    for (int i = 0; good && i < count; i++) {
-        good = gm_arguments_add(&typed, words[i]);
+    char message[GM_MESSAGE];
+    const struct gm_scheme *scheme = gm_scheme_find(typed->words[0]);
+    struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
+    struct gm_arguments *words = gm_arguments_in(arena);
+    gm_arena_need(arena, gm_arguments_add(words, system) &&
+                             gm_arguments_add(words, gm_arena_print(arena, "scheme=%s", typed->words[0])));
+    for (int i = 1; i < typed->count; i++) {
+        gm_arena_need(arena, gm_arguments_add(words, typed->words[i]));
     }
     /* a mesh has the number of nodes on which all claims are measured, by default */
-    const struct gm_scheme *row = gm_scheme_find(scheme);
-    if (good && row && row->family->kind == &gm_kind_mesh && !gm_arguments_have(&typed, "points=")) {
-        good = gm_arguments_add(&typed, "points=3");
+    if (scheme && scheme->family->kind == &gm_kind_mesh && !gm_arguments_have(words, "points=")) {
+        gm_arena_need(arena, gm_arguments_add(words, "points=3"));
     }
-    if (!good) {
-        gm_refuse(message, "not enough memory");
-        *status = GM_EXIT_MEMORY;
-    } else if (!gm_request_parse(request, typed.count, typed.words, 1, message)) {
+    if (!gm_request_parse(request, words->count, words->words, 1, message)) {
         *status = gm_request_refusal(request);
-        good = false;
-    } else if (request->count != 1) {
-        *status = GM_EXIT_USAGE;
-        good = gm_refuse(message, "a certificate on a system takes one scheme and one value of each key");
+        gm_arena_refuse(arena, "%s", message);
     }
-    free(choice);
-    gm_arguments_close(&typed);
-    return good;
+    gm_arena_keep(arena, request, gm_request_close);
+    if (request->count != 1) {
+        gm_arena_refuse(arena, "a certificate on a system takes one scheme and one value of each key");
+    }
+    return request;
 }
 
-bool gm_certify_words(const char *scheme, const char *system, int count, const char *const words[],
-                      struct gm_certificate *certificate, int *status, char *message)
+struct gm_certificate gm_certify_words(struct gm_arena *arena, const char *system,
+                                       const struct gm_arguments *typed, int *status)
 {
-    struct gm_request request = {0};
-    bool good = ask(scheme, system, count, words, &request, status, message);
-    if (good) {
-        struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
-        good = lane && certify_lane(lane, certificate, message);
-        *status = good ? GM_EXIT_OK : gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_USAGE;
-        gm_lane_close(lane);
-    }
-    gm_request_close(&request);
-    return good;
+    char message[GM_MESSAGE];
+    *status = GM_EXIT_USAGE;
+    const struct gm_lane *lane =
+        gm_lane_in(arena, gm_request_open_lane(ask(arena, system, typed, status), 0, message), message);
+    check(arena, lane);
+    return certify(arena, lane);
 }

@@ -138,7 +138,7 @@ struct gm_study_row {
        arena, with a sentence ---- */
     void (*open)(struct gm_grid *grid);
     bool (*measure)(struct gm_grid *grid, const struct gm_listener *listener, char *message);
-    bool (*write)(const struct gm_grid *grid, const char *path);
+    void (*write)(const struct gm_grid *grid, FILE *table);
 
     /* ---- kinds with cells, when they are opened, in the body of the grid's arena ---- */
     const char *which; /* the question, for a message without a scene */
@@ -182,10 +182,9 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
 bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
 void gm_grid_close(void *grid);
 
-/* Functions for gm_chart_write; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV,
-   false with errno. */
+/* Functions of a gm_chart; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV. */
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
-bool gm_grid_write(const void *grid, const char *path);
+void gm_grid_write(const void *grid, FILE *table);
 
 /* Writes the cells of a line as a list in JSON. */
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,

@@ -25,9 +25,6 @@ struct gm_grid_line *gm_grid_add(struct gm_grid *grid, const struct gm_scheme *s
 struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_spec *spec,
                               struct gm_timing *parameters, const struct gm_scheme *scheme, char *message);
 
-/* Closes a lane with the grid, and returns it; NULL leaves the body of the grid's arena with this message. */
-struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message);
-
 /* The lane of a cell at its start, with its own parameters; sets the cell's dt. Returns NULL with a
    sentence. */
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
@@ -52,7 +49,7 @@ extern const struct gm_study_row gm_study_work, gm_study_stability, gm_study_bac
 /* The functions of kinds that have cells; grid.h describes them. */
 void gm_cells_open(struct gm_grid *grid);
 bool gm_cells_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message);
-bool gm_cells_write(const struct gm_grid *grid, const char *path);
+void gm_cells_write(const struct gm_grid *grid, FILE *csv);
 
 void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture);
 

@@ -69,21 +69,16 @@ static void put_row(FILE *csv, enum gm_row_form form, const struct gm_grid *grid
                     const struct gm_scheme *scheme, const struct gm_grid_cell *cell, int number)
 {
     struct gm_row row = {.stream = csv, .form = form};
-    gm_row_text(&row, "scene", grid->request.scene->name);
-    gm_row_text(&row, "scheme", scheme->name);
+    gm_row_put(&row, "scene %s, scheme %s", grid->request.scene->name, scheme->name);
     if (grid->row->ordered) {
-        gm_row_count(&row, "order", scheme->order);
+        gm_row_put(&row, "order %i", scheme->order);
     }
     grid->row->put_cell(&row, grid, cell, number);
     fputc('\n', csv);
 }
 
-bool gm_cells_write(const struct gm_grid *grid, const char *path)
+void gm_cells_write(const struct gm_grid *grid, FILE *csv)
 {
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
     put_row(csv, GM_ROW_HEAD, grid, grid->lines[0].scheme, &grid->lines[0].cells[0], 0);
     for (size_t i = 0; i < grid->begun; i++) {
         const struct gm_grid_line *line = &grid->lines[i];
@@ -93,8 +88,6 @@ bool gm_cells_write(const struct gm_grid *grid, const char *path)
             }
         }
     }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
 }
 
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,

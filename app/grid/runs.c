@@ -24,19 +24,6 @@ struct gm_lane *gm_grid_start(const struct gm_grid *grid, const struct gm_lane_s
     return lane;
 }
 
-static void close_lane(void *lane)
-{
-    gm_lane_close(lane);
-}
-
-struct gm_lane *gm_grid_keep(struct gm_grid *grid, struct gm_lane *lane, const char *message)
-{
-    if (!lane) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
-    return gm_arena_keep(grid->arena, lane, close_lane);
-}
-
 struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_scheme *scheme,
                                   struct gm_grid_cell *cell, char *message)
 {

@@ -132,7 +132,7 @@ bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row);
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message);
 void gm_sweep_chart_close(void *chart);
-void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
+void gm_sweep_chart_draw(const void *chart, struct gm_picture *picture);
 
 /* The run that a map shows at (x, y), in the units of its axes; `map` is the panel's number. Returns false
    if the panel does not show a map. */

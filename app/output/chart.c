@@ -31,8 +31,7 @@ static const char *source_of(const char *command)
     return scene ? scene->source : NULL;
 }
 
-static bool paint(struct gm_chart *chart, const void *data,
-                  void (*draw)(const void *data, struct gm_picture *picture), char *message)
+static bool paint(struct gm_chart *chart, char *message)
 {
     struct gm_printer *press = gm_printer_open(&chart->print, message);
     if (!press) {
@@ -43,7 +42,7 @@ static bool paint(struct gm_chart *chart, const void *data,
     bool good = picture && gm_provenance_of_command(&provenance, chart->command, source_of(chart->command),
                                                     &chart->print.look, gm_printer_backend(press));
     if (good) {
-        draw(data, picture);
+        chart->draw(chart->data, picture);
         good = gm_printer_write(press, &chart->print, picture, provenance.texts, provenance.count, message);
     } else {
         snprintf(message, GM_MESSAGE, "not enough memory for a picture");
@@ -90,16 +89,26 @@ static bool is_anothers(const struct gm_chart *chart, const char *table)
            !have_one_head(table, chart->csv);
 }
 
+/* Returns false with errno. */
+static bool write_table(const struct gm_chart *chart, const char *path)
+{
+    FILE *table = fopen(path, "w");
+    if (!table) {
+        return false;
+    }
+    chart->write(chart->data, table);
+    const bool failed = ferror(table) != 0;
+    return fclose(table) == 0 && !failed;
+}
+
 /* The numbers aside first: with a table that has to stay nothing is drawn. */
-static bool write_both(struct gm_chart *chart, const void *data,
-                       void (*draw)(const void *data, struct gm_picture *picture),
-                       bool (*write)(const void *data, const char *path), char *message)
+static bool write_both(struct gm_chart *chart, char *message)
 {
     char *aside = gm_temporary_fits(chart->csv) ? gm_temporary_name(chart->csv, ".tmp") : strdup(chart->csv);
     bool good = false;
     if (!aside) {
         gm_refuse(message, "not enough memory for a table");
-    } else if (!write(data, aside)) {
+    } else if (!write_table(chart, aside)) {
         gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
     } else if (is_anothers(chart, aside)) {
         gm_refuse(message,
@@ -107,7 +116,7 @@ static bool write_both(struct gm_chart *chart, const void *data,
                   "otherwise",
                   chart->csv);
     } else {
-        good = paint(chart, data, draw, message) &&
+        good = paint(chart, message) &&
                (strcmp(aside, chart->csv) == 0 || rename(aside, chart->csv) == 0 ||
                 gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno)));
     }
@@ -118,16 +127,11 @@ static bool write_both(struct gm_chart *chart, const void *data,
     return good;
 }
 
-bool gm_chart_write(struct gm_chart *chart, const void *data,
-                    void (*draw)(const void *data, struct gm_picture *picture),
-                    bool (*write)(const void *data, const char *path), char *message)
+bool gm_chart_write(struct gm_chart *chart, char *message)
 {
     if (!name_files(chart)) {
         return gm_refuse(message, "the name of the folder is too long");
     }
-    if (!gm_folder_make_for(chart->picture, message)) {
-        return false;
-    }
-    return write && chart->csv[0] ? write_both(chart, data, draw, write, message)
-                                  : paint(chart, data, draw, message);
+    return gm_folder_make_for(chart->picture, message) &&
+           (chart->write && chart->csv[0] ? write_both : paint)(chart, message);
 }

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/base/arguments.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
 #include "render/files/regular_file.h"
@@ -310,12 +309,13 @@ bool gm_pause_has_rows(const struct gm_pause *pause)
 
 /* ---- renders ---- */
 
-char *gm_checkpoint_path(const struct gm_frames *frames)
+const char *gm_checkpoint_path(const struct gm_frames *frames)
 {
     const struct gm_schedule *schedule = frames->schedule;
-    return schedule->shards > 1 ? gm_text("%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
-                                          schedule->shard, schedule->shards)
-                                : gm_text("%s/%s.checkpoint", frames->folder, frames->name);
+    return schedule->shards > 1
+               ? gm_arena_print(frames->arena, "%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
+                                schedule->shard, schedule->shards)
+               : gm_arena_print(frames->arena, "%s/%s.checkpoint", frames->folder, frames->name);
 }
 
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,

@@ -11,8 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "app/output/folder.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "render/files/temporary.h"
 
@@ -125,30 +125,33 @@ long gm_schedule_last(const struct gm_schedule *schedule)
     return frame;
 }
 
-static char *identify(const struct gm_schedule *schedule, const struct gm_provenance *provenance,
-                      unsigned program)
+static const char *identify(struct gm_arena *arena, const struct gm_schedule *schedule,
+                            const struct gm_provenance *provenance)
 {
-    unsigned checksum = 0;
+    unsigned checksum = 0, program = 0;
+    if (!gm_program_checksum(&program)) {
+        gm_arena_refuse(arena, "the program itself could not be read: %s", strerror(errno));
+    }
     for (size_t i = 0; i < provenance->count; i++) {
         const char *text = provenance->texts[i].text;
         checksum = libdeflate_crc32(checksum, text, strlen(text) + 1);
     }
-    return gm_text("%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count, schedule->first,
-                   schedule->last, checksum, program);
+    return gm_arena_print(arena, "%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count,
+                          schedule->first, schedule->last, checksum, program);
 }
 
-char *gm_frames_text(const struct gm_frames *frames, long frame)
+const char *gm_frames_text(const struct gm_frames *frames, long frame)
 {
-    return gm_text("%ld of %s", frame + 1, frames->identity);
+    return gm_arena_print(frames->arena, "%ld of %s", frame + 1, frames->identity);
 }
 
-char *gm_frames_path(const struct gm_frames *frames, long frame)
+const char *gm_frames_path(const struct gm_frames *frames, long frame)
 {
-    return gm_text("%s/%s-%06ld.png", frames->folder, frames->name, frame);
+    return gm_arena_print(frames->arena, "%s/%s-%06ld.png", frames->folder, frames->name, frame);
 }
 
 /* Checks one file of the folder: a frame, or a killed run's incomplete one. */
-static bool look_at(struct gm_frames *frames, int folder, const char *file)
+static void look_at(struct gm_frames *frames, int folder, const char *file)
 {
     const size_t length = strlen(frames->name);
     const bool hidden = file[0] == '.';
@@ -157,76 +160,53 @@ static bool look_at(struct gm_frames *frames, int folder, const char *file)
     if (strncmp(file + hidden, frames->name, length) != 0 ||
         sscanf(file + hidden + length, "-%ld.png%n", &frame, &used) != 1 || used == 0 || frame < 0 ||
         frame >= frames->schedule->count) {
-        return true;
+        return;
     }
-    if (hidden) {
-        if (gm_schedule_is_ours(frames->schedule, frame) && gm_temporary_is_stale(file)) {
-            unlinkat(folder, file, 0);
-        }
-        return true;
+    const bool ours = gm_schedule_is_ours(frames->schedule, frame);
+    if (hidden && ours && gm_temporary_is_stale(file)) {
+        unlinkat(folder, file, 0);
     }
-    char *path = gm_frames_path(frames, frame), *text = gm_frames_text(frames, frame);
-    const bool good = path && text;
-    if (good && !frames->there[frame] && gm_png_tells(path, GM_KEY_FRAME, text)) {
+    if (!hidden && !frames->there[frame] &&
+        gm_png_tells(gm_frames_path(frames, frame), GM_KEY_FRAME, gm_frames_text(frames, frame))) {
         frames->there[frame] = true;
-        frames->found += gm_schedule_is_ours(frames->schedule, frame);
+        frames->found += ours;
     }
-    free(path);
-    free(text);
-    return good;
+}
+
+static void close_folder(void *folder)
+{
+    closedir(folder);
 }
 
 /* Reads the folder instead of trying every possible frame. */
-static bool look(struct gm_frames *frames)
+static void look(struct gm_frames *frames)
 {
-    frames->there = calloc((size_t)frames->schedule->count, sizeof *frames->there);
-    DIR *folder = frames->there ? opendir(frames->folder) : NULL;
-    bool good = frames->there != NULL;
+    const size_t mark = gm_arena_mark(frames->arena);
+    DIR *folder = opendir(frames->folder);
     const struct dirent *entry = NULL;
-    while (good && folder && (entry = readdir(folder))) {
-        good = look_at(frames, dirfd(folder), entry->d_name);
-    }
     if (folder) {
-        closedir(folder);
+        gm_arena_keep(frames->arena, folder, close_folder);
     }
-    return good;
+    while (folder && (entry = readdir(folder))) {
+        look_at(frames, dirfd(folder), entry->d_name);
+    }
+    gm_arena_release(frames->arena, mark);
 }
 
-bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule, const char *folder,
-                    const char *name, const struct gm_provenance *provenance, char *message)
+void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const struct gm_schedule *schedule,
+                    const char *folder, const char *name, const struct gm_provenance *provenance)
 {
-    unsigned program = 0;
-    *frames = (struct gm_frames){0};
-    if (!gm_program_checksum(&program)) {
-        return gm_refuse(message, "the program itself could not be read: %s", strerror(errno));
-    }
-    *frames = (struct gm_frames){
-        .schedule = schedule,
-        .folder = strdup(folder),
-        .name = strdup(name),
-        .pattern = gm_text("%s/%s-%%06ld.png", folder, name),
-        .identity = identify(schedule, provenance, program),
-    };
+    char message[GM_MESSAGE];
+    *frames = (struct gm_frames){.arena = arena,
+                                 .schedule = schedule,
+                                 .folder = folder,
+                                 .name = name,
+                                 .identity = identify(arena, schedule, provenance)};
     if (!gm_folder_make(folder, message)) {
-        gm_frames_close(frames);
-        return false;
+        gm_arena_refuse(arena, "%s", message);
     }
-    if (!frames->folder || !frames->name || !frames->pattern || !frames->identity || !look(frames)) {
-        gm_refuse(message, "not enough memory for %ld frames", schedule->count);
-        gm_frames_close(frames);
-        return false;
-    }
-    return true;
-}
-
-void gm_frames_close(struct gm_frames *frames)
-{
-    free(frames->folder);
-    free(frames->name);
-    free(frames->pattern);
-    free(frames->identity);
-    free(frames->there);
-    *frames = (struct gm_frames){0};
+    frames->there = gm_arena_take(arena, (size_t)schedule->count, sizeof *frames->there);
+    look(frames);
 }
 
 long gm_frames_missing(const struct gm_frames *frames, bool last)
@@ -243,11 +223,9 @@ long gm_frames_missing(const struct gm_frames *frames, bool last)
 void gm_frames_remove(const struct gm_frames *frames)
 {
     for (long frame = 0; frame < frames->schedule->count; frame++) {
-        char *path = gm_frames_path(frames, frame);
-        if (path) {
-            unlink(path);
-        }
-        free(path);
+        const size_t mark = gm_arena_mark(frames->arena);
+        unlink(gm_frames_path(frames, frame));
+        gm_arena_release(frames->arena, mark);
     }
     rmdir(frames->folder);
 }

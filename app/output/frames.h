@@ -39,24 +39,22 @@ long gm_schedule_last(const struct gm_schedule *schedule);
 /* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Their metadata names the frame, the render and
    the build of the program; a complete picture with the expected metadata is kept. */
 struct gm_frames {
+    struct gm_arena *arena; /* owns the texts */
     const struct gm_schedule *schedule;
-    char *folder, *name;
-    char *pattern;  /* the pattern for gm_sink_open_png */
-    char *identity; /* the lanes, the size, the frames' times and the program */
-    bool *there;    /* per frame: complete, and of this identity */
-    long found;     /* number of our existing frames */
+    const char *folder, *name;
+    const char *identity; /* the lanes, the size, the frames' times and the program */
+    bool *there;          /* per frame: complete, and of this identity */
+    long found;           /* number of our existing frames */
 };
 
-/* Makes the folder if it is missing and looks for frames. Returns false with a sentence (GM_MESSAGE
-   bytes). */
-bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule, const char *folder,
-                    const char *name, const struct gm_provenance *provenance, char *message);
-void gm_frames_close(struct gm_frames *frames);
+/* Makes the folder if it is missing and looks for frames, in a body of the arena, which it may leave with a
+   sentence. */
+void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const struct gm_schedule *schedule,
+                    const char *folder, const char *name, const struct gm_provenance *provenance);
 
-/* The metadata of frame `frame` under GM_KEY_FRAME, and its path; malloc'ed. Return NULL when out of
-   memory. */
-char *gm_frames_text(const struct gm_frames *frames, long frame);
-char *gm_frames_path(const struct gm_frames *frames, long frame);
+/* The metadata of frame `frame` under GM_KEY_FRAME, and its path, in the arena. */
+const char *gm_frames_text(const struct gm_frames *frames, long frame);
+const char *gm_frames_path(const struct gm_frames *frames, long frame);
 
 /* The first of our missing frames, or the last; -1: none is missing. */
 long gm_frames_missing(const struct gm_frames *frames, bool last);
@@ -106,9 +104,8 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
 
 /* ---- the checkpoint of a render after one of its frames, in the frames' folder during the render ---- */
 
-/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; malloc'ed. Returns NULL when out of
-   memory. */
-char *gm_checkpoint_path(const struct gm_frames *frames);
+/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; in the frames' arena. */
+const char *gm_checkpoint_path(const struct gm_frames *frames);
 
 /* Replaces the file as gm_pause_write does. */
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,

@@ -55,18 +55,18 @@ bool gm_still_write(struct gm_print *print, const struct gm_request *request,
 
 /* The diagram of a study and its table: FOLDER/NAME.png and FOLDER/NAME.csv. */
 struct gm_chart {
-    const char *path;              /* the picture's path; NULL: FOLDER/NAME.ENDING; "-": without a table */
-    const char *folder;            /* NULL: the current folder */
-    const char *name;              /* the name of both files, without their endings */
-    const char *command;           /* the words with which `again` repeats it, escaped, without the look */
-    struct gm_print print;         /* gm_chart_write sets its path */
+    const char *path;      /* the picture's path; NULL: FOLDER/NAME.ENDING; "-": without a table */
+    const char *folder;    /* NULL: the current folder */
+    const char *name;      /* the name of both files, without their endings */
+    const char *command;   /* the words with which `again` repeats it, escaped, without the look */
+    struct gm_print print; /* gm_chart_write sets its path */
+    const void *data;
+    void (*draw)(const void *data, struct gm_picture *picture); /* fills an empty picture */
+    void (*write)(const void *data, FILE *table);               /* NULL: the numbers exist already */
     char picture[4096], csv[4096]; /* the paths of the written files; the second is "" without a table */
 };
 
-/* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno (NULL: the
-   numbers exist already); makes their folders. Returns false with a sentence (GM_MESSAGE bytes). */
-bool gm_chart_write(struct gm_chart *chart, const void *data,
-                    void (*draw)(const void *data, struct gm_picture *picture),
-                    bool (*write)(const void *data, const char *path), char *message);
+/* Writes both files, and makes their folders. Returns false with a sentence (GM_MESSAGE bytes). */
+bool gm_chart_write(struct gm_chart *chart, char *message);
 
 #endif

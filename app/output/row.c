@@ -3,6 +3,7 @@
 #include "app/output/row.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,18 +75,33 @@ void gm_row_number(struct gm_row *row, const char *key, double value, int digits
     }
 }
 
-void gm_row_count(struct gm_row *row, const char *key, double value)
+void gm_row_put(struct gm_row *row, const char *format, ...)
 {
-    begin(row, key);
-    if (row->form != GM_ROW_HEAD) {
-        fprintf(row->stream, "%.0f", value);
+    va_list values;
+    va_start(values, format);
+    while (*format) {
+        char key[64];
+        const int length = (int)strcspn(format, " ");
+        const char *conversion = format + length + strlen(" %");
+        snprintf(key, sizeof key, "%.*s", length, format);
+        format = conversion + strcspn(conversion, ",");
+        const char kind = format[-1];
+        format += strspn(format, ", ");
+        if (kind == 's') {
+            gm_row_text(row, key, va_arg(values, const char *));
+        } else if (kind == 'g') {
+            gm_row_number(row, key, va_arg(values, double), atoi(conversion + 1));
+        } else {
+            const double count = kind == 'f' ? va_arg(values, double) : va_arg(values, int);
+            begin(row, key);
+            if (kind == 'd') {
+                fputs(count > 0 ? "true" : "false", row->stream);
+            } else if (row->form != GM_ROW_HEAD) {
+                fprintf(row->stream, "%.0f", count);
+            }
+        }
     }
-}
-
-void gm_row_flag(struct gm_row *row, const char *key, bool value)
-{
-    begin(row, key);
-    fputs(value ? "true" : "false", row->stream);
+    va_end(values);
 }
 
 void gm_row_list(struct gm_row *row, const char *key, const double *values, size_t count)

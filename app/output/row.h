@@ -16,15 +16,16 @@ struct gm_row {
     char end;   /* the closing bracket in JSON */
 };
 
-/* NULL is null, only in JSON, which also replaces bytes that are not UTF-8 by U+FFFD. */
-void gm_row_text(struct gm_row *row, const char *key, const char *text);
-/* A number with `digits` digits; in JSON with 17. NAN is an empty cell, or null. */
-void gm_row_number(struct gm_row *row, const char *key, double value, int digits);
-/* A count, rounded. */
-void gm_row_count(struct gm_row *row, const char *key, double value);
+/* Cells by their keys: "scheme %s, dt %.17g, steps %.0f, order %i, holds %d", where %s is a text, %.Ng a number
+   with N digits, %.0f and %i are counts, and %d is true or false. NAN is an empty cell, or null; NULL is null,
+   only in JSON, which has 17 digits in any case and replaces bytes that are not UTF-8 by U+FFFD. */
+__attribute__((format(printf, 2, 3))) void gm_row_put(struct gm_row *row, const char *format, ...);
 
-/* JSON only: true or false; numbers as one cell. */
-void gm_row_flag(struct gm_row *row, const char *key, bool value);
+/* One cell whose key is not known before. */
+void gm_row_text(struct gm_row *row, const char *key, const char *text);
+void gm_row_number(struct gm_row *row, const char *key, double value, int digits);
+
+/* JSON only: numbers as one cell. */
 void gm_row_list(struct gm_row *row, const char *key, const double *values, size_t count);
 /* An object or a list, which ends with '}' or ']': its cells are put between open and close. Cells of a
    list have the key NULL. */

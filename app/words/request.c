@@ -14,6 +14,7 @@
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
+#include "core/arena.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -674,4 +675,17 @@ struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t in
         gm_engine_meet(lane);
     }
     return lane;
+}
+
+static void close_lane(void *lane)
+{
+    gm_lane_close(lane);
+}
+
+struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message)
+{
+    if (!lane) {
+        gm_arena_refuse(arena, "%s", message);
+    }
+    return gm_arena_keep(arena, lane, close_lane);
 }

@@ -6,6 +6,8 @@
 #include "render/message.h"
 #include "scenes/common/lane.h"
 
+struct gm_arena;
+
 /* The user's request: a scene and its lanes, read from `SCENE key=value ...`. */
 
 struct gm_lane_spec {
@@ -97,6 +99,9 @@ double gm_request_steps(const struct gm_request *request, size_t index);
 
 /* Opens lane `index` at its start; NULL with a sentence. */
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
+
+/* Closes a lane with the arena, and returns it; NULL leaves the arena's body with this message. */
+struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message);
 
 /* Returns true if a change can be made before its lane ends; false with a sentence. */
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message);

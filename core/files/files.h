@@ -31,11 +31,11 @@ struct gm_built_in {
 extern const struct gm_built_in gm_built_in_files[];
 extern const size_t gm_built_in_count;
 
-/* The built-in file of that kind and name; NULL: there is none. */
+/* The built-in file of that kind and name, or NULL. */
 const struct gm_built_in *gm_built_in_find(enum gm_file_kind kind, const char *name);
 
-/* The value of the text's first line `word:`, with one blank between its words; "" where there is none. malloc'ed,
-   NULL: out of memory. */
+/* Returns the value of the text's first line `word:`, with one blank between its words, or "" without such a line.
+   NULL: out of memory; the caller frees. */
 char *gm_file_line(const char *text, size_t length, const char *word);
 /* What lists call the file: its line `name:`, or else `title:`. As gm_file_line. */
 char *gm_file_title(const char *text, size_t length);

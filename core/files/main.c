@@ -9,7 +9,7 @@
 #include "core/files/files.h"
 #include "core/files/generated.h"
 
-/* Of "../share/systems/toda.system" what stands behind share/. */
+/* Returns "systems/toda.system" for "../share/systems/toda.system". */
 static const char *path_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -19,7 +19,7 @@ static const char *path_of(const char *path)
     return slash ? slash : path;
 }
 
-/* A member and its line, which is freed. False if there is none: out of memory. */
+/* Writes a member with its line, and frees the line. Returns false if the line is NULL: out of memory. */
 static bool put_line(FILE *out, const char *member, char *line)
 {
     if (line) {

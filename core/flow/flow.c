@@ -148,7 +148,8 @@ bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_
     return flow->heat;
 }
 
-double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle)
+/* psi interpolated to the dual vertex of a triangle */
+static double at_centre(const struct gm_complex *complex, const double *psi, size_t triangle)
 {
     const int *t = complex->triangle + 3 * triangle;
     const double *w = complex->weight + 3 * triangle;
@@ -162,9 +163,7 @@ static double flux_between(const struct gm_complex *complex, const double *psi, 
     const double middle = (psi[complex->edge[2 * edge]] + psi[complex->edge[2 * edge + 1]]) / 2;
     double value[2];
     for (int k = 0; k < 2; k++) {
-        value[k] = side[k] < 0 ? middle
-                   : centre    ? centre[side[k]]
-                               : gm_flow_psi_centre(complex, psi, (size_t)side[k]);
+        value[k] = side[k] < 0 ? middle : centre ? centre[side[k]] : at_centre(complex, psi, (size_t)side[k]);
     }
     return value[0] - value[1];
 }
@@ -177,7 +176,7 @@ double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t 
 void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double *scratch, double *flux)
 {
     for (size_t t = 0; t < complex->triangles; t++) {
-        scratch[t] = gm_flow_psi_centre(complex, psi, t);
+        scratch[t] = at_centre(complex, psi, t);
     }
     for (size_t e = 0; e < complex->edges; e++) {
         flux[e] = flux_between(complex, psi, scratch, e);
@@ -292,7 +291,7 @@ double gm_flow_lift(const struct gm_flow *flow, const double *temperature, size_
             continue;
         }
         gm_complex_centre(complex, (size_t)side[k], centre);
-        const double here = gm_flow_psi_centre(complex, temperature, (size_t)side[k]),
+        const double here = at_centre(complex, temperature, (size_t)side[k]),
                      part = ((here + middle) / 2 - flow->reference_temperature) * (centre[1] - height);
         sum += k == 0 ? part : -part;
     }

@@ -148,8 +148,7 @@ void gm_flow_close_now(struct gm_flow *now);
    memory. */
 bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
-/* psi interpolated to the dual vertex of a triangle, and the flux through the dual of an edge. */
-double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle);
+/* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
 
 /* (star1 d0 values) of an inner edge: what the turned gradients of its triangles sum up to along the dual

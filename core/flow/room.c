@@ -92,7 +92,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     snprintf(whole, sizeof whole, "%.*s", (int)(name->length < sizeof whole ? name->length : 0), name->text);
     const struct gm_room_parameter *parameter = gm_room_parameter(reading->room, whole);
     if (parameter ? isnan(parameter->value) : gm_choice_named(&reading->room->choices, whole) != NULL) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, and no number", whole);
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, not a number", whole);
         return GM_REFUSED;
     }
     if (parameter && !name->indexed && !name->initial) {
@@ -118,7 +118,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                      i == TIME
                          ? "what a room's boundary gives may change in time: no start, no source and no place"
                      : i == PART
-                         ? "s runs along an inlet, and stands in what that gives at a place"
+                         ? "s runs along an inlet; only the inlet's formulas may contain it"
                          : "a flow is that of a whole side, and a place is two numbers: neither holds "
                            "x and y");
             return GM_REFUSED;
@@ -185,7 +185,7 @@ bool gm_room_number(const struct gm_room *room, struct gm_span span, double *num
 {
     const double origin[VARIABLES] = {0};
     return read_value(room, span, 0, origin, number, fault) &&
-           (isfinite(*number) || gm_fail(fault, span.begin, "this is no finite number"));
+           (isfinite(*number) || gm_fail(fault, span.begin, "this is not a finite number"));
 }
 
 bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
@@ -514,7 +514,7 @@ static bool read_parameter(struct gm_room *room, struct gm_span rest, const stru
     if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
         gm_choice_named(&room->choices, parameter->name) ||
         gm_name_length(parameter->name, letters) != letters) {
-        return gm_fail(fault, head.begin, "parameter: needs a name that is no other: height = 1");
+        return gm_fail(fault, head.begin, "parameter: needs a new name, for example height = 1");
     }
     for (size_t i = 0; i < count; i++) {
         if (strcmp(given[i].name, parameter->name) == 0) {
@@ -569,7 +569,7 @@ static bool check_line(const struct gm_room *room, struct gm_text_line line, siz
         }
     }
     return line.value.begin < line.value.end ||
-           gm_fail(fault, line.word.begin, "%s: says nothing", others[other]);
+           gm_fail(fault, line.word.begin, "%s: has no value", others[other]);
 }
 
 /* Reads a line with a single value; other lines are read by the room's scene. */
@@ -736,7 +736,7 @@ static bool choose_lines(struct gm_room *room, const struct gm_room_given *given
         inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
         good = !inside || !fixed ||
                gm_fail(fault, line.word.begin,
-                       "this line is the same for every word: it stands outside of blocks");
+                       "this line cannot depend on a choice: write it outside of blocks");
     }
     for (size_t i = 0; good && i < choices->count; i++) {
         good = is_free(choices->list[i].name, choices->list[i].place, fault);

@@ -36,9 +36,9 @@ struct gm_mesh_strategy {
 /* A row of the families: a strategy, and the coefficients of its stages. */
 struct gm_mesh_row {
     const struct gm_mesh_strategy *strategy;
-    const struct gm_tableau *tableau; /* NULL: the strategy has its own, with one stage */
-    double kappa[GM_STAGES];          /* a kappa = 0 */
-    double left[GM_STAGES];           /* left^T abar = 0 */
+    const struct gm_mesh_tableau *tableau; /* NULL: the strategy has its own, with one stage */
+    double kappa[GM_STAGES];               /* a kappa = 0 */
+    double left[GM_STAGES];                /* left^T abar = 0 */
 };
 
 /* The workspace. */

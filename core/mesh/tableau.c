@@ -8,7 +8,7 @@
 #define ROOT_3 1.7320508075688772
 #define ROOT_6 2.449489742783178
 
-const struct gm_tableau gm_tableau_gauss2 = {1, false, {{0.5}}, {{0.5}}, {1}};
+const struct gm_mesh_tableau gm_tableau_gauss2 = {1, false, {{0.5}}, {{0.5}}, {1}};
 
 #define GAUSS_4                                                                                              \
     {                                                                                                        \
@@ -17,12 +17,12 @@ const struct gm_tableau gm_tableau_gauss2 = {1, false, {{0.5}}, {{0.5}}, {1}};
             0.25 + ROOT_3 / 6, 0.25                                                                          \
         }                                                                                                    \
     }
-const struct gm_tableau gm_tableau_gauss4 = {2, false, GAUSS_4, GAUSS_4, {0.5, 0.5}};
+const struct gm_mesh_tableau gm_tableau_gauss4 = {2, false, GAUSS_4, GAUSS_4, {0.5, 0.5}};
 
 /* Lobatto IIIA and IIIB, abar_ij = b_j (1 - a_ji / b_i) */
-const struct gm_tableau gm_tableau_lobatto2 = {
+const struct gm_mesh_tableau gm_tableau_lobatto2 = {
     2, true, {{0, 0}, {0.5, 0.5}}, {{0.5, 0}, {0.5, 0}}, {0.5, 0.5}};
-const struct gm_tableau gm_tableau_lobatto4 = {
+const struct gm_mesh_tableau gm_tableau_lobatto4 = {
     3,
     true,
     {{0, 0, 0}, {5. / 24, 1. / 3, -1. / 24}, {1. / 6, 2. / 3, 1. / 6}},
@@ -37,7 +37,7 @@ const struct gm_tableau gm_tableau_lobatto4 = {
             0.75, 0.25                                                                                       \
         }                                                                                                    \
     }
-const struct gm_tableau gm_tableau_radau3 = {2, true, RADAU_3, RADAU_3, {0.75, 0.25}};
+const struct gm_mesh_tableau gm_tableau_radau3 = {2, true, RADAU_3, RADAU_3, {0.75, 0.25}};
 
 #define RADAU_5                                                                                              \
     {                                                                                                        \
@@ -47,5 +47,5 @@ const struct gm_tableau gm_tableau_radau3 = {2, true, RADAU_3, RADAU_3, {0.75, 0
             (16 - ROOT_6) / 36, (16 + ROOT_6) / 36, 1. / 9                                                   \
         }                                                                                                    \
     }
-const struct gm_tableau gm_tableau_radau5 = {
+const struct gm_mesh_tableau gm_tableau_radau5 = {
     3, true, RADAU_5, RADAU_5, {(16 - ROOT_6) / 36, (16 + ROOT_6) / 36, 1. / 9}};

@@ -143,7 +143,9 @@ static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id n
     return !system->graph.failed && gm_equations_in_velocities(system, &rate, 1) ? rate : GM_NO_NODE;
 }
 
-gm_node_id gm_equations_rate_of(struct gm_user_system *system, gm_node_id node)
+/* The rate of change of a node along the motion; GM_NO_NODE if it is unknown (for a Lagrangian, or with a
+   constraint) or when out of memory. */
+static gm_node_id rate_of(struct gm_user_system *system, gm_node_id node)
 {
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
     if (direction && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
@@ -415,7 +417,7 @@ static bool check_surface(struct gm_user_system *system, const struct gm_system_
                           struct gm_fault *fault)
 {
     for (size_t k = 0; k < item->count; k++) {
-        const gm_node_id rate = gm_equations_rate_of(system, item->nodes[k]);
+        const gm_node_id rate = rate_of(system, item->nodes[k]);
         const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
                                              : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
         if (!kept && !system->graph.failed) {
@@ -436,7 +438,7 @@ static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
     for (size_t i = 0; i < system->item_count && !system->graph.failed; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT) {
-            const gm_node_id rate = gm_equations_rate_of(system, item->nodes[0]);
+            const gm_node_id rate = rate_of(system, item->nodes[0]);
             item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
             if (item->check == GM_NOT_ZERO && !forced) {
                 return gm_fail(fault, item->place,

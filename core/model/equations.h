@@ -33,9 +33,6 @@ bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_no
 gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node, const bool *marked);
 /* The values of all nodes for these variables. The caller frees; NULL when out of memory. */
 double *gm_equations_values(const struct gm_user_system *system, const double *variables);
-/* The rate of change of a node along the motion; GM_NO_NODE if it is unknown (for a Lagrangian, or with a
-   constraint) or when out of memory. */
-gm_node_id gm_equations_rate_of(struct gm_user_system *system, gm_node_id node);
 /* Replaces the momenta of a Lagrangian in nodes by dL/dv. False when out of memory. */
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count);
 /* Tests if a node is 0 for all states: for all parameters, or else for the system's own. */

@@ -27,15 +27,6 @@ static struct gm_ball *outer(const struct powers *powers, int tree, int step)
     return inner(powers, tree, step) + powers->steps * powers->stages;
 }
 
-static struct gm_ball add_products(struct gm_ball sum, const struct gm_ball *x, const struct gm_ball *y,
-                                   int count)
-{
-    for (int i = 0; i < count; i++) {
-        sum = gm_ball_add(sum, gm_ball_multiply(x[i], y[i]));
-    }
-    return sum;
-}
-
 /* b(tree); the trees before it are known */
 static struct gm_ball equation_of(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                                   const struct powers *powers, int tree)
@@ -53,9 +44,9 @@ static struct gm_ball equation_of(const struct gm_coefficients *coefficients, co
                                                        outer(powers, this->last, step)[i]);
         }
         for (int i = 0; i < stages; i++) {
-            branch[i] = add_products(weight, a + (size_t)i * (size_t)stages, phi, stages);
+            branch[i] = gm_ball_add(weight, gm_ball_dot(a + (size_t)i * (size_t)stages, phi, stages));
         }
-        weight = add_products(weight, b, phi, stages);
+        weight = gm_ball_add(weight, gm_ball_dot(b, phi, stages));
         const int power = step + 1;
         binomial = binomial * (this->order - step) / power; /* 0 beyond the tree's order */
         const struct gm_ball factor = gm_ball_ratio(power % 2 ? binomial : -binomial, power);

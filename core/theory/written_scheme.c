@@ -34,7 +34,7 @@ static const struct {
 
 enum { LONGEST_POSITIONAL = 4 };
 
-/* What stands in a word's parentheses without a name, in this order. The first `required` are to be said. */
+/* The lines that a word's parentheses give by their order, without a name. The first `required` must be given. */
 static const struct {
     const char *name;
     int required, count;
@@ -83,8 +83,7 @@ static int brief(struct gm_span span)
     return (int)(length < 40 ? length : 40);
 }
 
-/* -- words and lines
-   ----------------------------------------------------------------------------------------- */
+/* ---- words and lines ---- */
 
 const char *gm_written_kind_name(enum gm_written_kind kind)
 {
@@ -96,7 +95,7 @@ static bool is_called(const char *text, size_t length, const char *name)
     return strlen(name) == length && memcmp(text, name, length) == 0;
 }
 
-/* GM_WRITTEN_KINDS: there is none. */
+/* Returns GM_WRITTEN_KINDS if no kind has that name. */
 static enum gm_written_kind kind_of(const char *text, size_t length)
 {
     enum gm_written_kind kind = 0;
@@ -142,7 +141,7 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
             gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
     }
     if (value.begin == value.end) {
-        return gm_fail_first(&reading->fault, place, "%s: says nothing", words[word].word);
+        return gm_fail_first(&reading->fault, place, "%s: has no value", words[word].word);
     }
     if (word == GM_SCHEME_WORD_LET) {
         if (scheme->let_count == GM_MOST_LETS) {
@@ -152,7 +151,7 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
         return true;
     }
     if (scheme->lines[word].said) {
-        return gm_fail_first(&reading->fault, place, "%s is said twice", words[word].word);
+        return gm_fail_first(&reading->fault, place, "%s is given twice", words[word].word);
     }
     scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
     return true;
@@ -208,7 +207,7 @@ static bool read_file(struct reading *reading, struct gm_span span)
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
     return kind->said ? find_kind(reading, kind->value)
                       : gm_fail_first(&reading->fault, span.begin,
-                                      "what kind of a scheme is it? A line kind: says so");
+                                      "what kind of scheme is it? It needs a line kind:");
 }
 
 /* Where the parenthesis at span.begin is closed, or the end. */
@@ -260,7 +259,7 @@ static bool read_word(struct reading *reading, struct gm_span span)
     return !reading->fault.failed;
 }
 
-/* What is said belongs to the kind, and what it needs is said. */
+/* Checks that every given line belongs to the kind, and that the lines it needs are given. */
 static bool check_lines(struct reading *reading, struct gm_span span)
 {
     const struct gm_written_scheme *scheme = reading->scheme;
@@ -281,8 +280,7 @@ static bool check_lines(struct reading *reading, struct gm_span span)
     return true;
 }
 
-/* -- numbers
-   ------------------------------------------------------------------------------------------------- */
+/* ---- numbers ---- */
 
 /* Puts it behind the others, of which there are *count; false: out of memory. */
 static bool gather(struct gm_decimal **all, size_t *count, struct gm_decimal decimal)
@@ -295,7 +293,7 @@ static bool gather(struct gm_decimal **all, size_t *count, struct gm_decimal dec
     return more != NULL;
 }
 
-/* The decimal of the whole text, or what is taken for it. */
+/* The decimal of the whole text, or the value that replaces it. */
 static struct gm_written_number known_decimal(struct reading *reading, const char *text, size_t length,
                                               double value)
 {
@@ -355,7 +353,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
             memcmp(reading->text + let->name.begin, name->text, name->length) == 0) {
             *node = let->node;
             if (name->indexed) {
-                snprintf(sentence, GM_FAULT_SENTENCE, "%s is no list", reading->let_names[i]);
+                snprintf(sentence, GM_FAULT_SENTENCE, "%s is not a list", reading->let_names[i]);
                 return GM_REFUSED;
             }
             return let->read ? GM_KNOWN : GM_POSTPONED;
@@ -439,19 +437,19 @@ static bool read_lets(struct reading *reading)
     return !reading->fault.failed;
 }
 
-/* The piece before the next separator, behind which another one has to stand; false at the end, and with a
+/* Takes the piece before the next separator, which another piece must follow. Returns false at the end, and with a
    fault. */
 static bool take_piece(struct reading *reading, struct gm_span *rest, const char *separator,
                        struct gm_span *piece)
 {
     const size_t end = gm_span_until(reading->text, *rest, separator);
     if (end < rest->end && end + 1 == rest->end) {
-        return gm_fail_first(&reading->fault, end, "nothing stands behind this %s", separator);
+        return gm_fail_first(&reading->fault, end, "nothing follows this %s", separator);
     }
     return gm_span_take(reading->text, rest, separator, piece);
 }
 
-/* Up to its last character that is no blank and stands in no comment. */
+/* The length up to the last character that is neither blank nor part of a comment. */
 static size_t length_of(const char *text, struct gm_span span)
 {
     size_t end = span.begin;
@@ -592,15 +590,14 @@ static bool compute(struct reading *reading)
     return good;
 }
 
-/* -- what has to fit
-   --------------------------------------------------------------------------------------- */
+/* ---- what has to fit ---- */
 
 static const struct gm_written_number *entry_of(const struct gm_written_line *a, int i, int j)
 {
     return &a->numbers[i * a->columns + j];
 }
 
-/* c: is the sums of the rows; where other numbers are taken for what was typed, these are told. */
+/* Checks that c: repeats the sums of the rows. If other numbers replace the typed ones, differences are gathered. */
 static bool check_sums(struct reading *reading, const struct gm_written_line *a,
                        const struct gm_written_line *c)
 {
@@ -647,10 +644,9 @@ static bool check_tableau(struct reading *reading)
     for (int i = 0; scheme->kind == GM_WRITTEN_EXPLICIT && i < stages; i++) {
         for (int j = i; j < stages; j++) {
             if (entry_of(a, i, j)->value != 0) {
-                return gm_fail_first(
-                    &reading->fault, entry_of(a, i, j)->place,
-                    "entry %d, %d stands %s the diagonal and is not 0: the scheme is not explicit", i + 1,
-                    j + 1, i == j ? "on" : "above");
+                return gm_fail_first(&reading->fault, entry_of(a, i, j)->place,
+                                     "entry %d, %d is %s the diagonal and not 0: the scheme is not explicit",
+                                     i + 1, j + 1, i == j ? "on" : "above");
             }
         }
     }
@@ -700,7 +696,7 @@ static bool check_pieces(struct reading *reading)
     scheme->nystrom = purpose->said && is_text(reading, purpose, "nystrom");
     return !purpose->said || scheme->nystrom ||
            gm_fail_first(&reading->fault, purpose->value.begin,
-                         "for: is nystrom, where T is quadratic, or is not said");
+                         "for: is nystrom, where T is quadratic, or is left out");
 }
 
 static bool read_order(struct reading *reading)
@@ -716,7 +712,7 @@ static bool read_order(struct reading *reading)
            gm_fail_first(&reading->fault, order->value.begin, "order: is a whole number from 1 to %d", MOST);
 }
 
-/* Titles stand in the word, between its parentheses and semicolons. */
+/* A title is a part of the word: its parentheses must match, and it has no semicolon outside of them. */
 static bool check_title(struct reading *reading)
 {
     const struct gm_written_line *title = &reading->scheme->lines[GM_SCHEME_WORD_TITLE];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scheme that somebody wrote down, in a file or in a word such as composition(verlet; g, 1 - 2*g, g): what
-   is said, with coefficients as numbers and as they were written. docs/own-schemes.md tells the words. */
+/* A scheme as a text: a file, or a word such as composition(verlet; g, 1 - 2*g, g). Every coefficient is read as a
+   double and as the ball of numbers that its digits allow. docs/own-schemes.md lists the words. */
 #ifndef GM_CORE_THEORY_WRITTEN_SCHEME_H
 #define GM_CORE_THEORY_WRITTEN_SCHEME_H
 
@@ -40,26 +40,26 @@ struct gm_decimal {
     struct gm_ball ball;
 };
 
-/* The decimals of a text that are no exact numbers, each where it stands, with what was typed. Those of c:
-   where it is the sums of the rows are none: what they say follows. */
+/* The decimals of a text that are not exact numbers, with their positions and the digits typed. A line c: that
+   repeats the sums of the rows adds none: its numbers follow from A. */
 struct gm_decimals {
     size_t count;
     struct gm_decimal *at;
-    bool alone; /* they alone are asked for, and no theory */
-    /* The entries of c: that are not the sums of their rows, or not to all digits, with these; where others
-       are taken for the decimals, and NULL: nobody asks. */
+    bool alone; /* the caller needs the decimals and no theory */
+    /* The entries of c: that differ from the sums of their rows, with these sums. It is filled if `instead` is
+       given; NULL: the caller does not need it. */
     struct gm_row_sums {
         size_t count;
         struct gm_decimal *at;
     } * sums;
-    /* Taken for them, in this order; NULL: what was typed, and they are gathered. */
+    /* Values that replace the decimals, in this order; NULL: the typed ones count and are gathered here. */
     const struct gm_ball *instead;
 };
 
 struct gm_written_line {
     bool said;
     struct gm_span value; /* of the text */
-    int rows, columns;    /* of its numbers, where it has any */
+    int rows, columns;    /* shape of its numbers; 0: it has none */
     struct gm_written_number *numbers;
 };
 
@@ -69,7 +69,7 @@ struct gm_written_scheme {
     struct gm_written_line lines[GM_SCHEME_WORDS]; /* but for LET */
     struct gm_span lets[GM_MOST_LETS];
     int let_count;
-    int order;                /* 0: not said */
+    int order;                /* 0: not given */
     bool kick_first, nystrom; /* of a splitting */
 };
 

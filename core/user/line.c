@@ -123,7 +123,7 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
             sentence, size,
             "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other%s",
             name, ends->left, ends->right,
-            line->system->kind == GM_EVOLUTION ? "" : " (jump: tells by how much they differ)");
+            line->system->kind == GM_EVOLUTION ? "" : " (give their difference in a line jump:)");
         return false;
     }
     return true;

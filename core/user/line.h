@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a file tells of the components of a field on a line, with the values of its parameters: how they start, and their
+/* The components of a field on a line, as a file and the values of its parameters define them: their start and their
    exact solution. */
 #ifndef GM_CORE_USER_LINE_H
 #define GM_CORE_USER_LINE_H
@@ -23,7 +23,7 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
 struct gm_user_line {
     const struct gm_user_system *system;
     struct gm_tape start; /* of x: the components, and behind them derivatives over t of the first */
-    struct gm_tape exact; /* of x and t; without outputs where it is not known */
+    struct gm_tape exact; /* of x and t; without outputs if the file gives no exact solution */
 };
 /* `values` are those of all variables (gm_equations_start); of what starts there are `outputs`. False where memory was
    refused. To be closed in both cases. */
@@ -32,7 +32,7 @@ bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *s
                        const double *values);
 void gm_user_line_close(struct gm_user_line *line);
 
-/* The exact solution of a component; NaN where it is not known. */
+/* The exact solution of a component; NaN if the file gives none. */
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
 
 /* What starts at nodes from number `first` on, at most GM_LINE_ROOM, [output * that many + i]: how many. */

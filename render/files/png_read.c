@@ -279,7 +279,7 @@ static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, i
     png_read_update_info(png, info);
     const size_t row = 3 * (size_t)width;
     if (png_get_image_height(png, info) != (png_uint_32)height || png_get_rowbytes(png, info) != row) {
-        snprintf(reason, GM_REGULAR_REASON, "it is no picture of %dx%d", width, height);
+        snprintf(reason, GM_REGULAR_REASON, "it is not a picture of %dx%d", width, height);
         png_longjmp(png, 1);
     }
     for (int pass = 0; pass < passes; pass++) {

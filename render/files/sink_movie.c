@@ -453,7 +453,8 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
 {
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return gm_refuse(message, "cannot write %.*s: it is there and is no ordinary file", PATH_SHOWN, path);
+        return gm_refuse(message, "cannot write %.*s: it exists and is not an ordinary file", PATH_SHOWN,
+                         path);
     }
     gm_temporary_sweep(path);
     self->path = strdup(path);

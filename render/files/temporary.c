@@ -24,7 +24,7 @@ bool gm_temporary_fits(const char *path)
 
 bool gm_temporary_can_replace(const char *path, char *message)
 {
-    return gm_temporary_fits(path) || gm_refuse(message, "%.360s is no file that can be replaced", path);
+    return gm_temporary_fits(path) || gm_refuse(message, "%.360s is not a file that can be replaced", path);
 }
 
 enum { NAME_SHOWN = 180 }; /* the name is cut, since it may already be as long as the file system allows */

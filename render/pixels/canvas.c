@@ -42,7 +42,7 @@ bool gm_canvas_choose(const char *painter, char *message)
         found++;
     }
     if (found == CHOICES) {
-        return gm_refuse(message, "\"%.40s\" is no painter: %s", word, rule);
+        return gm_refuse(message, "\"%.40s\" is not a painter: %s", word, rule);
     }
     if (found < OWN && !gm_opengl_load((enum gm_context_kind)found, reason, sizeof reason)) {
         return gm_refuse(message, "%s cannot be loaded (%s): %s", word, reason, rule);

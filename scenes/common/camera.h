@@ -20,10 +20,10 @@ struct gm_camera {
 enum { GM_CAMERA_KEYS = 4 };
 #define GM_CAMERA_ROWS(own, member)                                                                          \
     GM_REAL_ROW(own, member.azimuth, "azimuth", "-60", -180, 180,                                            \
-                "from where it is seen, in degrees from x to y", .live = true, .looks = true),               \
+                "direction of view, in degrees from x to y", .live = true, .looks = true),                   \
         GM_REAL_ROW(own, member.elevation, "elevation", "25", -90, 90,                                       \
-                    "how far from above it is seen, in degrees", .live = true, .looks = true),               \
-        GM_REAL_ROW(own, member.zoom, "zoom", "1", 0.1, 100, "how many times as large as what fits",         \
+                    "height of the eye above the plane, in degrees", .live = true, .looks = true),           \
+        GM_REAL_ROW(own, member.zoom, "zoom", "1", 0.1, 100, "magnification; 1: the whole picture fits",     \
                     .logarithmic = true, .live = true, .looks = true),                                       \
         GM_REAL_ROW(own, member.turn, "turn", "0", -1e6, 1e6,                                                \
                     "by which the azimuth grows, in degrees for each unit of time", .live = true,            \

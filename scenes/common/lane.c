@@ -171,10 +171,12 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     const double error = gm_lane_observe(lane, (size_t)lost);
     const double left = gm_observe(observable, &view) / initial_of(observable, &view);
     if (error <= lost_above(lane->scheme) && left >= 0) {
-        snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
+        snprintf(text, size,
+                 "%s is %.3g: the exact motion conserves this quantity, the scheme has %.1e of it left",
                  observable->key, error, left);
     } else {
-        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
+        snprintf(text, size, "%s is %.3g: the exact motion conserves this quantity, the scheme has lost it",
+                 observable->key, error);
     }
 }
 

@@ -105,8 +105,8 @@ static const struct gm_published published[] = {
                  .lanes = "scheme=rk4", .observable = "energy_error", GROWS})},
     {"razafindralandy-3-steps",
      .remark =
-         "What the document says of Figure 3 with shorter steps. The error of RK2 is proportional to the "
-         "time, whatever the step, as long as it is small; with 100 steps a period it is not.",
+         "This is the document's remark on Figure 3 with shorter steps. The error of RK2 is proportional to the "
+         "time, whatever the step, as long as it is small; with 100 steps per period it is not.",
      STATEMENTS(
          {"a shorter step reduces the error (divided by that with twice the step)",
           .lanes = "dt=2*pi/200,2*pi/400,2*pi/800", .against = "dt=2*pi/100,2*pi/200,2*pi/400",
@@ -116,7 +116,7 @@ static const struct gm_published published[] = {
           .observable = "energy_error", .measure = GM_GROWTH, VERY_SIMILAR})},
     {"razafindralandy-4",
      STATEMENTS(
-         {"symplectic Euler keeps the area to round-off", .lanes = "scheme=symplectic-euler",
+         {"symplectic Euler preserves the area to round-off", .lanes = "scheme=symplectic-euler",
           .observable = "area_error", ROUND_OFF},
          {"so does the midpoint rule", .lanes = "scheme=midpoint", .observable = "area_error", ROUND_OFF})},
     {"razafindralandy-5",
@@ -129,8 +129,9 @@ static const struct gm_published published[] = {
                 {"it is below the machine precision", .lanes = "scheme=midpoint",
                  .observable = "energy_error", BELOW_MACHINE_PRECISION})},
     {"razafindralandy-5-euler",
-     .remark = "What the document says of Figures 5 and 2 together. Until t = 5, the time that it names for "
-               "Figure 2, the error of implicit Euler is 7 to 9 times as large, later more.",
+     .remark =
+         "This is the document's remark on Figures 5 and 2 together. Until t = 5, the time that it names for "
+         "Figure 2, the error of implicit Euler is 7 to 9 times as large, later more.",
      STATEMENTS({"the error of symplectic Euler is much smaller than that of explicit Euler",
                  .lanes = "scheme=symplectic-euler", .against = "scheme=explicit-euler", .open = "until",
                  .observable = "energy_error", .measure = GM_MAXIMUM, MUCH_SMALLER},
@@ -147,9 +148,9 @@ static const struct gm_published published[] = {
                  .observable = "energy_error", GROWS},
                 {"so does its error on the angular momentum", .lanes = "scheme=rk4",
                  .observable = "angular_momentum_error", GROWS},
-                {"that of the symplectic RK4 on the energy stays almost the same", .lanes = "scheme=rk4sym",
+                {"the energy error of the symplectic RK4 stays almost the same", .lanes = "scheme=rk4sym",
                  .observable = "energy_error", BOUNDED},
-                {"it keeps the angular momentum (to round-off)", .lanes = "scheme=rk4sym",
+                {"it conserves the angular momentum (to round-off)", .lanes = "scheme=rk4sym",
                  .observable = "angular_momentum_error", ROUND_OFF})},
     {"razafindralandy-7",
      STATEMENTS({"the motion is periodic: the distance from the turning square stays small", .lanes = "",
@@ -210,7 +211,7 @@ static const struct gm_published published[] = {
           .observable = "amplitude", .measure = GM_MAXIMUM, .scale = &breather, AT_MOST(1 + CLOSE)})},
     {"razafindralandy-13",
      STATEMENTS(
-         {"the energy-conserving scheme does not stand twice the time step: it blows up from the first "
+         {"the energy-conserving scheme fails with twice the time step: it blows up from the first "
           "iterations (within 20)",
           .lanes = "scheme=energy-conserving", .measure = GM_LASTS, AT_MOST(20 * 0.1)},
          {"the multisymplectic scheme is relatively well behaved with twice the time step: its energy is "
@@ -221,8 +222,8 @@ static const struct gm_published published[] = {
     {"razafindralandy-16",
      .remark =
          "As printed, the equations have no solution for the next time beyond the first turning point: the "
-         "step grows without bound there. With a restart wherever that happens the run goes on, and pays "
-         "with a phase that drifts, the less the shorter the first step, τ₀.",
+         "step grows without bound there. With a restart at each such point the run continues, but its "
+         "phase drifts, the less the shorter the first step, τ₀.",
      STATEMENTS({"the scheme as printed goes on over a period at least",
                  .lanes = "scheme=variational-rectangle", .measure = GM_LASTS, AT_LEAST(2 * M_PI)},
                 {"with restarts it stays very close to the sine: its phase",
@@ -236,7 +237,7 @@ static const struct gm_published published[] = {
                                        .observable = "energy_error", BELOW_MACHINE_PRECISION})},
     {"razafindralandy-24",
      .remark =
-         "The document does not say how a scheme sees the moving frame. Here the boosted solution is computed "
+         "The document does not define a scheme in the moving frame. Here the boosted solution is computed "
          "on a grid that is fixed in the new frame, and the convective term is in conservative form; as "
          "printed, FTCS and Crank-Nicolson fail already at λ = 0 on this grid. With the document's Courant "
          "number, 1/2, the wave runs at twice the frame's velocity when λ = 1 and crosses a cell in a step: "
@@ -275,8 +276,8 @@ static const struct gm_published published[] = {
     {"razafindralandy-32",
      .remark =
          "The document's mesh is not given, and its pressure equation (157) carries terms that do not belong "
-         "to this flow; the pressure here follows from the momentum equation edge by edge. Its error lies near the "
-         "walls, where it is of first order; farther than 0.2 from them it is of second order.",
+         "to this flow; the pressure here follows from the momentum equation edge by edge. Its error near the "
+         "walls is of first order; farther than 0.2 from them it is of second order.",
      STATEMENTS(
          {"the stream function converges with order 1.84, at least", .lanes = "", .observable = "psi_error",
           .over = "mean_edge", .measure = GM_AT_END, AT_LEAST(1.84)},
@@ -304,8 +305,7 @@ static const struct gm_published published[] = {
     {"razafindralandy-34-poiseuille",
      STATEMENTS({"the divergence stays below 2e-16 at all times", .lanes = "", .observable = "divergence",
                  .measure = GM_MAXIMUM, AT_MOST(2e-16)})},
-    {"razafindralandy-35",
-     .remark = "A drawing of the room; the document gives no number beside its proportions."},
+    {"razafindralandy-35", .remark = "A drawing of the room; the document gives only its proportions."},
     {"razafindralandy-36",
      .remark = "The document's counts belong to a mesh that is not given. Our family of acute meshes comes "
                "nearest with 3384 vertices and 6600 triangles.",
@@ -387,7 +387,7 @@ static const struct gm_published published[] = {
           .over = "points", .measure = GM_MAXIMUM, BETWEEN(0.75, 1)})},
     {"tyranowski-11-schemes", .quick = "dt=0.05",
      .remark =
-         "What the caption of Figure 11 says of other integrators. With 127 points the multiplier strategy "
+         "This is the remark on other integrators in the caption of Figure 11. With 127 points the multiplier strategy "
          "of second order ends at t = 13.83, where mesh points would meet.",
      STATEMENTS({"Lobatto is of very similar accuracy for the control-theoretic strategy (errors divided)",
                  .lanes = "scheme=control-lobatto4", .against = "scheme=control-gauss4",

@@ -115,7 +115,7 @@ bool gm_written_schemes(const char *text, const struct gm_problem *problem, cons
         const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
         if (!(scheme && gm_scheme_fits(scheme, problem))) {
             return gm_refuse(sentence, "schemes: %s %s", name,
-                             scheme ? "does not fit this system" : "is no scheme");
+                             scheme ? "does not fit this system" : "is not a scheme");
         }
         schemes[(*count)++] = scheme->name;
     }

@@ -25,7 +25,7 @@ static const struct {
     enum { NOTHING, TEXT, NODE, EDGE, TRIANGLE } thing;
     const char *after;
 } wrong[] = {
-    [GM_TRIANGULATION_NOT_GMSH] = {false, " is no Gmsh file: it does not begin with $MeshFormat", NOTHING,
+    [GM_TRIANGULATION_NOT_GMSH] = {false, " is not a Gmsh file: it does not begin with $MeshFormat", NOTHING,
                                    ""},
     [GM_TRIANGULATION_VERSION] =
         {false, " is of version ", TEXT,
@@ -44,7 +44,7 @@ static const struct {
                                   " lies off the plane of the others; the mesh must be flat"},
     [GM_TRIANGULATION_EMPTY] = {false, " has no triangle", NOTHING, ""},
     [GM_TRIANGULATION_DEGENERATE] = {true, ": ", TRIANGLE, " has no area"},
-    [GM_TRIANGULATION_OVERLAP] = {true, ": ", TRIANGLE, " lies over its neighbour"},
+    [GM_TRIANGULATION_OVERLAP] = {true, ": ", TRIANGLE, " overlaps its neighbour"},
     [GM_TRIANGULATION_EDGE_OF_THREE] = {false, ": the edge between nodes ", EDGE,
                                         " belongs to three triangles"},
     [GM_TRIANGULATION_PINCHED] = {false, ": at node ", NODE, " the mesh hangs together by a point"},

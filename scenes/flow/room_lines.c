@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/flow/flow.h"
 #include "core/model/scope.h"
+#include "core/schemes.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/profiles.h"
 
@@ -64,7 +66,7 @@ static double option_number(struct gm_user_room *user_room, struct gm_span piece
     return count > 0 ? list[0] : otherwise;
 }
 
-/* Returns words separated by blanks or commas, NULL-terminated; NULL without a text. */
+/* Returns words separated by blanks or commas, NULL-terminated; NULL for an empty text. */
 static const char *const *list_words(struct gm_user_room *user_room, const char *text)
 {
     size_t count = 0;
@@ -86,6 +88,19 @@ _Noreturn static void refuse(struct gm_user_room *user_room, size_t place, const
     gm_room_refuse(user_room, &fault);
 }
 
+/* Returns the schemes of a list, which must be schemes for flows. */
+static const char *const *list_schemes(struct gm_user_room *user_room, struct gm_span text)
+{
+    const char *const *names = list_words(user_room, gm_room_keep(user_room, text));
+    for (size_t i = 0; names && names[i]; i++) {
+        const struct gm_scheme *scheme = gm_scheme_find(names[i]);
+        if (!scheme || scheme->family->kind != &gm_kind_flow) {
+            refuse(user_room, text.begin, gm_room_format(user_room, "%s is not a scheme of rooms", names[i]));
+        }
+    }
+    return names;
+}
+
 /* Takes words key=value, each with one of the scene's keys, or a word that all scenes have. */
 static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
 {
@@ -105,7 +120,7 @@ static const char *observable_key(struct gm_user_room *user_room, struct gm_span
 {
     const char *key = gm_room_keep(user_room, span);
     if (gm_scene_observable(&user_room->scene, key) < 0) {
-        refuse(user_room, span.begin, "this is no observable of the room");
+        refuse(user_room, span.begin, "this is not an observable of the room");
     }
     return key;
 }
@@ -433,6 +448,25 @@ static bool take_colours(const struct gm_room *room, struct gm_look *look, struc
     return true;
 }
 
+/* levels: F, F ..., as many numbers at most as the line has characters; NULL: they are only checked. */
+static bool take_levels(const struct gm_room *room, double *levels, size_t *count, struct gm_fault *fault)
+{
+    struct gm_span rest, piece;
+    double level;
+    *count = 0;
+    gm_room_said(room, "levels", 0, &rest);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
+        if (!gm_room_number(room, piece, &level, fault)) {
+            return false;
+        }
+        if (levels) {
+            levels[*count] = level;
+        }
+        ++*count;
+    }
+    return true;
+}
+
 /* graph: KEY; low .. high, in terms of the flow's measures */
 static bool take_graph(const struct gm_room *room, size_t number, struct gm_span *key,
                        struct gm_room_range *range, struct gm_fault *fault)
@@ -470,10 +504,9 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     take_colours(room, look, &fault);
     gm_room_said(room, "levels", 0, &rest);
     double *levels = gm_picture_memory(picture, (rest.end - rest.begin + 1) * sizeof *levels);
-    while (levels && gm_span_take(room->text, &rest, ",", &piece)) {
-        gm_room_number(room, piece, &levels[look->level_count++], &fault);
+    if (levels && take_levels(room, levels, &look->level_count, &fault)) {
+        look->levels = look->level_count > 0 ? levels : NULL;
     }
-    look->levels = look->level_count > 0 ? levels : NULL;
     for (size_t i = 0; i < user_room->profile_count; i++) {
         look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
     }
@@ -497,7 +530,8 @@ static void check_look(struct gm_user_room *user_room)
     struct gm_fault fault = {0};
     struct gm_span rest, piece;
     struct gm_room_range ends;
-    bool nonzero, good = take_colours(room, &look, &fault);
+    bool nonzero,
+        good = take_colours(room, &look, &fault) && take_levels(room, NULL, &look.level_count, &fault);
     for (int i = 0; i < GM_ROOM_MEASURES; i++) {
         measured.measures[i] = 1;
     }
@@ -558,8 +592,10 @@ static void make_studies(struct gm_user_room *user_room)
         *work = (struct gm_work){.arguments = take_arguments(user_room, &rest),
                                  .coarsest = option_number(user_room, rest, "coarsest", 0),
                                  .halvings =
-                                     (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31),
-                                 .schemes = list_words(user_room, option(user_room, rest, "schemes"))};
+                                     (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31)};
+        if (gm_room_option(&user_room->room, rest, "schemes", &piece)) {
+            work->schemes = list_schemes(user_room, piece);
+        }
         if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
             work->measure = observable_key(user_room, piece);
         }
@@ -610,7 +646,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     scene->observable_count = user_room->observable_count;
     scene->watch = watch ? watch : scene->watch;
     if (gm_room_said(&user_room->room, "schemes", 0, &rest)) {
-        scene->schemes = list_words(user_room, gm_room_keep(user_room, rest));
+        scene->schemes = list_schemes(user_room, rest);
     }
     if (gm_room_said(&user_room->room, "lanes", 0, &rest)) {
         scene->lanes = take_arguments(user_room, &rest);

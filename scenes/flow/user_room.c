@@ -742,10 +742,10 @@ static void make(struct gm_arena *arena, void *data)
     const struct gm_room *room = &user_room->room;
     user_room->scene = (struct gm_scene){
         .name = user_room->file.name,
-        .title = room->title ? room->title : "A room of one’s own",
-        .blurb = room->about ? room->about : "A room of one’s own.",
+        .title = room->title ? room->title : "A user-defined room",
+        .blurb = room->about ? room->about : "A user-defined room.",
         .watch = "",
-        .time = "that of its units",
+        .time = "the unit of the room's numbers",
         .size = sizeof user_room->initial,
         .initial = &user_room->initial,
         .schemes = schemes,

@@ -10,11 +10,11 @@ painters='--painter and GEOMINT_PAINTER take auto, osmesa, egl or own$'
 for command in 'render disc until=1' figures 'work-precision disc' 'stability kepler' 'backward disc' 'sweep disc' \
     'certify rk4' 'again a.png' 'tour' terminal; do
     # shellcheck disable=SC2086 # words
-    refused 1 "^geomint: \"vulkan\" is no painter: $painters" $command --painter vulkan
+    refused 1 "^geomint: \"vulkan\" is not a painter: $painters" $command --painter vulkan
     # shellcheck disable=SC2086 # words
-    GEOMINT_PAINTER=vulkan refused 1 "^geomint: \"vulkan\" is no painter: $painters" $command
+    GEOMINT_PAINTER=vulkan refused 1 "^geomint: \"vulkan\" is not a painter: $painters" $command
 done
-refused 1 "^geomint: \"vulkan\" is no painter: $painters" tui disc --painter vulkan
+refused 1 "^geomint: \"vulkan\" is not a painter: $painters" tui disc --painter vulkan
 for painter in own osmesa egl; do
     refused 1 "^geomint: --painter $painter paints PNG files and movies; an SVG or PDF file is lines and letters$" \
         render disc --painter $painter -o lines.svg
@@ -315,12 +315,12 @@ grep -q '"warning":"".*"energy_error":[0-9.]*e-1[0-9]' out || fail "wave by gaus
 warns 'the run ends at t = 0.6 and not at until = 0.5' disc until=0.5 dt=0.3
 warns 'the run ends at t = 0 and not at until = 0.1' disc until=0.1 dt=0.3
 # what decays is lost like what grows
-warns 'area_error is 1: of what the exact motion keeps a part of 2.6e-07' disc scheme=implicit-euler until=60
+warns 'area_error is 1: the exact motion conserves this quantity, the scheme has 2.6e-07 of it left' disc scheme=implicit-euler until=60
 status 0 run disc scheme=implicit-euler until=60
 grep -q '^  status  *ok (with a warning)$' out || fail "$(cat out)"
 warns 'a part of' stiff scheme=implicit-euler
 # an orbit that is all but unbound is another one
-warns 'angular_momentum_error is 1.18: what the exact motion keeps is lost' kepler eccentricity=0.6 scheme=tao2
+warns 'angular_momentum_error is 1.18: the exact motion conserves this quantity, the scheme has lost it' kepler eccentricity=0.6 scheme=tao2
 warns 'energy_error is 0.723: what' vortices scheme=tao2
 warns 'angular_impulse_error is 2.22: what' vortices scheme=tao4
 warns 'angular_momentum_error is 10.8: what' kepler eccentricity=0.6 scheme=tao4
@@ -356,7 +356,7 @@ done
 status 0 render kepler scheme=verlet eccentricity=0.9999 steps=30 --size 300x200 --out warned
 grep -q 'verlet: warning: energy_error is 9.87e+12' err || fail "render tells the warning: $(cat err)"
 status 0 render disc scheme=implicit-euler until=60 --size 300x200 --out warned
-grep -q 'implicit-euler: warning: area_error is 1: of what the exact motion keeps a part of 2.6e-07 is left' err || fail "render tells the warning: $(cat err)"
+grep -q 'implicit-euler: warning: area_error is 1: the exact motion conserves this quantity, the scheme has 2.6e-07 of it left' err || fail "render tells the warning: $(cat err)"
 
 # what is signed has its largest magnitude as its maximum; what is not there has a reason
 status 0 run kepler scheme=verlet steps=2000 --json --max
@@ -537,7 +537,7 @@ done
 GEOMINT_PAINTER=own status 0 --version
 grep -q '^painter: own$' out || fail '--version does not say which painter GEOMINT_PAINTER names'
 GEOMINT_PAINTER=vulkan status 0 --version
-grep -q "^painter: none, as \"vulkan\" is no painter: $painters" out || fail '--version takes any word for a painter'
+grep -q "^painter: none, as \"vulkan\" is not a painter: $painters" out || fail '--version takes any word for a painter'
 GEOMINT_PAINTER='' status 0 --version
 grep -q '^painter: auto (osmesa for PNG' out || fail '--version does not say what paints'
 # what is loaded only when it is used is missed only then

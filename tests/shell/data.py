@@ -712,13 +712,13 @@ def pipes():
         os.remove(path)
     os.mkfifo("pipe.npz")
     for option in ("save", "save-tracks"):
-        check("no file that can be replaced" in geomint(f"run kepler steps=3 --{option} pipe.npz", 3).stderr, f"--{option} to a pipe")
+        check("not a file that can be replaced" in geomint(f"run kepler steps=3 --{option} pipe.npz", 3).stderr, f"--{option} to a pipe")
     for kept in ("pipe.npz", "link", "folder"):
         if kept != "pipe.npz":
             os.symlink("nowhere", kept) if kept == "link" else os.mkdir(kept)
         mode = os.lstat(kept).st_mode
         done = geomint(f"run kepler steps=3 --save beside.npz --checkpoint {kept}", 3)
-        check(done.stderr == f"geomint: {kept} is no file that can be replaced\n", f"a checkpoint to a {kept}: {done.stderr}")
+        check(done.stderr == f"geomint: {kept} is not a file that can be replaced\n", f"a checkpoint to a {kept}: {done.stderr}")
         check(os.lstat(kept).st_mode == mode and not os.path.exists("beside.npz.part"), f"{kept} is what it was")
 
 

@@ -52,8 +52,8 @@ forced 0.1*x 0.1*y >radial.system
 "$geomint" list ./drag.system --long | grep -q 'momentum1 = .* (by symmetry, not kept)' || fail "a force along a symmetry"
 "$geomint" list ./radial.system --long | grep -q 'momentum1 = .* (by symmetry, proved)' || fail "a force across a symmetry"
 "$geomint" certify variational-midpoint2 --on ./drag.system >out 2>err || fail "certify on a force along a symmetry: $(cat out err)"
-grep -q 'keeps momentum maps  *not measured' out || fail "a force is blamed on a scheme"
-"$geomint" certify variational-midpoint2 --on ./radial.system | grep -q 'keeps momentum maps  *holds' || fail "a force across a symmetry, certified"
+grep -q 'conserves momentum maps  *not measured' out || fail "a force is blamed on a scheme"
+"$geomint" certify variational-midpoint2 --on ./radial.system | grep -q 'conserves momentum maps  *holds' || fail "a force across a symmetry, certified"
 
 # a no has the place of its term, of a derived one that of where it came from
 holds() {
@@ -318,9 +318,9 @@ refused 1 'on takes systems of at most 28 components' certify multiplier-lobatto
 # and on rings, between walls, by matrices and by rates, on grids of their own
 status 0 certify leapfrog --on phi4
 grep -q 'order 2, measured [12]\..* (phi4)' out && grep -q 'M multisymplectic *holds' out &&
-    grep -q 'H keeps energy *not claimed *defect' out || fail "phi4 on a ring, certified: $(cat out)"
+    grep -q 'H conserves energy *not claimed *defect' out || fail "phi4 on a ring, certified: $(cat out)"
 status 0 certify energy-conserving --on phi4 boundary=walls
-grep -q 'H keeps energy *holds' out && grep -q 'no quadratic invariant' out || fail "phi4, walls, certified: $(cat out)"
+grep -q 'H conserves energy *holds' out && grep -q 'no quadratic invariant' out || fail "phi4, walls, certified: $(cat out)"
 # round-off of many cells is not the scheme's
 status 0 certify gauss-box3 --on phi4 points=8000
 grep -q 'M multisymplectic *holds' out && grep -q '= symmetric *holds' out ||
@@ -330,7 +330,7 @@ grep -q 'M multisymplectic *not measured *round-off' out || fail "phi4 on many p
 status 0 certify leapfrog --on phi4 dt=0.16
 grep -q 'measured nowhere: dt is beyond' out || fail "phi4, long steps, certified: $(cat out)"
 status 0 certify box --on nonlinear-dirac points=201
-grep -q 'Q keeps quadratic invariants *not claimed *defect .*e-1[4-6] (charge_error)' out ||
+grep -q 'Q conserves quadratic invariants *not claimed *defect .*e-1[4-6] (charge_error)' out ||
     fail "nonlinear-dirac, certified: $(cat out)"
 # of more stages the charge is that of the stages: of means in cells its error would be the grid's, 1e-6
 status 0 run nonlinear-dirac scheme=gauss-box3 dt=0.05,0.0125 until=0.5 --max --measure charge_error --json
@@ -341,14 +341,14 @@ assert len(errors) == 2 and max(errors) < 1e-12, errors
 ' || fail "nonlinear-dirac by gauss-box3: $(cat out)"
 # central differences do not keep what midpoint would: it is not blamed for that
 status 0 certify midpoint --on bbm
-grep -q 'L keeps linear invariants *holds *defect .* (mass_error)' out &&
-    grep -q 'Q keeps quadratic invariants *not measured *no quadratic' out || fail "bbm, certified: $(cat out)"
+grep -q 'L conserves linear invariants *holds *defect .* (mass_error)' out &&
+    grep -q 'Q conserves quadratic invariants *not measured *no quadratic' out || fail "bbm, certified: $(cat out)"
 printf 'field: u v\nrate: u = v\nrate: v = u_xx - sin(u) - v/10\nstart: u = exp(-x^2), v = 0\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
 status 0 certify rk4 --on own.system
-grep -q 'L keeps linear invariants *not measured' out || fail "a mass that nothing keeps, certified: $(cat out)"
+grep -q 'L conserves linear invariants *not measured' out || fail "a mass that nothing keeps, certified: $(cat out)"
 printf 'field: u\nrate: u = u_xx\nstart: u = 1 + cos(pi*x/20)\nboundary: walls\ninvariant: mass = u\npoints: 101\ndt: 0.05\n' >own.system
 status 0 certify midpoint --on own.system
-grep -q 'L keeps linear invariants *holds' out || fail "heat between walls, certified: $(cat out)"
+grep -q 'L conserves linear invariants *holds' out || fail "heat between walls, certified: $(cat out)"
 printf 'geomint: 1\nkind: runge-kutta\norder: 1\nclaims: symmetric\na: 0\nb: 1\n' >false.scheme
 status 4 certify false.scheme --on own.system
 grep -q '= symmetric *BROKEN' out || fail "Euler's method as a symmetric one, on a field: $(cat out)"
@@ -358,7 +358,7 @@ printf 'dt: 0.01\nuntil: 1\n' >>large.system
 status 0 certify midpoint --on large.system
 printf 'coordinates: q\nH: p_q^2/2 + (q - 1e6)^2/2\nstart: q = 1000001, p_q = 0\ndt: 0.1\nuntil: 1\n' >shifted.system
 status 0 certify midpoint --on shifted.system
-grep -q 'keeps quadratic invariants  *not measured round-off' out || fail "an energy small beside q: $(cat out)"
+grep -q 'conserves quadratic invariants  *not measured round-off' out || fail "an energy small beside q: $(cat out)"
 rm own.system false.scheme large.system shifted.system
 status 0 certify box --on kdv
 grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"

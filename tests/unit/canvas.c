@@ -500,10 +500,10 @@ static void painters_are_chosen(void **state)
     assert_paints("egl", "own", false, "egl");
     assert_false(gm_canvas_choose("vulkan", message));
     assert_string_equal(
-        message, "\"vulkan\" is no painter: --painter and GEOMINT_PAINTER take auto, osmesa, egl or own");
+        message, "\"vulkan\" is not a painter: --painter and GEOMINT_PAINTER take auto, osmesa, egl or own");
     setenv("GEOMINT_PAINTER", "OSMesa", 1);
     assert_false(gm_canvas_choose(NULL, message));
-    assert_non_null(strstr(message, "\"OSMesa\" is no painter"));
+    assert_non_null(strstr(message, "\"OSMesa\" is not a painter"));
     unsetenv("GEOMINT_PAINTER");
     /* a driver for a graphics card, of which OSMesa has none */
     setenv("GALLIUM_DRIVER", "d3d12", 1);

@@ -217,7 +217,7 @@ static void the_misprint_of_rk4sym(void **unused)
     (void)unused;
     const double root = sqrt(2), b = (2 + root + 1 / root) / 3;
     const struct gm_composition printed = {3, {b, 1 - 2 * b}};
-    const struct gm_implicit_row misprint = {.stages = 1, .a = {{0.5}}, .b = {1}, .composition = &printed};
+    const struct gm_tableau misprint = {.stages = 1, .a = {{0.5}}, .b = {1}, .composition = &printed};
     struct gm_scheme wrong = changed("rk4sym");
     wrong.coefficients = &misprint;
     const struct gm_certificate certificate = gm_certify(&wrong);
@@ -231,8 +231,8 @@ static void the_misprint_of_rk4sym(void **unused)
 static void a_wrong_digit_of_gauss4(void **unused)
 {
     (void)unused;
-    const struct gm_implicit_row *right = gm_scheme_find("gauss4")->coefficients;
-    struct gm_implicit_row digit = *right;
+    const struct gm_tableau *right = gm_scheme_find("gauss4")->coefficients;
+    struct gm_tableau digit = *right;
     digit.a[0][1] += 1e-4;
     struct gm_scheme wrong = changed("gauss4");
     wrong.coefficients = &digit;
@@ -491,8 +491,8 @@ static void a_wrong_digit_of_a_tableau(void **unused)
                                  "midpoint-kahan-li6",
                                  "midpoint-kahan-li8"};
     for (size_t i = 0; i < GM_COUNT(names); i++) {
-        const struct gm_implicit_row *right = gm_scheme_find(names[i])->coefficients;
-        struct gm_implicit_row digit = *right;
+        const struct gm_tableau *right = gm_scheme_find(names[i])->coefficients;
+        struct gm_tableau digit = *right;
         struct gm_composition composition = *right->composition;
         if (composition.steps > 1) {
             composition.gammas[0] += 1e-4;
@@ -699,7 +699,7 @@ static void a_fictitious_time_gone_wrong(void **unused)
 static void a_stage_that_is_late(void **unused)
 {
     (void)unused;
-    struct gm_tableau late = gm_tableau_gauss2;
+    struct gm_mesh_tableau late = gm_tableau_gauss2;
     late.a[0][0] += 1e-4;
     late.abar[0][0] += 1e-4;
     struct gm_mesh_row row = *(const struct gm_mesh_row *)gm_scheme_find("uniform-gauss2")->coefficients;

@@ -648,7 +648,7 @@ static void wrong_rows_are_caught(void **unused)
     wrong.order = 3;
     assert_false(gm_certify(&wrong).order_holds);
     /* a wrong digit among the coefficients */
-    struct gm_tableau tableau = gm_tableau_lobatto4;
+    struct gm_mesh_tableau tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-4;
     struct gm_mesh_row digit = gm_mesh_multiplier4;
     digit.tableau = &tableau;

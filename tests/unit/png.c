@@ -92,7 +92,7 @@ static void pixels_survive(void **state)
         assert_true(gm_png_read(in_folder("a.png"), width, height, read, message));
         assert_memory_equal(read, rgb, (size_t)width * (size_t)height * 3);
         assert_false(gm_png_read(in_folder("a.png"), width + 1, height, read, message));
-        assert_non_null(strstr(message, "it is no picture of"));
+        assert_non_null(strstr(message, "it is not a picture of"));
         free(read);
         free(rgb);
     }

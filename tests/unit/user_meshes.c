@@ -13,7 +13,7 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/mesh/certify/law.h"
+#include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/soliton.h"
 #include "core/mesh/user/potential.h"
@@ -145,7 +145,7 @@ static void typed_again_the_soliton_is_the_same(void **unused)
 /* The multipliers of Lobatto's method of order 4, whose coefficients have one. */
 static struct gm_scheme with_a_wrong_digit(void)
 {
-    static struct gm_tableau tableau;
+    static struct gm_mesh_tableau tableau;
     static struct gm_mesh_row digit;
     tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-3;

@@ -95,19 +95,19 @@ static char *typed(const struct gm_scheme *scheme)
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     if (scheme->family == &gm_family_explicit) {
-        const struct gm_explicit_tableau *row = gm_explicit_tableau_of(scheme->coefficients);
+        const struct gm_tableau *row = scheme->coefficients;
         fputs("explicit(", out);
-        put_rows(out, row->stages, row->stages, row->a[0], GM_EXPLICIT_STAGES);
+        put_rows(out, row->stages, row->stages, row->a[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, row->stages, row->b, 0);
         fputs(")", out);
     } else if (scheme->family == &gm_family_implicit) {
-        const struct gm_implicit_row *row = scheme->coefficients;
+        const struct gm_tableau *row = scheme->coefficients;
         if (row->composition->steps > 1) {
             put_composition(out, "midpoint", row->composition);
         } else {
             fputs("runge-kutta(", out);
-            put_rows(out, row->stages, row->stages, row->a[0], GM_IMPLICIT_STAGES);
+            put_rows(out, row->stages, row->stages, row->a[0], GM_TABLEAU_STAGES);
             fputs("; ", out);
             put_rows(out, 1, row->stages, row->b, 0);
             fputs(")", out);
@@ -116,11 +116,11 @@ static char *typed(const struct gm_scheme *scheme)
         const struct gm_partitioned_row *row = scheme->coefficients;
         const int stages = (int)row->stages;
         fputs("partitioned(", out);
-        put_rows(out, stages, stages, row->a[0], GM_PARTITIONED_STAGES);
+        put_rows(out, stages, stages, row->a[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, stages, row->b, 0);
         fputs("; ", out);
-        put_rows(out, stages, stages, row->c[0], GM_PARTITIONED_STAGES);
+        put_rows(out, stages, stages, row->c[0], GM_TABLEAU_STAGES);
         fputs("; ", out);
         put_rows(out, 1, stages, row->d, 0);
         fputs(")", out);
@@ -890,8 +890,8 @@ static void refusals(void **unused)
         {"nystrom(0; 1/2; 2; 0)", "2; 0", "the weights sum to 2, not to 1"},
         {"nystrom(0; 1/2; 1)", "nystrom", "needs c:"},
         {"nystrom(0; 1/2; 1, 1; 0)", "1, 1", "bv has 2 entries"},
-        {"composition(verlet; 1/2, 1/2,)", ",)", "nothing stands behind this ,"},
-        {"runge-kutta(1/2 |; 1)", "|", "nothing stands behind this |"},
+        {"composition(verlet; 1/2, 1/2,)", ",)", "nothing follows this ,"},
+        {"runge-kutta(1/2 |; 1)", "|", "nothing follows this |"},
         {"runge-kutta(kind: explicit; 1/2; 1)", "explicit",
          "the word says that it is of the kind runge-kutta"},
         {"runge-kutta(1/1000000000000000000000000000000000000000000000000000000000000000000000000000000000; 1)",
@@ -903,11 +903,11 @@ static void refusals(void **unused)
         {"runge-kutta(claims: symplectic symplectik; 1/2; 1)", "symplectik", "a claim was expected"},
         {"runge-kutta(steps: 1; 1/2; 1)", "1; 1/2", "has no steps:"},
         {"runge-kutta(oder: 1; 1/2; 1)", "oder", "did you mean order"},
-        {"geomint: 1\na: 1/2\nb: 1\n", "geomint", "what kind of a scheme"},
+        {"geomint: 1\na: 1/2\nb: 1\n", "geomint", "what kind of scheme"},
         {"kind: runge-cutta\na: 1/2\nb: 1\n", "runge-cutta", "did you mean runge-kutta"},
         {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "said twice"},
         {"geomint: 2\nkind: runge-kutta\na: 1/2\nb: 1\n", "2\nkind", "later format"},
-        {"kind: runge-kutta\na:\nb: 1\n", "a:", "says nothing"},
+        {"kind: runge-kutta\na:\nb: 1\n", "a:", "has no value"},
         {"kind: runge-kutta\na: 1/2\nb: \033[31m1\n", "\033", ""},
         {"kind: runge-kutta\ntitle: a; b\na: 1/2\nb: 1\n", "a; b", "no semicolon"},
         {"kind: runge-kutta\ntitle: Kutta]s\na: 1/2\nb: 1\n", "Kutta]s",

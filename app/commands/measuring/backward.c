@@ -73,9 +73,7 @@ static void print_table(const struct gm_grid *grid)
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
-    gm_row_count(row, "order", line->scheme->order);
-    gm_row_number(row, "until", timing->until, 17);
-    gm_row_text(row, "reason", line->reason);
+    gm_row_put(row, "order %i, until %.17g, reason %s", line->scheme->order, timing->until, line->reason);
     gm_row_list(row, "slopes", line->orders, GM_POWERS);
 }
 

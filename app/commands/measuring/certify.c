@@ -81,7 +81,7 @@ static void print_certificate(const struct gm_certificate *certificate)
                               : measure->undecided           ? "inconclusive"
                               : reason                       ? "not measured"
                                                              : "BROKEN: it could not be measured";
-        printf("  %s %-28s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
+        printf("  %s %-30s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
         if (measure->measured && isfinite(measure->defect)) {
             printf(" defect %.1e (%s)", measure->defect, measure->problem);
         } else if (measure->measured) {
@@ -190,28 +190,21 @@ static void draw_orders(const void *data, struct gm_picture *picture)
     }
 }
 
-static bool write_orders(const void *data, const char *path)
+static void write_orders(const void *data, FILE *csv)
 {
     const struct orders *orders = data;
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        return false;
-    }
-    fprintf(file, "scheme,for,problem,order,dt,error\n");
+    fprintf(csv, "scheme,for,problem,order,dt,error\n");
     for (size_t i = 0; i < orders->count; i++) {
         const struct gm_certificate *certificate = &orders->certificates[i];
         for (size_t k = 0; k < certificate->ladder.count; k++) {
-            gm_csv_put_text(file, certificate->scheme->name);
-            fputc(',', file);
-            gm_csv_put_text(file, gm_scheme_problems(certificate->scheme));
-            fputc(',', file);
-            gm_csv_put_text(file, certificate->order_problem);
-            fprintf(file, ",%d,%.17g,%.17g\n", certificate->scheme->order, certificate->ladder.dt[k],
-                    certificate->ladder.error[k]);
+            struct gm_row row = {.stream = csv, .form = GM_ROW_CSV};
+            gm_row_put(&row, "scheme %s, for %s, problem %s, order %i, dt %.17g, error %.17g",
+                       certificate->scheme->name, gm_scheme_problems(certificate->scheme),
+                       certificate->order_problem, certificate->scheme->order, certificate->ladder.dt[k],
+                       certificate->ladder.error[k]);
+            fputc('\n', csv);
         }
     }
-    const bool good = !ferror(file);
-    return fclose(file) == 0 && good;
 }
 
 /* ---- the command ---- */
@@ -251,7 +244,9 @@ static int chart(const struct gm_options *options, const struct gm_certificate *
         gm_arena_need(options->arena, gm_arguments_add(words, options->arguments.words[i]));
     }
     told.arguments = *words;
-    const int written = gm_command_chart(&told, "certify", "order", &orders, draw_orders, write_orders);
+    const int written = gm_command_chart(
+        &told, "certify",
+        &(struct gm_chart){.name = "order", .data = &orders, .draw = draw_orders, .write = write_orders});
     return written == GM_EXIT_OK ? status : written;
 }
 
@@ -301,19 +296,10 @@ static bool is_interrupted(void *self)
 /* The scheme is the first word, the others describe the system. */
 static int certify_on(const struct gm_options *options)
 {
-    const struct gm_arguments *typed = &options->arguments;
-    const char *const *words = (const char *const *)typed->words;
-    char message[GM_MESSAGE];
-    struct gm_certificate certificate;
-    int status = GM_EXIT_USAGE;
-    if (gm_certify_words(words[0], options->on, typed->count - 1, words + 1, &certificate, &status,
-                         message)) {
-        show(options, &certificate, options->on);
-        status = chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM);
-    } else {
-        gm_complain("%s", message);
-    }
-    return gm_finish(gm_memory_was_short() ? GM_EXIT_MEMORY : status);
+    const struct gm_certificate certificate =
+        gm_certify_words(options->arena, options->on, &options->arguments, options->end);
+    show(options, &certificate, options->on);
+    return gm_finish(chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM));
 }
 
 /* ---- with decimals that satisfy the conditions ---- */
@@ -345,14 +331,11 @@ static int polish(const struct gm_options *options)
     }
     if (options->json) {
         struct gm_row row = gm_row_begin(stdout);
-        gm_row_text(&row, "scheme", name);
-        gm_row_text(&row, "polished", out);
-        gm_row_count(&row, "order", polish.order);
-        gm_row_count(&row, "conditions", (double)polish.conditions);
-        gm_row_count(&row, "decimals", (double)polish.decimals);
-        gm_row_number(&row, "residual_before", polish.before, 17);
-        gm_row_number(&row, "residual", polish.after, 17);
-        gm_row_number(&row, "change", polish.change, 17);
+        gm_row_put(
+            &row,
+            "scheme %s, polished %s, order %i, conditions %.0f, decimals %.0f, residual_before %.17g, residual %.17g, change %.17g",
+            name, out, polish.order, (double)polish.conditions, (double)polish.decimals, polish.before,
+            polish.after, polish.change);
         printf("}\n");
     } else {
         printf("%zu condition%s of order %d and of what is claimed: the largest residual was %.1e, is %.1e\n"

@@ -36,20 +36,18 @@ static const char *command_line(const char *command, const struct gm_options *op
     return words;
 }
 
-int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
-                     const void *data, void (*draw)(const void *data, struct gm_picture *picture),
-                     bool (*write)(const void *data, const char *path))
+int gm_command_chart(const struct gm_options *options, const char *command, struct gm_chart *chart)
 {
     char message[GM_MESSAGE];
-    struct gm_chart chart = {.path = options->output,
-                             .folder = options->out,
-                             .name = options->name ? options->name : name,
-                             .command = command_line(command, options),
-                             .print = {.format = options->format, .look = options->look}};
-    if (!gm_chart_write(&chart, data, draw, write, message)) {
+    chart->path = options->output;
+    chart->folder = options->out;
+    chart->name = options->name ? options->name : chart->name;
+    chart->command = command_line(command, options);
+    chart->print = (struct gm_print){.format = options->format, .look = options->look};
+    if (!gm_chart_write(chart, message)) {
         return gm_printer_fail(options->output, message);
     }
-    gm_printer_report(&chart.print, write ? chart.csv : "");
+    gm_printer_report(&chart->print, chart->write ? chart->csv : "");
     return GM_EXIT_OK;
 }
 
@@ -57,10 +55,9 @@ static void print_json(const struct gm_grid *grid, const struct gm_study_printer
 {
     for (size_t i = 0; i < grid->begun; i++) {
         struct gm_row row = gm_row_begin(stdout);
-        gm_row_text(&row, "scene", grid->request.scene->name);
-        gm_row_text(&row, "scheme", grid->lines[i].scheme->name);
+        gm_row_put(&row, "scene %s, scheme %s", grid->request.scene->name, grid->lines[i].scheme->name);
         if (grid->row->ordered) {
-            gm_row_count(&row, "order", grid->lines[i].scheme->order);
+            gm_row_put(&row, "order %i", grid->lines[i].scheme->order);
         }
         printer->put_front(&row, grid, &grid->lines[i]);
         gm_grid_put_cells(grid, &grid->lines[i], printer->cells, &row);
@@ -98,7 +95,9 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
             printer->print(grid);
         }
         snprintf(name, sizeof name, "%s-%s", grid->request.scene->name, study->name);
-        status = gm_command_chart(options, study->name, name, grid, gm_grid_draw, gm_grid_write);
+        status = gm_command_chart(
+            options, study->name,
+            &(struct gm_chart){.name = name, .data = grid, .draw = gm_grid_draw, .write = gm_grid_write});
     } else if (!gm_interrupted) {
         status = gm_give_up(study->refusal, "%s", message);
     }

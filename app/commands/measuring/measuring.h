@@ -6,11 +6,9 @@
 #include "app/grid/grid.h"
 #include "render/picture/picture.h"
 
-/* Writes the PNG and the CSV of a measuring command, as its options demand, and reports them. `name` is
-   their default name. Returns the exit status. */
-int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
-                     const void *data, void (*draw)(const void *data, struct gm_picture *picture),
-                     bool (*write)(const void *data, const char *path));
+/* Writes the picture and the table of a measuring command, as its options demand, and reports them; the chart
+   has its data, its functions and its default name. Returns the exit status. */
+int gm_command_chart(const struct gm_options *options, const char *command, struct gm_chart *chart);
 
 /* The printer of a study: text, or a line of JSON with members before and after its runs, called `cells`. */
 struct gm_study_printer {

@@ -158,43 +158,33 @@ static void draw_region(const void *data, struct gm_picture *picture)
     }
 }
 
-static bool write_region(const void *data, const char *path)
+static void write_region(const void *data, FILE *csv)
 {
     const struct region *region = data;
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
     const bool plane = region->test == GM_TEST_PLANE;
     fprintf(csv, "scheme,re,im,growth,growth_known\n");
     for (size_t i = 0; i < (plane ? (size_t)SIDE * SIDE : LINE); i++) {
         struct gm_row row = {.stream = csv, .form = GM_ROW_CSV};
-        gm_row_text(&row, "scheme", region->scheme->name);
-        gm_row_number(&row, "re", plane ? place(region, i % SIDE) : 0, 9);
-        gm_row_number(&row, "im", plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
-                      9);
-        gm_row_number(&row, "growth", isfinite(region->measured[i]) ? region->measured[i] : NAN, 9);
-        gm_row_number(&row, "growth_known", isfinite(region->known[i]) ? region->known[i] : NAN, 9);
+        gm_row_put(&row, "scheme %s, re %.9g, im %.9g, growth %.9g, growth_known %.9g", region->scheme->name,
+                   plane ? place(region, i % SIDE) : 0,
+                   plane ? place(region, i / SIDE) : region->reach * (double)i / (LINE - 1),
+                   isfinite(region->measured[i]) ? region->measured[i] : NAN,
+                   isfinite(region->known[i]) ? region->known[i] : NAN);
         fputc('\n', csv);
     }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
 }
 
 static void print_region(const struct region *region, double left, double up, double part, double apart)
 {
     const bool plane = region->test == GM_TEST_PLANE;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_text(&row, "scheme", region->scheme->name);
-    gm_row_text(&row, "test", plane ? "y' = z y" : "q'' = -w^2 q");
-    gm_row_number(&row, "reach", region->reach, 17);
+    gm_row_put(&row, "scheme %s, test %s, reach %.17g", region->scheme->name,
+               plane ? "y' = z y" : "q'' = -w^2 q", region->reach);
     if (plane) {
-        gm_row_number(&row, "real_limit", left, 17);
-        gm_row_number(&row, "imaginary_limit", up, 17);
-        gm_row_number(&row, "stable_part", part, 17);
-        gm_row_number(&row, "difference", apart, 17);
+        gm_row_put(&row, "real_limit %.17g, imaginary_limit %.17g, stable_part %.17g, difference %.17g", left,
+                   up, part, apart);
     } else {
-        gm_row_number(&row, "limit", region->limit, 17);
+        gm_row_put(&row, "limit %.17g", region->limit);
     }
     printf("}\n");
 }
@@ -266,7 +256,9 @@ static int find_region(const struct gm_options *options)
     if (!gm_options_take_stdout(options)) {
         print_limits(&region, options->json);
     }
-    status = gm_command_chart(options, "stability", name, &region, draw_region, write_region);
+    status = gm_command_chart(
+        options, "stability",
+        &(struct gm_chart){.name = name, .data = &region, .draw = draw_region, .write = write_region});
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
 
@@ -313,12 +305,9 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
     const double limit = gm_stability_limit(grid, line);
-    gm_row_text(row, "parameter", grid->parameter->key);
-    gm_row_text(row, "unit", grid->plan->label);
-    gm_row_number(row, "until", timing->until, 17);
-    gm_row_text(row, "judge", gm_stability_judge(grid));
-    gm_row_number(row, "accuracy", grid->accuracy, 17);
-    gm_row_number(row, "limit", limit > 0 ? limit : NAN, 17);
+    gm_row_put(row, "parameter %s, unit %s, until %.17g, judge %s, accuracy %.17g, limit %.17g",
+               grid->parameter->key, grid->plan->label, timing->until, gm_stability_judge(grid),
+               grid->accuracy, limit > 0 ? limit : NAN);
 }
 
 int gm_command_stability(const struct gm_options *options)

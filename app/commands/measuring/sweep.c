@@ -107,11 +107,6 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
     }
 }
 
-static void draw(const void *chart, struct gm_picture *picture)
-{
-    gm_sweep_chart_draw(chart, picture);
-}
-
 /* The picture of a table that is complete; its words are those of the sweep. */
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
@@ -128,8 +123,11 @@ static int paint(const struct gm_sweep *sweep, const struct gm_options *options,
     struct gm_options told = *options;
     told.arguments = *words;
     told.measure = sweep->measure;
-    return gm_command_chart(&told, "sweep", gm_arena_print(options->arena, "%.80s-sweep", sweep->scene->name),
-                            chart, draw, NULL);
+    return gm_command_chart(
+        &told, "sweep",
+        &(struct gm_chart){.name = gm_arena_print(options->arena, "%.80s-sweep", sweep->scene->name),
+                           .data = chart,
+                           .draw = gm_sweep_chart_draw});
 }
 
 static int make(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)

@@ -63,9 +63,7 @@ static void put_front(struct gm_row *row, const struct gm_grid *grid, const stru
 {
     const struct gm_timing *timing = grid->request.lanes[0].parameters;
     (void)line;
-    gm_row_text(row, "measure", grid->measure);
-    gm_row_text(row, "against", grid->reference);
-    gm_row_number(row, "until", timing->until, 17);
+    gm_row_put(row, "measure %s, against %s, until %.17g", grid->measure, grid->reference, timing->until);
 }
 
 static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
@@ -74,15 +72,14 @@ static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct
     for (size_t k = 0; k < 3; k++) {
         const double error = grid->errors[k];
         struct gm_row price = gm_row_open(&prices, NULL, '}');
-        gm_row_number(&price, "error", error, 17);
-        gm_row_number(&price, "seconds", gm_work_price(line, error, GM_COST_SECONDS), 17);
+        gm_row_put(&price, "error %.17g, seconds %.17g", error, gm_work_price(line, error, GM_COST_SECONDS));
         gm_row_number(&price, grid->parameter ? grid->parameter->key : "evaluations",
                       gm_work_second_price(grid, line, error), 17);
         gm_row_close(&price);
     }
     gm_row_close(&prices);
     if (line->reason[0]) {
-        gm_row_text(row, "reason", line->reason);
+        gm_row_put(row, "reason %s", line->reason);
     }
 }
 

@@ -87,12 +87,16 @@ static void save(struct gm_study *study, enum gm_theme theme)
     char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
     const char *study_name = gm_study_rows[study->kind]->name;
     char *command = gm_arguments_join(study_name, &study->arguments);
-    struct gm_chart chart = {
-        .name = name, .command = command, .print.look = {.width = 1920, .height = 1080, .theme = theme}};
+    struct gm_chart chart = {.name = name,
+                             .command = command,
+                             .print.look = {.width = 1920, .height = 1080, .theme = theme},
+                             .data = &study->grid,
+                             .draw = gm_grid_draw,
+                             .write = gm_grid_write};
     snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], study_name);
     gm_folder_free_file(kind, ".png", name, sizeof name);
     name[strlen(name) - strlen(".png")] = '\0';
-    const bool good = command && gm_chart_write(&chart, &study->grid, gm_grid_draw, gm_grid_write, message);
+    const bool good = command && gm_chart_write(&chart, message);
     free(command);
     if (good) {
         snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);

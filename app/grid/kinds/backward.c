@@ -188,21 +188,17 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
 static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number)
 {
     (void)grid;
-    gm_row_number(row, "dt", cell->dt, 17);
-    gm_row_text(row, "status", gm_status_name(cell->status));
-    gm_row_number(row, "t", cell->t, 17);
+    gm_row_put(row, "dt %.17g, status %s, t %.17g", cell->dt, gm_status_name(cell->status), cell->t);
     if (row->form == GM_ROW_JSON) {
         gm_row_list(row, "errors", cell->errors, GM_POWERS);
         gm_row_list(row, "terms", cell->terms, GM_POWERS);
-        gm_row_count(row, "best", cell->best);
+        gm_row_put(row, "best %i", cell->best);
     } else {
-        gm_row_count(row, "power", number);
-        gm_row_number(row, "error", cell->errors[number], 9);
-        gm_row_number(row, "term", cell->terms[number], 9);
+        gm_row_put(row, "power %i, error %.9g, term %.9g", number, cell->errors[number], cell->terms[number]);
     }
-    gm_row_number(row, "gamma", isfinite(cell->gamma) ? cell->gamma : NAN, 9);
+    gm_row_put(row, "gamma %.9g", isfinite(cell->gamma) ? cell->gamma : NAN);
     if (row->form == GM_ROW_JSON) {
-        gm_row_number(row, "drift", exp(-cell->gamma / (2 * cell->dt)), 17);
+        gm_row_put(row, "drift %.17g", exp(-cell->gamma / (2 * cell->dt)));
     }
 }
 

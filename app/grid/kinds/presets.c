@@ -58,8 +58,8 @@ void gm_grid_draw(const void *grid, struct gm_picture *picture)
     ((const struct gm_grid *)grid)->row->draw(grid, picture);
 }
 
-bool gm_grid_write(const void *grid, const char *path)
+void gm_grid_write(const void *grid, FILE *table)
 {
     const struct gm_study_row *row = ((const struct gm_grid *)grid)->row;
-    return (row->write ? row->write : gm_cells_write)(grid, path);
+    (row->write ? row->write : gm_cells_write)(grid, table);
 }

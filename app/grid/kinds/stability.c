@@ -181,17 +181,13 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     char judge[64];
     (void)number;
     gm_row_number(row, grid->parameter->key, cell->value, 17);
-    gm_row_number(row, "step", cell->step, 17);
-    gm_row_number(row, "dt", cell->dt, 17);
-    gm_row_text(row, "verdict", gm_cell_word(grid, cell));
-    gm_row_text(row, "status", gm_status_name(cell->status));
-    gm_row_number(row, "t", cell->t, 17);
-    gm_row_number(row, "ratio", isfinite(cell->ratio) ? cell->ratio : NAN, 9);
-    gm_row_number(row, "error", isfinite(cell->error) ? cell->error : NAN, 9);
+    gm_row_put(row, "step %.17g, dt %.17g, verdict %s, status %s, t %.17g, ratio %.9g, error %.9g",
+               cell->step, cell->dt, gm_cell_word(grid, cell), gm_status_name(cell->status), cell->t,
+               isfinite(cell->ratio) ? cell->ratio : NAN, isfinite(cell->error) ? cell->error : NAN);
     if (row->form != GM_ROW_JSON) {
         snprintf(judge, sizeof judge, grid->accuracy < INFINITY ? "%s=%.9g" : "%s", gm_stability_judge(grid),
                  grid->accuracy);
-        gm_row_text(row, "judge", judge);
+        gm_row_put(row, "judge %s", judge);
     }
 }
 
@@ -225,7 +221,8 @@ static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line
     double x[MOST_EDGES + 1], y[MOST_EDGES + 1];
     const struct gm_axis across =
         gm_chart_edges(grid->parameter->key, values->values, values->count, logarithmic, x);
-    const struct gm_axis up = gm_chart_edges(grid->plan->label, steps->values, steps->count, true, y);
+    /* the subtitle has the label of the steps: beside every map it would take the room of the ticks */
+    const struct gm_axis up = gm_chart_edges("", steps->values, steps->count, true, y);
     struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_STATE, line->scheme->title, &across, &up);
     const double limit = gm_stability_limit(grid, line);
     panel->note = limit > 0 ? gm_picture_text(picture, "%s up to %.3g", gm_stability_judge(grid), limit) : "";

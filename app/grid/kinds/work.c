@@ -334,7 +334,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     choose_resolutions(grid);
     /* one open lane shows which measure has a number and which schemes fit */
     const struct gm_lane *lane =
-        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+        gm_lane_in(grid->arena, gm_request_open_lane(&grid->request, 0, message), message);
     choose_measure(grid, lane);
     choose_schemes(grid, lane, is_typed(grid, "scheme"));
     gm_arena_drop(grid->arena, lane);
@@ -363,7 +363,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     }
     timing->dt = grid->reference_step;
     struct gm_lane *lane =
-        gm_grid_keep(grid, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
+        gm_lane_in(grid->arena, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
     lane->unfollowed = !lane->scene->stop;
     for (int percent = 0; percent < 100 && !gm_listener_stops(grid->listener); percent++) {
@@ -454,7 +454,7 @@ static void prepare(struct gm_grid *grid)
         return;
     }
     const struct gm_lane *lane =
-        gm_grid_keep(grid, gm_request_open_lane(&grid->request, 0, message), message);
+        gm_lane_in(grid->arena, gm_request_open_lane(&grid->request, 0, message), message);
     find_solution(grid, lane);
     gm_arena_drop(grid->arena, lane);
 }
@@ -610,15 +610,12 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     if (grid->parameter) {
         gm_row_number(row, grid->parameter->key, cell->value, 17);
     }
-    gm_row_number(row, "dt", cell->dt, 17);
-    gm_row_count(row, "steps", (double)cell->steps);
-    gm_row_number(row, "t", cell->t, 17);
-    gm_row_text(row, "status", gm_status_name(cell->status));
+    gm_row_put(row, "dt %.17g, steps %.0f, t %.17g, status %s", cell->dt, (double)cell->steps, cell->t,
+               gm_status_name(cell->status));
     gm_row_number(row, row->form == GM_ROW_HEAD ? grid->measure : "error",
                   isfinite(cell->error) ? cell->error : NAN, 17);
-    gm_row_number(row, "seconds", cell->seconds, 6);
-    gm_row_count(row, "evaluations", cell->evaluations);
-    gm_row_count(row, "solves", cell->solves);
+    gm_row_put(row, "seconds %.6g, evaluations %.0f, solves %.0f", cell->seconds, cell->evaluations,
+               cell->solves);
 }
 
 const struct gm_study_row gm_study_work = {.name = "work-precision",

@@ -478,8 +478,9 @@ static const char *fixed_words(const struct gm_sweep *sweep, struct gm_picture *
     return text;
 }
 
-void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture)
+void gm_sweep_chart_draw(const void *data, struct gm_picture *picture)
 {
+    const struct gm_sweep_chart *chart = data;
     const struct gm_sweep *sweep = chart->sweep;
     const size_t last = chart->key_count - 1;
     picture->title = gm_picture_text(picture, "%s: %s over %s%s%s", sweep->scene->title,

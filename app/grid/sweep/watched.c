@@ -76,19 +76,13 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
     gm_sweep_chart_draw(grid->chart, picture);
 }
 
-static bool write_table(const struct gm_grid *grid, const char *path)
+static void write_table(const struct gm_grid *grid, FILE *file)
 {
-    char from[PATH], block[1 << 14];
-    FILE *table = fopen(path_of(grid, from), "r"), *file = table ? fopen(path, "w") : NULL;
-    size_t got = 0;
-    bool good = file != NULL;
-    while (good && (got = fread(block, 1, sizeof block, table)) > 0) {
-        good = fwrite(block, 1, got, file) == got;
+    char block[1 << 14];
+    ssize_t got = 0;
+    for (off_t at = 0; (got = pread(grid->table, block, sizeof block, at)) > 0; at += got) {
+        fwrite(block, 1, (size_t)got, file);
     }
-    if (table) {
-        fclose(table);
-    }
-    return file && fclose(file) == 0 && good;
 }
 
 static char *pick(const struct gm_grid *grid, size_t panel, double x, double y)

@@ -9,7 +9,6 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/certify/quantities.h"
 #include "core/field/certify/runs.h"
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
@@ -23,7 +22,10 @@
 #include "core/field/user/form.h"
 #include "core/files/files.h"
 #include "core/model/equations.h"
+#include "core/quantity.h"
 #include "core/run.h"
+
+static const struct gm_settings no_settings;
 
 static unsigned facets(const struct gm_problem *problem)
 {
@@ -342,15 +344,6 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
-static void note_same(struct gm_certificate *certificate, const struct gm_field_subject *subject,
-                      const double *y)
-{
-    const struct gm_settings settings = {0};
-    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
-                                   GM_SAME_STEPS};
-    gm_certificate_note_same(certificate, &trial, y);
-}
-
 static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -371,7 +364,7 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
             gm_field_note_form(certificate, &subject, y, 1);
         }
         if (k == 0) {
-            note_same(certificate, &subject, y);
+            gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
         }
         if (k == 0 && equation->frames) {
             gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
@@ -475,7 +468,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     if (!failing) {
         certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
         gm_field_note_form(certificate, &subject, y, size);
-        note_same(certificate, &subject, y);
+        gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A state of a field on a line by names. */
-#include "core/field/certify/quantities.h"
-
 #include <stdio.h>
 
 #include "core/field/families/burgers.h"
 #include "core/field/families/heat.h"
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/field/problems/burgers.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 /* The velocity of the frame that an equation is seen from, and since when; false where its nodes do not
@@ -51,6 +50,9 @@ static struct gm_quantity *add(struct gm_quantity *end, const char *name, enum g
     return end + 1;
 }
 
+/* The field at the nodes of `grid`, and what else a state holds: u; the level of another time, u_other,
+   and that time less the current one, other_time; of a complex field its parts psi_re and psi_im; of
+   Burgers' equation in a moving frame the nodes' places x, and the companion u_companion. */
 size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     const struct gm_problem *problem = run->problem;

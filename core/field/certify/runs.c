@@ -12,7 +12,9 @@
 
 static const struct gm_settings no_settings;
 
-size_t gm_field_numbers(const struct gm_problem *problem)
+/* The number of values of the field in a state: u, or all components, without those that only a two-step
+   scheme holds. */
+static size_t numbers_of(const struct gm_problem *problem)
 {
     return problem->n == gm_wave_size(problem->line.points) ? problem->line.points : problem->n;
 }
@@ -20,7 +22,7 @@ size_t gm_field_numbers(const struct gm_problem *problem)
 double gm_field_size(const struct gm_problem *problem, const double *y)
 {
     double size = 1;
-    for (size_t i = 0; i < gm_field_numbers(problem); i++) {
+    for (size_t i = 0; i < numbers_of(problem); i++) {
         size = fmax(size, fabs(y[i]));
     }
     return size;
@@ -52,7 +54,7 @@ static bool moves(const struct gm_problem *problem, size_t component)
    problem's. */
 static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
 {
-    const size_t points = problem->line.points, components = gm_field_numbers(problem) / points;
+    const size_t points = problem->line.points, components = numbers_of(problem) / points;
     double largest = 0;
     for (size_t c = 0; c < components; c++) {
         for (size_t i = 0; i < points && moves(problem, c); i++) {
@@ -66,7 +68,7 @@ static double apart(const struct gm_problem *problem, const double *y, const dou
    levels. */
 static double return_defect(struct gm_field_subject *subject, const double *y)
 {
-    const size_t numbers = gm_field_numbers(&subject->problem);
+    const size_t numbers = numbers_of(&subject->problem);
     double *first = malloc(numbers * sizeof *first), largest = INFINITY;
     if (first && gm_field_begin(subject, y)) {
         gm_run_advance(subject->run, 1);

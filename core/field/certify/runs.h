@@ -17,10 +17,6 @@ struct gm_field_subject {
     struct gm_run *run; /* opened by gm_field_begin; the caller closes it */
 };
 
-/* The number of values of the field in a state: u, or all components, without those that only a two-step
-   scheme holds. */
-size_t gm_field_numbers(const struct gm_problem *problem);
-
 /* The largest magnitude of the field; 1 if it is less. */
 double gm_field_size(const struct gm_problem *problem, const double *y);
 

@@ -10,10 +10,10 @@
 
 #include "core/certify.h"
 #include "core/flow/boundary.h"
-#include "core/flow/certify/quantities.h"
 #include "core/flow/families/families.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 enum { EDGES = 6, STRIPS = 8, MOST = EDGES * STRIPS, STATE = GM_FLOW_BLOCKS * MOST + 1 };

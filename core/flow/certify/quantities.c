@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A flow's mesh and state by names. */
-#include "core/flow/certify/quantities.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/flow/flow.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 static const struct gm_flow *flow_of(const struct gm_run *run)
@@ -64,6 +63,10 @@ static void tracer_y(const struct gm_run *run, double *values)
     tracers(run, values, GM_TRACER_Y);
 }
 
+/* The arrays of a run. The complex: points and triangles. At its vertices: stream_function, vorticity and,
+   if it is carried, scalar. On its triangles: velocity and, with a boundary, pressure: the total pressure
+   over the density, of mean 0, after the last step, and NaN before the first one. The tracers: tracer_x
+   and tracer_y. */
 size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     const struct gm_flow *flow = flow_of(run);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
+
 bool gm_ring_newton_open(struct gm_ring_newton *newton, size_t count, size_t parts, size_t reach)
 {
     const size_t n = count * parts;
@@ -30,8 +32,7 @@ static double largest(const double *x, size_t n)
 {
     double most = 0;
     for (size_t i = 0; i < n; i++) {
-        const double size = fabs(x[i]);
-        most = size > most || isnan(size) ? size : most;
+        most = gm_larger(fabs(x[i]), most);
     }
     return most;
 }

@@ -7,11 +7,10 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/mesh/certify/law.h"
-#include "core/mesh/certify/quantities.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
@@ -200,12 +199,12 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     certificate->order_problem = name;
     certificate->order_reason = isnan(certificate->order)
-                                    ? "differences between runs of steps from 2 dt down do not "
-                                      "stand clear of round-off, or a run fails"
+                                    ? "differences between runs with steps from 2 dt down "
+                                      "are not clear of round-off, or a run fails"
                                     : NULL;
     certificate->order_holds = !(certificate->order <= scheme->order - 0.15);
     gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
-                            scheme->family->adaptive ? "the scheme chooses its steps"
+                            scheme->family->adaptive ? "the scheme is adaptive"
                                                      : "the law is measured on 3 nodes: points=3");
     gm_certificate_withhold_all(certificate, scheme->claims, "it means nothing of waves on moving meshes");
 }

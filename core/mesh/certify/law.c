@@ -14,7 +14,7 @@
    before, the multipliers the best that the places allow: nothing is taken from the scheme but where the
    nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
    S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
-#include "core/mesh/certify/law.h"
+#include "core/mesh/certify/subject.h"
 
 #include <math.h>
 #include <stddef.h>

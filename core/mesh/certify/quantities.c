@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A state on a moving mesh by names. */
-#include "core/mesh/certify/quantities.h"
-
 #include <stdio.h>
 
 #include "core/basics.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
+/* At the nodes between the ends: the field u, their places x, and the velocities of both, u_dot (following
+   the node) and x_dot. */
 size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     static const char *const names[] = {"u", "x", "u_dot", "x_dot"};

@@ -47,4 +47,7 @@ typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
 
+/* The defect of the local law that core/mesh/certify/law.c states; NaN if it does not apply. */
+double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt);
+
 #endif

@@ -38,7 +38,7 @@ static void guess(const struct gm_mesh_solver *solver, double *unknowns)
 
 static bool residual(struct gm_mesh_solver *solver, const double *unknowns, double *out)
 {
-    const struct gm_tableau *tableau = solver->row->tableau;
+    const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
     const size_t per_stage = solver->row->strategy->unknowns;
     for (size_t i = 0; i < stages; i++) {
@@ -85,7 +85,7 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
    and X in one block, Xdot in another. The odd columns, of X, exist only if the mesh moves. */
 static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *assembly)
 {
-    const struct gm_tableau *tableau = solver->row->tableau;
+    const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t stages = solver->stages, per_stage = solver->row->strategy->unknowns;
     const bool constrained = moves(solver);
     const double h = solver->h;
@@ -134,7 +134,7 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
 static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier)
 {
     (void)multiplier;
-    const struct gm_tableau *tableau = solver->row->tableau;
+    const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages;
     struct gm_elements *ends = &solver->ends;
     for (size_t k = 1; k <= points; k++) {

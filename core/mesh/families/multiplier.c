@@ -59,7 +59,7 @@ static void force(const struct gm_elements *stage, const double *restrict slack,
 
 static bool residual(struct gm_mesh_solver *solver, const double *unknowns, double *out)
 {
-    const struct gm_tableau *tableau = solver->row->tableau;
+    const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
     const double h = solver->h, *state = solver->state;
     gm_nodes_spread(unknowns, points, per_node, 2 * stages, solver->slack);
@@ -120,7 +120,7 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
 static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *assembly)
 {
     const struct gm_mesh_row *row = solver->row;
-    const struct gm_tableau *tableau = row->tableau;
+    const struct gm_mesh_tableau *tableau = row->tableau;
     const size_t e = assembly->element, stages = solver->stages;
     const double h = solver->h;
     struct gm_element_matrices at[GM_STAGES];

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/basics.h"
+#include "core/arena.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/ode/ode.h"
@@ -23,7 +23,8 @@ enum {
 };
 
 struct gm_modified_energy {
-    size_t n; /* active components: q, then p */
+    struct gm_arena *arena; /* owns all of this */
+    size_t n;               /* active components: q, then p */
     int power;
     double weight; /* w */
     struct gm_modified modified;
@@ -37,54 +38,72 @@ struct gm_modified_energy {
 
 /* ---- derivatives of the formula ---- */
 
+/* A Hamiltonian that is opened, in an arena's body. */
+struct opening {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    int power;
+    struct gm_modified_energy *energy;
+    struct gm_formula graph;
+    int most;  /* the most branches of a term */
+    char *why; /* the reason if the body is left; empty: out of memory */
+};
+
 /* nodes := their derivatives along a further vector, number m from 1 */
-static bool differentiate(struct gm_formula *graph, gm_node_id *nodes, size_t count, size_t n, size_t m)
+static void differentiate(struct opening *opening, gm_node_id *nodes, size_t count, size_t m)
 {
-    gm_node_id *direction = malloc((n + 1) * sizeof *direction);
-    for (size_t i = 0; direction && i < n; i++) {
+    struct gm_formula *graph = &opening->graph;
+    const size_t n = opening->energy->n;
+    gm_node_id *direction = gm_arena_take(opening->energy->arena, n + 1, sizeof *direction);
+    for (size_t i = 0; i < n; i++) {
         direction[i] = gm_formula_variable(graph, m * n + i);
     }
-    graph->failed |= !direction;
     for (size_t i = 0; i < count && !graph->failed; i++) {
         nodes[i] = gm_derivative_along(graph, nodes[i], direction, n);
     }
-    free(direction);
-    return !graph->failed;
+    gm_arena_need(opening->energy->arena, !graph->failed);
 }
 
-/* tapes[m] := D^m of the nodes, m = first .. last */
-static bool open_tapes(struct gm_tape *tapes, int last, struct gm_formula *graph, gm_node_id *nodes,
-                       size_t count, size_t n, bool *too_long)
+/* tapes[m] := D^m of the nodes, m = 0 .. last */
+static void open_tapes(struct opening *opening, struct gm_tape *tapes, int last, gm_node_id *nodes,
+                       size_t count)
 {
-    double *none = calloc((size_t)GM_MODIFIED_ORDER * n, sizeof *none); /* no variable is a constant */
-    bool good = none != NULL;
-    for (int m = 0; good && m <= last; m++) {
-        good = m == 0 || differentiate(graph, nodes, count, n, (size_t)m);
-        *too_long = good && graph->count > MOST_NODES;
-        good = good && !*too_long && gm_tape_open(&tapes[m], graph, nodes, count, (size_t)(m + 1) * n, none);
+    struct gm_formula *graph = &opening->graph;
+    struct gm_arena *arena = opening->energy->arena;
+    const size_t n = opening->energy->n;
+    /* no variable is a constant */
+    const double *none = gm_arena_take(arena, (size_t)GM_MODIFIED_ORDER * n, sizeof *none);
+    for (int m = 0; m <= last; m++) {
+        if (m > 0) {
+            differentiate(opening, nodes, count, (size_t)m);
+        }
+        if (graph->count > MOST_NODES) {
+            snprintf(opening->why, GM_MODIFIED_WHY,
+                     "the derivatives of H up to order %d are too long to be worked out", opening->most);
+            gm_arena_leave(arena);
+        }
+        gm_tape_keep(arena, &tapes[m],
+                     gm_tape_open(&tapes[m], graph, nodes, count, (size_t)(m + 1) * n, none));
     }
-    free(none);
-    return good;
 }
 
 /* f = (dK/dp, -dK/dq) */
-static bool field_of(struct gm_formula *graph, gm_node_id energy, size_t n, gm_node_id *field)
+static gm_node_id *field_of(struct opening *opening, gm_node_id energy)
 {
-    const size_t half = n / 2;
-    gm_node_id *gradient = malloc((n + 1) * sizeof *gradient);
-    bool *marked = malloc(n + 1);
-    bool good = gradient && marked;
-    if (good) {
-        memset(marked, true, n);
-        good = gm_gradient(graph, energy, marked, n, gradient);
-    }
-    for (size_t i = 0; good && i < half; i++) {
+    struct gm_formula *graph = &opening->graph;
+    struct gm_arena *arena = opening->energy->arena;
+    const size_t n = opening->energy->n, half = n / 2;
+    gm_node_id *gradient = gm_arena_take(arena, n + 1, sizeof *gradient),
+               *field = gm_arena_take(arena, n + 1, sizeof *field);
+    bool *marked = gm_arena_take(arena, n + 1, sizeof *marked);
+    memset(marked, true, n);
+    gm_arena_need(arena, gm_gradient(graph, energy, marked, n, gradient));
+    for (size_t i = 0; i < half; i++) {
         field[i] = gradient[half + i];
         field[half + i] = gm_formula_apply(graph, GM_OPERATION_NEGATE, gradient[i], gradient[i]);
     }
-    free(gradient);
-    free(marked);
-    return good && !graph->failed;
+    gm_arena_need(arena, !graph->failed);
+    return field;
 }
 
 static bool is_smooth(const struct gm_formula *graph, gm_node_id node)
@@ -114,30 +133,36 @@ static int branches_of(const struct gm_trees *trees, int tree, int branches[MOST
 
 /* ---- from a problem and a scheme ---- */
 
-/* Finds the terms from the scheme's coefficients; false with the reason. */
-static bool open_terms(struct gm_modified_energy *energy, const struct gm_scheme *scheme,
-                       char why[GM_MODIFIED_WHY])
+static void close_modified(void *modified)
 {
+    gm_modified_close(modified);
+}
+
+/* Finds the terms from the scheme's coefficients. */
+static void open_terms(struct opening *opening)
+{
+    struct gm_modified_energy *energy = opening->energy;
+    const char *title = opening->scheme->title;
     struct gm_coefficients coefficients;
-    if (!gm_scheme_coefficients_open(scheme, &coefficients)) {
-        snprintf(why, GM_MODIFIED_WHY,
+    gm_arena_keep(energy->arena, &energy->modified, close_modified);
+    if (!gm_scheme_coefficients_open(opening->scheme, &coefficients)) {
+        snprintf(opening->why, GM_MODIFIED_WHY,
                  "what %.80s solves is not worked out: it is no Runge-Kutta method, splitting or composition",
-                 scheme->title);
-        return false;
+                 title);
+        gm_arena_leave(energy->arena);
     }
     gm_coefficients_reduce(&coefficients);
-    const bool symplectic = gm_theory_is_symplectic(&coefficients), nystrom = coefficients.nystrom > 0;
-    const bool good =
-        symplectic && !nystrom && gm_modified_open(&energy->modified, &coefficients, energy->power + 1);
-    gm_coefficients_close(&coefficients);
-    if (!symplectic) {
-        snprintf(why, GM_MODIFIED_WHY,
-                 "%.80s is not symplectic: the equation that it solves has no Hamiltonian", scheme->title);
-    } else if (nystrom) {
-        snprintf(why, GM_MODIFIED_WHY, "what a Nystrom method solves is not worked out");
+    if (!gm_theory_is_symplectic(&coefficients)) {
+        snprintf(opening->why, GM_MODIFIED_WHY,
+                 "%.80s is not symplectic: the equation that it solves has no Hamiltonian", title);
+    } else if (coefficients.nystrom > 0) {
+        snprintf(opening->why, GM_MODIFIED_WHY, "what a Nystrom method solves is not worked out");
     }
+    const bool good =
+        !opening->why[0] && gm_modified_open(&energy->modified, &coefficients, energy->power + 1);
+    gm_coefficients_close(&coefficients);
     if (!good) {
-        return false;
+        gm_arena_leave(energy->arena);
     }
     int branches[MOST_BRANCHES];
     for (size_t i = 0; i < energy->modified.count; i++) {
@@ -145,41 +170,51 @@ static bool open_terms(struct gm_modified_energy *energy, const struct gm_scheme
     }
     const int order = (energy->power + 1) / 2;
     energy->differentials = order > 0 ? energy->modified.trees.first[order + 1] : 0;
-    return true;
 }
 
-static bool open_formula(struct gm_modified_energy *energy, const struct gm_problem *problem,
-                         char why[GM_MODIFIED_WHY])
+static void open_formula(struct opening *opening)
 {
-    const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
-    const size_t n = energy->n;
-    struct gm_formula graph;
-    gm_node_id node = GM_NO_NODE, *field = malloc((n + 1) * sizeof *field);
-    gm_formula_open(&graph);
-    bool good = field && hamiltonian->formula(problem, &graph, &node), too_long = false;
-    if (good && !is_smooth(&graph, node)) {
-        snprintf(why, GM_MODIFIED_WHY, "H is not smooth: it has no further derivatives");
-        good = false;
+    struct gm_modified_energy *energy = opening->energy;
+    struct gm_formula *graph = &opening->graph;
+    const struct gm_hamiltonian *hamiltonian = gm_ode_of(opening->problem)->hamiltonian;
+    gm_node_id node = GM_NO_NODE;
+    gm_arena_need(energy->arena, hamiltonian->formula(opening->problem, graph, &node));
+    if (!is_smooth(graph, node)) {
+        snprintf(opening->why, GM_MODIFIED_WHY, "H is not smooth: it has no further derivatives");
+        gm_arena_leave(energy->arena);
     }
-    if (good) {
-        energy->weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
-        node = gm_product(&graph, gm_formula_constant(&graph, energy->weight), node);
-        good = !graph.failed && field_of(&graph, node, n, field);
-    }
-    int most = 0;
+    energy->weight = hamiltonian->weight ? hamiltonian->weight(opening->problem) : 1;
+    node = gm_product(graph, gm_formula_constant(graph, energy->weight), node);
+    gm_arena_need(energy->arena, !graph->failed);
+    gm_node_id *field = field_of(opening, node);
     for (int m = 0; m < GM_MODIFIED_ORDER; m++) {
-        most = energy->with[m] > 0 ? m : most;
+        opening->most = energy->with[m] > 0 ? m : opening->most;
     }
-    good = good && open_tapes(energy->hamiltonian, most, &graph, &node, 1, n, &too_long) &&
-           (energy->differentials == 0 ||
-            open_tapes(energy->field, (energy->power + 1) / 2 - 1, &graph, field, n, n, &too_long));
-    if (too_long) {
-        snprintf(why, GM_MODIFIED_WHY, "the derivatives of H up to order %d are too long to be worked out",
-                 most);
+    open_tapes(opening, energy->hamiltonian, opening->most, &node, 1);
+    if (energy->differentials > 0) {
+        open_tapes(opening, energy->field, (energy->power + 1) / 2 - 1, field, energy->n);
     }
-    gm_formula_close(&graph);
-    free(field);
-    return good;
+}
+
+static void open_energy(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    struct gm_modified_energy *energy = opening->energy = gm_arena_take(arena, 1, sizeof *energy);
+    energy->arena = arena;
+    energy->n = opening->problem->n - 2 * opening->problem->passive;
+    energy->power = opening->power;
+    open_terms(opening);
+    open_formula(opening);
+    size_t widest = energy->n, longest = energy->n; /* F is found one by one */
+    for (int m = 0; m < GM_MODIFIED_ORDER; m++) {
+        longest = energy->with[m] > longest ? energy->with[m] : longest;
+        const size_t width = (size_t)(m + 1) * energy->n * (energy->with[m] ? energy->with[m] : 1);
+        widest = width > widest ? width : widest;
+    }
+    energy->vectors =
+        gm_arena_take(arena, ((size_t)energy->differentials + 1) * energy->n, sizeof *energy->vectors);
+    energy->inputs = gm_arena_take(arena, widest, sizeof *energy->inputs);
+    energy->values = gm_arena_take(arena, longest, sizeof *energy->values);
 }
 
 struct gm_modified_energy *gm_modified_energy_open(const struct gm_problem *problem,
@@ -195,48 +230,22 @@ struct gm_modified_energy *gm_modified_energy_open(const struct gm_problem *prob
                              : "there is no Hamiltonian in canonical variables that stands still");
         return NULL;
     }
-    struct gm_modified_energy *energy = calloc(1, sizeof *energy);
-    if (!energy) {
-        return NULL;
+    struct gm_arena *arena = gm_arena_open();
+    struct opening opening = {.problem = problem, .scheme = scheme, .power = power, .why = why};
+    gm_formula_open(&opening.graph);
+    const bool opened = gm_arena_run(arena, open_energy, &opening);
+    gm_formula_close(&opening.graph);
+    if (!opened) {
+        gm_arena_close(arena);
     }
-    energy->n = problem->n - 2 * problem->passive;
-    energy->power = power;
-    bool good = open_terms(energy, scheme, why) && open_formula(energy, problem, why);
-    if (good) {
-        size_t widest = energy->n, longest = energy->n; /* F is found one by one */
-        for (int m = 0; m < GM_MODIFIED_ORDER; m++) {
-            longest = energy->with[m] > longest ? energy->with[m] : longest;
-            const size_t width = (size_t)(m + 1) * energy->n * (energy->with[m] ? energy->with[m] : 1);
-            widest = width > widest ? width : widest;
-        }
-        energy->vectors = malloc(((size_t)energy->differentials + 1) * energy->n * sizeof *energy->vectors);
-        energy->inputs = malloc(widest * sizeof *energy->inputs);
-        energy->values = malloc(longest * sizeof *energy->values);
-        good = energy->vectors && energy->inputs && energy->values;
-    }
-    if (!good) {
-        gm_modified_energy_close(energy);
-        energy = NULL;
-    }
-    return energy;
+    return opened ? opening.energy : NULL;
 }
 
 void gm_modified_energy_close(struct gm_modified_energy *energy)
 {
-    if (!energy) {
-        return;
+    if (energy) {
+        gm_arena_close(energy->arena);
     }
-    for (size_t m = 0; m < GM_COUNT(energy->field); m++) {
-        gm_tape_close(&energy->field[m]);
-    }
-    for (size_t m = 0; m < GM_COUNT(energy->hamiltonian); m++) {
-        gm_tape_close(&energy->hamiltonian[m]);
-    }
-    gm_modified_close(&energy->modified);
-    free(energy->vectors);
-    free(energy->inputs);
-    free(energy->values);
-    free(energy);
 }
 
 /* ---- in a state ---- */

@@ -11,11 +11,11 @@
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/ode/certify/measure.h"
-#include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
+#include "core/quantity.h"
 
 static unsigned facets_of_bracket(const struct gm_poisson *poisson)
 {
@@ -302,6 +302,8 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
             gm_certificate_withhold(certificate, claim, claims[i].otherwise);
         }
     }
+    const struct gm_settings settings = gm_subject_settings(subject->dt);
+    gm_certificate_note_same(certificate, &subject->problem, &settings, subject->dt, subject->start);
 }
 
 /* Leaves satisfied claims undecided on a system that is not smooth: the few steps may all lie on one side of
@@ -319,14 +321,6 @@ static void doubt(struct gm_certificate *certificate)
     }
 }
 
-static void note_same(struct gm_certificate *certificate, const struct gm_subject *subject)
-{
-    const struct gm_settings settings = gm_subject_settings(subject->dt);
-    const struct gm_trial trial = {&subject->problem, certificate->scheme, &settings, subject->dt,
-                                   GM_SAME_STEPS};
-    gm_certificate_note_same(certificate, &trial, subject->start);
-}
-
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -342,7 +336,6 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
     measure(certificate, &subject);
-    note_same(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
@@ -369,7 +362,6 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
         struct gm_subject subject;
         if (gm_subject_open(&subject, i, scheme)) {
             measure(certificate, &subject);
-            note_same(certificate, &subject);
         }
         gm_subject_close(&subject);
     }

@@ -18,8 +18,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 
-enum { STAGES = GM_IMPLICIT_STAGES };
-_Static_assert((int)GM_EXPLICIT_STAGES <= (int)STAGES, "room for every tableau");
+enum { STAGES = GM_TABLEAU_STAGES };
 
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 {
@@ -93,21 +92,21 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
 }
 
 /* R(z) = 1 + z b k of one tableau, (1 - z A) k = 1. */
-static double complex stability_function(int stages, const double *a, size_t row, const double *b,
-                                         double complex z)
+static double complex stability_function(const struct gm_tableau *tableau, double complex z)
 {
+    const int stages = tableau->stages;
     double complex matrix[STAGES * STAGES], k[STAGES], sum = 1;
     for (int i = 0; i < stages; i++) {
         k[i] = 1;
         for (int j = 0; j < stages; j++) {
-            matrix[i * stages + j] = (i == j ? 1 : 0) - z * a[(size_t)i * row + (size_t)j];
+            matrix[i * stages + j] = (i == j ? 1 : 0) - z * tableau->a[i][j];
         }
     }
     if (!gm_complex_eliminate((size_t)stages, matrix, k)) {
         return INFINITY; /* a pole */
     }
     for (int i = stages - 1; i >= 0; i--) {
-        sum += z * b[i] * k[i];
+        sum += z * tableau->b[i] * k[i];
     }
     return sum;
 }
@@ -136,15 +135,13 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 {
     const double complex z = re + im * I;
     if (scheme->family == &gm_family_explicit) {
-        const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(scheme->coefficients);
-        return cabs(stability_function(tableau->stages, tableau->a[0], GM_EXPLICIT_STAGES, tableau->b, z));
+        return cabs(stability_function(scheme->coefficients, z));
     }
     if (scheme->family == &gm_family_implicit) {
-        const struct gm_implicit_row *row = scheme->coefficients;
+        const struct gm_tableau *row = scheme->coefficients;
         double complex product = 1;
         for (int i = 0; i < row->composition->steps; i++) {
-            product *= stability_function(row->stages, row->a[0], GM_IMPLICIT_STAGES, row->b,
-                                          gm_composition_fraction(row->composition, i) * z);
+            product *= stability_function(row, gm_composition_fraction(row->composition, i) * z);
         }
         return cabs(product);
     }

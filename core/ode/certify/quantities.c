@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A state of a system by the names of its components: each an array, or a list of them an array. */
-#include "core/ode/certify/quantities.h"
-
 #include <stdio.h>
 #include <string.h>
 
 #include "core/ode/ode.h"
+#include "core/quantity.h"
 #include "core/run.h"
 
 /* Reads "q1 q2 p1 p2" or, with lists, "x[] y[]"; `lists` is how many of the names are lists. */
@@ -42,6 +41,7 @@ static void mark_axes(const struct gm_problem *problem, struct gm_quantity *quan
     }
 }
 
+/* The components of a system by their names (struct gm_ode), and its tracers. */
 size_t gm_ode_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     const struct gm_problem *problem = run->problem;

@@ -15,41 +15,37 @@
 static const double strength = 2;
 static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
 
-/* Quantities that a motion conserves, as sums of factor y_first y_second, or factor y_first alone; a factor 0 ends one. */
-enum { ALONE = -1 };
+/* Quantities that a motion conserves, as sums of factor y_first y_second, or factor y_first alone, for `count` of each,
+   one after the other; of at most TERMS terms. */
+enum { ALONE = -1, TERMS = 3 };
 struct term {
     double factor;
-    int first, second;
+    int first, second, count;
 };
 
 static double sum_of_terms(const void *data, const double *y, const double *memory)
 {
     (void)memory;
     double sum = 0;
-    for (const struct term *term = data; term->factor != 0; term++) {
-        sum += term->factor * y[term->first] * (term->second == ALONE ? 1 : y[term->second]);
+    for (const struct term *term = data, *end = term + TERMS; term < end; term++) {
+        for (int k = 0; k < term->count; k++) {
+            sum += term->factor * y[term->first + k] * (term->second == ALONE ? 1 : y[term->second + k]);
+        }
     }
     return sum;
 }
 
-static const struct term momentum[] = {{1, 2, ALONE}, {1, 3, ALONE}, {0, 0, 0}};
-static const struct term angular_momentum[] = {{1, 0, 3}, {-1, 1, 2}, {0, 0, 0}};
-static const struct term vertical_momentum[] = {{1, 0, 4}, {-1, 1, 3}, {0, 0, 0}};
-static const struct term circle[] = {{0.5, 0, 0}, {0.5, 1, 1}, {0, 0, 0}};
-static const struct term sphere[] = {{0.5, 0, 0}, {0.5, 1, 1}, {0.5, 2, 2}, {0, 0, 0}};
-static const struct term ellipsoid[] = {{0.25, 0, 0}, {0.5, 1, 1}, {0.75, 2, 2}, {0, 0, 0}};
-static const struct term impulse_x[] = {
-    {1, 0, ALONE}, {1, 1, ALONE}, {1, 2, ALONE}, {1, 3, ALONE}, {0, 0, 0}};
-static const struct term impulse_y[] = {
-    {1, 4, ALONE}, {1, 5, ALONE}, {1, 6, ALONE}, {1, 7, ALONE}, {0, 0, 0}};
-static const struct term angular_impulse[] = {{1, 0, 0}, {1, 1, 1}, {1, 2, 2}, {1, 3, 3}, {1, 4, 4},
-                                              {1, 5, 5}, {1, 6, 6}, {1, 7, 7}, {0, 0, 0}};
-static const struct term ring_sum[] = {
-    {1, 0, ALONE}, {1, 1, ALONE}, {1, 2, ALONE}, {1, 3, ALONE},  {1, 4, ALONE},  {1, 5, ALONE}, {1, 6, ALONE},
-    {1, 7, ALONE}, {1, 8, ALONE}, {1, 9, ALONE}, {1, 10, ALONE}, {1, 11, ALONE}, {0, 0, 0}};
-static const struct term ring_square[] = {{1, 0, 0},   {1, 1, 1},   {1, 2, 2}, {1, 3, 3}, {1, 4, 4},
-                                          {1, 5, 5},   {1, 6, 6},   {1, 7, 7}, {1, 8, 8}, {1, 9, 9},
-                                          {1, 10, 10}, {1, 11, 11}, {0, 0, 0}};
+static const struct term momentum[TERMS] = {{1, 2, ALONE, 2}};
+static const struct term angular_momentum[TERMS] = {{1, 0, 3, 1}, {-1, 1, 2, 1}};
+static const struct term vertical_momentum[TERMS] = {{1, 0, 4, 1}, {-1, 1, 3, 1}};
+static const struct term circle[TERMS] = {{0.5, 0, 0, 2}};
+static const struct term sphere[TERMS] = {{0.5, 0, 0, 3}};
+static const struct term ellipsoid[TERMS] = {{0.25, 0, 0, 1}, {0.5, 1, 1, 1}, {0.75, 2, 2, 1}};
+static const struct term impulse_x[TERMS] = {{1, 0, ALONE, 4}};
+static const struct term impulse_y[TERMS] = {{1, 4, ALONE, 4}};
+static const struct term angular_impulse[TERMS] = {{1, 0, 0, 8}};
+static const struct term ring_sum[TERMS] = {{1, 0, ALONE, 12}};
+static const struct term ring_square[TERMS] = {{1, 0, 0, 12}};
 
 #define FPU_START                                                                                            \
     {                                                                                                        \

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compositions of any schemes,
        y1 = Phi_s(g_s h) o ... o Phi_1(g_1 h) (y0),
-   with the loops of these schemes. The family has no rows: they are user-defined. Hairer, Lubich & Wanner
-   (2006), sections II.4, V.3. */
+   with the loops of these schemes; after a step a state may be projected onto its constraints. The family has
+   no rows: they are user-defined. Hairer, Lubich & Wanner (2006), sections II.4, V.3. */
 #include "core/ode/families/composition.h"
 
 #include <stdlib.h>
@@ -10,10 +10,14 @@
 
 #include "core/kind.h"
 #include "core/ode/families/families.h"
+#include "core/ode/variational/manifold.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
 struct workspace {
-    double *state, *carry; /* n * m each */
+    const struct gm_substeps *substeps;
+    struct gm_substeps *projected; /* the substeps, if a state is projected after them; else NULL */
+    double *state, *carry;         /* n * m each */
+    double *member;                /* n: one that is projected */
     int count;
     const struct gm_family **families; /* the substeps' families; NULL: shares an earlier workspace */
     void **workspaces;
@@ -26,7 +30,7 @@ bool gm_scheme_composes(const struct gm_scheme *scheme)
            !family->not_resumable;
 }
 
-static void workspace_close(void *data)
+void gm_composition_close(void *data)
 {
     struct workspace *workspace = data;
     if (!workspace) {
@@ -37,21 +41,25 @@ static void workspace_close(void *data)
             workspace->families[i]->workspace_close(workspace->workspaces[i]);
         }
     }
+    free(workspace->projected);
     free(workspace->families);
     free(workspace->workspaces);
     free(workspace->state);
     free(workspace);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+void *gm_composition_open(const struct gm_problem *problem, const struct gm_substeps *substeps,
+                          struct gm_substeps *projected)
 {
-    const struct gm_substeps *substeps = scheme->coefficients;
     const size_t count = problem->n * problem->m, parts = (size_t)substeps->count;
     struct workspace *workspace = calloc(1, sizeof *workspace);
     if (!workspace) {
+        free(projected);
         return NULL;
     }
-    workspace->state = malloc(2 * count * sizeof(double));
+    workspace->substeps = substeps;
+    workspace->projected = projected;
+    workspace->state = malloc((2 * count + problem->n) * sizeof(double));
     workspace->families = calloc(parts, sizeof(*workspace->families));
     workspace->workspaces = calloc(parts, sizeof *workspace->workspaces);
     bool good = workspace->state && workspace->families && workspace->workspaces;
@@ -69,11 +77,17 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         }
     }
     if (!good) {
-        workspace_close(workspace);
+        gm_composition_close(workspace);
         return NULL;
     }
     workspace->carry = workspace->state + count;
+    workspace->member = workspace->carry + count;
     return workspace;
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    return gm_composition_open(problem, scheme->coefficients, NULL);
 }
 
 static void workspace_reset(void *data)
@@ -86,10 +100,26 @@ static void workspace_reset(void *data)
     }
 }
 
-static struct gm_progress loop(const struct gm_task *task)
+/* Projects all members of a state onto the constraints. Returns false if one has no solution. */
+static bool project(const struct gm_problem *problem, double *member, double *y)
 {
-    const struct gm_substeps *substeps = task->scheme->coefficients;
+    bool good = true;
+    for (size_t l = 0; l < problem->m && good; l++) {
+        for (size_t c = 0; c < problem->n; c++) {
+            member[c] = y[c * problem->m + l];
+        }
+        good = gm_manifold_project(problem, member);
+        for (size_t c = 0; c < problem->n; c++) {
+            y[c * problem->m + l] = member[c];
+        }
+    }
+    return good;
+}
+
+struct gm_progress gm_composition_loop(const struct gm_task *task)
+{
     const struct workspace *workspace = task->workspace;
+    const struct gm_substeps *substeps = workspace->substeps;
     const size_t bytes = task->problem->n * task->problem->m * sizeof(double);
     struct gm_progress progress = {.status = GM_OK};
     struct gm_task substep = *task;
@@ -112,13 +142,17 @@ static struct gm_progress loop(const struct gm_task *task)
             progress.evaluations += made.evaluations;
             progress.solves += made.solves;
             progress.iterations += made.iterations;
+            progress.unsolved = made.unsolved;
             if (made.done < 1) {
                 progress.status = made.status;
-                progress.unsolved = made.unsolved;
                 return progress;
             }
             substep.y = substep.out;
             substep.carry = substep.carry_out;
+        }
+        if (workspace->projected && !project(task->problem, workspace->member, substep.out)) {
+            progress.status = GM_NO_CONVERGENCE;
+            return progress;
         }
     }
     if (substep.y != task->out) {
@@ -132,9 +166,9 @@ static struct gm_progress loop(const struct gm_task *task)
 
 #define COMPOSITION(passive)                                                                                 \
     {                                                                                                        \
-        .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums, .loop = loop,       \
-        .carries_passive = passive, .workspace_open = workspace_open, .workspace_close = workspace_close,    \
-        .workspace_reset = workspace_reset,                                                                  \
+        .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums,                     \
+        .loop = gm_composition_loop, .carries_passive = passive, .workspace_open = workspace_open,           \
+        .workspace_close = gm_composition_close, .workspace_reset = workspace_reset,                         \
     }
 const struct gm_family gm_family_composition = COMPOSITION(false);
 const struct gm_family gm_family_composition_carrying = COMPOSITION(true);

@@ -38,38 +38,48 @@ static const struct {
 /* Scratch arrays of n doubles, then the scratch of the solvers. */
 enum { D, AT, F, VECTORS };
 
+/* One step, or one substep of a composition. */
+struct substep {
+    const struct gm_task *task;
+    const struct gm_members *members;
+    double h;
+    struct gm_progress *progress;
+};
+
 /* mean := the discrete f between y and y + d. Returns the level of its round-off, times |d| / |f|. */
-typedef double mean_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
-                          double *at, double *f, struct gm_progress *progress);
+typedef double mean_field(const struct substep *substep, const double *d, double *mean);
 
 struct method {
     mean_field *mean;
     const struct gm_composition *composition;
 };
 
-static double average_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
-                            double *at, double *f, struct gm_progress *progress)
+static double average_field(const struct substep *substep, const double *d, double *mean)
 {
-    const size_t n = problem->n;
+    const size_t n = substep->members->n;
+    const double *y = substep->members->y;
+    double *at = substep->members->scratch + AT * n, *f = substep->members->scratch + F * n;
     memset(mean, 0, n * sizeof *mean);
     for (int k = 0; k < NODES; k++) {
         for (size_t c = 0; c < n; c++) {
             at[c] = y[c] + quadrature[k].node * d[c];
         }
-        gm_field(problem, at, f, 1);
+        gm_field(substep->task->problem, at, f, 1);
         for (size_t c = 0; c < n; c++) {
             mean[c] += quadrature[k].weight * f[c];
         }
     }
-    progress->evaluations += NODES;
+    substep->progress->evaluations += NODES;
     return 0;
 }
 
 /* f at the midpoint is S g, S = w J, and so g = (-f_p, f_q) / w. */
-static double gradient_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
-                             double *at, double *f, struct gm_progress *progress)
+static double gradient_field(const struct substep *substep, const double *d, double *mean)
 {
+    const struct gm_problem *problem = substep->task->problem;
     const size_t n = problem->n, half = n / 2;
+    const double *y = substep->members->y;
+    double *at = substep->members->scratch + AT * n, *f = substep->members->scratch + F * n;
     double (*const weight_of)(const struct gm_problem *) = gm_ode_of(problem)->hamiltonian->weight;
     const double weight = weight_of ? weight_of(problem) : 1;
     double square = 0, along = 0;
@@ -77,7 +87,7 @@ static double gradient_field(const struct gm_problem *problem, const double *y, 
         at[c] = y[c] + 0.5 * d[c];
     }
     gm_field(problem, at, mean, 1);
-    progress->evaluations++;
+    substep->progress->evaluations++;
     for (size_t c = 0; c < half; c++) {
         along += mean[c] * d[half + c] - mean[half + c] * d[c];
         square += d[c] * d[c] + d[half + c] * d[half + c];
@@ -97,14 +107,6 @@ static double gradient_field(const struct gm_problem *problem, const double *y, 
     return fabs(weight * before) / sqrt(square);
 }
 
-/* One step, or one substep of a composition. */
-struct substep {
-    const struct gm_task *task;
-    const struct gm_members *members;
-    double h;
-    struct gm_progress *progress;
-};
-
 /* next := h mean, for gm_sweeps_solve */
 static bool sweep(void *data, const double *d, double *next, double *scale)
 {
@@ -112,9 +114,7 @@ static bool sweep(void *data, const double *d, double *next, double *scale)
     const struct gm_members *members = substep->members;
     const struct method *method = substep->task->scheme->coefficients;
     const size_t n = members->n;
-    const double noise = method->mean(substep->task->problem, members->y, d, next, members->scratch + AT * n,
-                                      members->scratch + F * n, substep->progress);
-    *scale += fabs(substep->h) * noise;
+    *scale += fabs(substep->h) * method->mean(substep, d, next);
     for (size_t c = 0; c < n; c++) {
         next[c] *= substep->h;
         *scale += fabs(members->y[c]) + fabs(d[c]);

@@ -21,12 +21,9 @@
 /* default tolerance of the multistep methods */
 #define STANDARD_TOLERANCE 1e-8
 
-enum stepper { RK4, RK8PD, MSADAMS, MSBDF };
-static const enum stepper rk4 = RK4, rk8pd = RK8PD, msadams = MSADAMS, msbdf = MSBDF;
-
 struct workspace {
     const struct gm_problem *problem;
-    enum stepper stepper;
+    const gsl_odeiv2_step_type *type;
     unsigned long evaluations, solves;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver **drivers; /* one for each member, because each has its own past */
@@ -80,19 +77,13 @@ static void workspace_close(void *pointer)
 static bool make_drivers(void *data)
 {
     struct workspace *workspace = data;
-    const gsl_odeiv2_step_type *const types[] = {
-        [RK4] = gsl_odeiv2_step_rk4,
-        [RK8PD] = gsl_odeiv2_step_rk8pd,
-        [MSADAMS] = gsl_odeiv2_step_msadams,
-        [MSBDF] = gsl_odeiv2_step_msbdf,
-    };
     const double tolerance = workspace->tolerance > 0 ? workspace->tolerance : STANDARD_TOLERANCE;
     for (size_t i = 0; i < workspace->problem->m; i++) {
         if (workspace->drivers[i]) {
             gsl_odeiv2_driver_free(workspace->drivers[i]);
             workspace->drivers[i] = NULL;
         }
-        workspace->drivers[i] = gsl_odeiv2_driver_alloc_y_new(&workspace->system, types[workspace->stepper],
+        workspace->drivers[i] = gsl_odeiv2_driver_alloc_y_new(&workspace->system, workspace->type,
                                                               workspace->dt, tolerance, tolerance);
         if (!workspace->drivers[i]) {
             return false;
@@ -108,7 +99,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         return NULL;
     }
     workspace->problem = problem;
-    workspace->stepper = *(const enum stepper *)scheme->coefficients;
+    workspace->type = *(const gsl_odeiv2_step_type *const *)scheme->coefficients;
     workspace->system = (gsl_odeiv2_system){field, jacobian, problem->n, workspace};
     workspace->dt = 1;
     workspace->good = -1;
@@ -132,7 +123,8 @@ static void workspace_reset(void *pointer)
 
 static int advance(struct workspace *workspace, gsl_odeiv2_driver *driver, double t, double dt, double *y)
 {
-    const bool multistep = workspace->stepper == MSADAMS || workspace->stepper == MSBDF;
+    const bool multistep =
+        workspace->type == gsl_odeiv2_step_msadams || workspace->type == gsl_odeiv2_step_msbdf;
     if (workspace->tolerance > 0 || multistep) {
         const double until = t + dt;
         return gsl_odeiv2_driver_apply(driver, &t, until, y);
@@ -241,7 +233,7 @@ static const struct gm_scheme schemes[] = {
         .title = "GSL RK4",
         .formula = "gsl_odeiv2_step_rk4 (step doubling for its error)",
         .reference = "GNU Scientific Library, ordinary differential equations",
-        .coefficients = &rk4,
+        .coefficients = &gsl_odeiv2_step_rk4,
         .order = 4,
         GSL,
     },
@@ -250,7 +242,7 @@ static const struct gm_scheme schemes[] = {
         .title = "GSL Prince-Dormand 8",
         .formula = "gsl_odeiv2_step_rk8pd",
         .reference = "GNU Scientific Library; P.J. Prince & J.R. Dormand, J. Comput. Appl. Math. 7 (1981) 67",
-        .coefficients = &rk8pd,
+        .coefficients = &gsl_odeiv2_step_rk8pd,
         .order = 8,
         GSL,
     },
@@ -259,7 +251,7 @@ static const struct gm_scheme schemes[] = {
         .title = "GSL Adams",
         .formula = "gsl_odeiv2_step_msadams: multistep, chooses its order",
         .reference = "GNU Scientific Library; variable coefficient Adams in Nordsieck form",
-        .coefficients = &msadams,
+        .coefficients = &gsl_odeiv2_step_msadams,
         GSL,
     },
     {
@@ -267,7 +259,7 @@ static const struct gm_scheme schemes[] = {
         .title = "GSL BDF",
         .formula = "gsl_odeiv2_step_msbdf: multistep, chooses its order",
         .reference = "GNU Scientific Library; variable coefficient backward differences in Nordsieck form",
-        .coefficients = &msbdf,
+        .coefficients = &gsl_odeiv2_step_msbdf,
         .needs = GM_NEEDS_JACOBIAN,
         GSL,
     },

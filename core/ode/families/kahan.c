@@ -35,12 +35,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return problem->n + gm_matrix_size(problem);
-}
-
 static const struct gm_scheme schemes[] = {
     {
         .name = "kahan2",
@@ -56,5 +50,5 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_kahan = {
     .title = "Kahan",
-    GM_MEMBERS(.step = step, .room = room),
+    GM_MEMBERS(.step = step, .vectors = 1, .squares = 1),
 };

@@ -57,6 +57,7 @@ struct component {
 enum { PER_COMPONENT = sizeof(struct component) / sizeof(double) };
 
 /* The scratch: the step that the coefficients are for, two arrays of n/2, the coefficients. */
+enum { VECTORS = 1 + (2 + PER_COMPONENT) / 2 };
 static struct component *components(const struct gm_task *task, struct gm_members *members)
 {
     const struct gm_problem *problem = task->problem;
@@ -97,12 +98,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return problem->n / 2 * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     struct gm_members *members = task->workspace;
@@ -112,12 +107,6 @@ static enum gm_status start(const struct gm_task *task)
                        task->memory_out + i);
     }
     return GM_OK;
-}
-
-static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return 1 + (2 + PER_COMPONENT) * (problem->n / 2);
 }
 
 #define TRIGONOMETRIC .family = &gm_family_trigonometric, .order = 2, .needs = GM_NEEDS_FAST_LINEAR
@@ -157,7 +146,6 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_trigonometric = {
     .title = "trigonometric",
-    GM_MEMBERS(.step = step, .room = room, .evaluated_at_start = true),
-    .memory = memory,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .halves = 1, .vectors = VECTORS, .evaluated_at_start = true),
     .start = start,
 };

@@ -48,7 +48,8 @@ static bool is_within(const double *y, size_t n, double limit)
 
 size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return scheme->family->members->remembered * problem->m;
+    const struct gm_member_family *members = scheme->family->members;
+    return (members->remembered + members->halves * (problem->n / 2)) * problem->m;
 }
 
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -56,7 +57,8 @@ void *gm_members_workspace(const struct gm_problem *problem, const struct gm_sch
     const struct gm_family *family = scheme->family;
     const struct gm_member_family *members = family->members;
     const size_t remembered = family->memory ? family->memory(problem, scheme) / problem->m : 0;
-    const size_t scratch = members->room ? members->room(problem, scheme) : members->vectors * problem->n;
+    const size_t n = problem->n, scratch = members->room ? members->room(problem, scheme)
+                                                         : (members->vectors + members->squares * n) * n;
     return gm_members_open(problem, remembered, scratch);
 }
 

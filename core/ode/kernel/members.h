@@ -35,9 +35,10 @@ typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_memb
 /* A family that advances a problem member by member. */
 struct gm_member_family {
     gm_member_step *step;
-    size_t remembered; /* doubles of memory of a member, for gm_members_memory */
-    size_t vectors;    /* the scratch is this number of states */
-    /* the scratch in doubles; NULL: vectors * n */
+    /* doubles of memory of a member, for gm_members_memory: this number, and this number of halves of a state */
+    size_t remembered, halves;
+    size_t vectors, squares; /* the scratch is this number of states, and of n * n matrices */
+    /* the scratch in doubles; NULL: as above */
     size_t (*room)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     bool evaluated_at_start; /* the start evaluates a force, which the first steps count */
 };

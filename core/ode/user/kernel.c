@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
@@ -28,62 +29,38 @@ static const struct {
     [GM_KERNEL_POTENTIAL] = {"K(potential)", "const double *y, double *f", false, true},
 };
 
-/* Writes the text before, between and after an operation's operands. */
+/* Finds the text before, between and after an operation's operands. */
 static bool spell(enum gm_operation operation, const char *words[3])
 {
+    static const struct {
+        enum gm_operation operation;
+        const char *words[3];
+    } own[] = {
+        {GM_OPERATION_ADD, {"", " + ", ""}},
+        {GM_OPERATION_SUBTRACT, {"", " - ", ""}},
+        {GM_OPERATION_MULTIPLY, {"", " * ", ""}},
+        {GM_OPERATION_DIVIDE, {"", " / ", ""}},
+        {GM_OPERATION_NEGATE, {"-", NULL, ""}},
+        {GM_OPERATION_SQRT, {"K(root)(", NULL, ")"}},
+        {GM_OPERATION_ABS, {"K(magnitude)(", NULL, ")"}},
+        {GM_OPERATION_MIN, {"K(smaller)(", ", ", ")"}},
+        {GM_OPERATION_MAX, {"K(larger)(", ", ", ")"}},
+        {GM_OPERATION_BELOW, {"K(below)(", ", ", ")"}},
+    };
     static const char *const others[GM_OPERATIONS] = {
 #define GM_OPERATION(constant, ...) [GM_OPERATION_##constant] = "K(value_" #constant ")(",
 #include "core/expression/operations.def"
 #undef GM_OPERATION
     };
-    words[0] = "";
-    words[2] = "";
-    switch (operation) {
-    case GM_OPERATION_ADD:
-        words[1] = " + ";
-        return true;
-    case GM_OPERATION_SUBTRACT:
-        words[1] = " - ";
-        return true;
-    case GM_OPERATION_MULTIPLY:
-        words[1] = " * ";
-        return true;
-    case GM_OPERATION_DIVIDE:
-        words[1] = " / ";
-        return true;
-    case GM_OPERATION_NEGATE:
-        words[0] = "-";
-        words[1] = NULL;
-        return true;
-    case GM_OPERATION_SQRT:
-        words[0] = "K(root)(";
-        words[1] = NULL;
-        break;
-    case GM_OPERATION_ABS:
-        words[0] = "K(magnitude)(";
-        words[1] = NULL;
-        break;
-    case GM_OPERATION_MIN:
-        words[0] = "K(smaller)(";
-        words[1] = ", ";
-        break;
-    case GM_OPERATION_MAX:
-        words[0] = "K(larger)(";
-        words[1] = ", ";
-        break;
-    case GM_OPERATION_BELOW:
-        words[0] = "K(below)(";
-        words[1] = ", ";
-        break;
-    default:
-        if ((size_t)operation >= GM_OPERATIONS || !others[operation]) {
-            return false;
-        }
-        words[0] = others[operation];
-        words[1] = ", ";
-    }
+    words[0] = (size_t)operation < GM_OPERATIONS ? others[operation] : NULL;
+    words[1] = ", ";
     words[2] = ")";
-    return true;
+    for (size_t i = 0; i < GM_COUNT(own); i++) {
+        if (own[i].operation == operation) {
+            memcpy(words, own[i].words, sizeof own[i].words);
+        }
+    }
+    return words[0];
 }
 
 /* A function's text while it is written: each statement makes a variable of its own. */
@@ -214,9 +191,9 @@ static void put_layout(FILE *out)
         const char *type;
         size_t size;
     } layout[] = {
-        GM_LAID_OUT(gm_task),          GM_LAID_OUT(gm_problem),      GM_LAID_OUT(gm_progress),
-        GM_LAID_OUT(gm_scheme),        GM_LAID_OUT(gm_ode),          GM_LAID_OUT(gm_loops),
-        GM_LAID_OUT(gm_explicit_user), GM_LAID_OUT(gm_implicit_row), GM_LAID_OUT(gm_splitting_row),
+        GM_LAID_OUT(gm_task),    GM_LAID_OUT(gm_problem),       GM_LAID_OUT(gm_progress),
+        GM_LAID_OUT(gm_scheme),  GM_LAID_OUT(gm_ode),           GM_LAID_OUT(gm_loops),
+        GM_LAID_OUT(gm_tableau), GM_LAID_OUT(gm_splitting_row),
     };
 #undef GM_LAID_OUT
     for (size_t i = 0; i < GM_COUNT(layout); i++) {

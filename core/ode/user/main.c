@@ -74,108 +74,56 @@ static char *with_formula(char *kernels, const struct gm_user_system *system, gm
     return out && fclose(out) == 0 ? text : NULL;
 }
 
-enum { TAPES = GM_KERNEL_JACOBIAN + 1 };
-
-/* Opens the tapes of n rates and of their Jacobian, with this number of inputs (core/tape.h). Returns false
+/* Opens the tapes of the n rates and of their Jacobian, with this number of inputs (core/tape.h). Returns false
    when out of memory. */
-static bool open_tapes(struct gm_tape tapes[TAPES], const struct gm_formula *graph,
+static bool open_tapes(struct gm_tape *tapes, const struct gm_formula *graph,
                        const struct gm_user_rates *rates, size_t n, size_t inputs, const double *values)
 {
     const gm_node_id *const nodes = rates->nodes;
-    gm_node_id *slopes = malloc((rates->jacobian.count + 1) * sizeof *slopes);
-    for (size_t i = 0; slopes && i < rates->jacobian.count; i++) {
-        slopes[i] = rates->jacobian.entries[i].node;
-    }
-    const bool good =
-        slopes && gm_tape_open(&tapes[GM_KERNEL_FIELD], graph, nodes, n, inputs, values) &&
-        gm_tape_open(&tapes[GM_KERNEL_VELOCITY], graph, nodes, n / 2, inputs, values) &&
-        gm_tape_open(&tapes[GM_KERNEL_FORCE], graph, nodes + n / 2, n / 2, inputs, values) &&
-        gm_tape_open(&tapes[GM_KERNEL_JACOBIAN], graph, slopes, rates->jacobian.count, inputs, values);
-    free(slopes);
-    return good;
+    return gm_tape_open(&tapes[GM_KERNEL_FIELD], graph, nodes, n, inputs, values) &&
+           gm_tape_open(&tapes[GM_KERNEL_VELOCITY], graph, nodes, n / 2, inputs, values) &&
+           gm_tape_open(&tapes[GM_KERNEL_FORCE], graph, nodes + n / 2, n / 2, inputs, values) &&
+           gm_tape_open(&tapes[GM_KERNEL_JACOBIAN], graph, rates->slopes, rates->jacobian.count, inputs,
+                        values);
 }
 
-static void close_tapes(struct gm_tape tapes[TAPES])
-{
-    for (int i = 0; i < TAPES; i++) {
-        gm_tape_close(&tapes[i]);
-    }
-}
-
-/* Returns the text of the system's kernels; the caller frees. NULL with the reason, which is NULL when out of
-   memory. */
-static char *kernel_of(struct gm_user_system *system, const char **lacks)
-{
-    const size_t n = system->n;
-    struct gm_formula *graph = &system->graph;
-    struct gm_user_rates rates = {.nodes = system->rates};
-    struct gm_tape tapes[TAPES] = {0}, energy = {0}, potential;
-    char *text = NULL;
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    *lacks = system->kind == GM_LAGRANGIAN || system->timed ? "it is not of the form y' = f(y)" : NULL;
-    if (!marked || *lacks) {
-        free(marked);
-        return NULL;
-    }
-    memset(marked, true, n);
-    const gm_node_id hamiltonian = energy_of(system);
-    bool good = potential_open(&potential, system);
-    good = good &&
-           gm_sparse_jacobian(graph, system->rates, n, marked, system->variable_count, &rates.jacobian) &&
-           gm_formula_quicken(graph, system->rates, n) &&
-           open_tapes(tapes, graph, &rates, n, system->velocities, NULL);
-    if (hamiltonian != GM_NO_NODE) {
-        good = good && gm_tape_open(&energy, graph, &hamiltonian, 1, system->velocities, NULL);
-    }
-    if (good) {
-        struct gm_kernel_source source = {
-            .components = n,
-            .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY], &tapes[GM_KERNEL_FORCE],
-                      &tapes[GM_KERNEL_JACOBIAN], energy.outputs > 0 ? &energy : NULL,
-                      potential.outputs > 0 ? &potential : NULL},
-            .jacobian = &rates.jacobian,
-            .jacobian_wanted = true,
-            .written_out = true,
-            .parameters = system->parameters,
-        };
-        if (!gm_kernel_splits(&source)) {
-            source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
-        }
-        text = with_formula(gm_kernel_text(&source, lacks), system, hamiltonian);
-    }
-    close_tapes(tapes);
-    gm_tape_close(&energy);
-    gm_tape_close(&potential);
-    free(rates.jacobian.entries);
-    free(marked);
-    return text;
-}
-
-/* Returns the text of the kernels of a system of share/, which the program writes as well
-   (gm_user_problem_kernel): for all values of the parameters, or for the system's values. Failures are those
-   of kernel_of. */
-static char *own_kernel_of(struct gm_user_system *system, bool general, const char **lacks)
+/* Returns the text of a system's kernels; the caller frees. NULL with the reason, which is NULL when out of
+   memory. `written_out`: of a problem of the build, with constants and the energy; else of a system of share/,
+   as the program writes it (gm_user_problem_kernel): for all values of the parameters, or for the system's. */
+static char *kernel_of(struct gm_user_system *system, bool written_out, bool general, const char **lacks)
 {
     struct gm_user_model model;
-    struct gm_tape tapes[TAPES] = {0};
+    struct gm_tape tapes[GM_KERNEL_FUNCTIONS] = {0};
     char *text = NULL;
-    const bool opened = gm_user_model_open(&model, system);
-    double *start = opened ? gm_equations_start(system, NULL) : NULL;
+    double *start = gm_user_model_open(&model, system) ? gm_equations_start(system, NULL) : NULL;
     *lacks = start ? gm_user_model_refuses_kernels(&model) : NULL;
     if (start && !*lacks) {
         const struct gm_user_rates *rates = general ? model.rates : gm_user_model_rates(&model, start);
-        const bool splits = gm_user_model_splits(&model, start);
         const size_t n = model.components;
-        const struct gm_kernel_source source = {
+        const gm_node_id energy = written_out ? energy_of(system) : GM_NO_NODE;
+        const bool good = open_tapes(tapes, &system->graph, rates, n, written_out ? system->velocities : n,
+                                     written_out ? NULL : start) &&
+                          (energy == GM_NO_NODE || gm_tape_open(&tapes[GM_KERNEL_ENERGY], &system->graph,
+                                                                &energy, 1, system->velocities, NULL)) &&
+                          (!written_out || potential_open(&tapes[GM_KERNEL_POTENTIAL], system));
+        struct gm_kernel_source source = {
             .components = n,
-            .tapes = {&tapes[GM_KERNEL_FIELD], splits ? &tapes[GM_KERNEL_VELOCITY] : NULL,
-                      splits ? &tapes[GM_KERNEL_FORCE] : NULL,
-                      model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL},
+            .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY], &tapes[GM_KERNEL_FORCE],
+                      model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL,
+                      energy != GM_NO_NODE ? &tapes[GM_KERNEL_ENERGY] : NULL,
+                      tapes[GM_KERNEL_POTENTIAL].outputs > 0 ? &tapes[GM_KERNEL_POTENTIAL] : NULL},
             .jacobian = &rates->jacobian,
-            .jacobian_wanted = true};
-        text = open_tapes(tapes, &system->graph, rates, n, n, start) ? gm_kernel_text(&source, lacks) : NULL;
+            .jacobian_wanted = true,
+            .written_out = written_out,
+            .parameters = system->parameters};
+        if (good && !(written_out ? gm_kernel_splits(&source) : gm_user_model_splits(&model, start))) {
+            source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
+        }
+        text = good ? with_formula(gm_kernel_text(&source, lacks), system, energy) : NULL;
     }
-    close_tapes(tapes);
+    for (int i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
+        gm_tape_close(&tapes[i]);
+    }
     free(start);
     gm_user_model_close(&model);
     return text;
@@ -196,7 +144,7 @@ int main(int argc, char *argv[])
     }
     if (source) {
         if (gm_equations_open(&system, source, size, &value, equals != NULL, &fault)) {
-            text = argc == 4 ? own_kernel_of(&system, !equals, &lacks) : kernel_of(&system, &lacks);
+            text = kernel_of(&system, argc == 3, !equals, &lacks);
         } else {
             lacks = fault.sentence;
         }

@@ -8,72 +8,57 @@
 #include "core/ode/user/polish.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <gsl/gsl_linalg.h>
 
+#include "core/arena.h"
+#include "core/expression/reader.h"
 #include "core/memory.h"
 #include "core/theory/theory.h"
 
-/* The decimals, their current values, and the conditions on them. */
+/* The decimals, their current values, and the conditions on them; the data of an arena's body, which a fault
+   leaves. */
 struct polishing {
     const struct gm_user_scheme_source *source;
     struct gm_polish *polish;
+    struct gm_arena *arena;
     struct gm_decimals decimals;
     struct gm_ball *x;
     struct gm_row_sums sums; /* the row sums of the moved decimals */
     bool counted;            /* the number of conditions is known */
     struct gm_fault *fault;
+    char *text; /* the result */
 };
 
-__attribute__((format(printf, 2, 3))) static void *fail(struct polishing *polishing, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(polishing->fault->sentence, sizeof polishing->fault->sentence, format, arguments);
-    va_end(arguments);
-    polishing->fault->offset = 0;
-    return NULL;
-}
-
-static void *no_memory(struct polishing *polishing)
-{
-    *polishing->fault = (struct gm_fault){0};
-    return NULL;
-}
-
-/* Returns the scheme with x for its decimals; NULL with a fault. */
+/* Returns the scheme with x for its decimals. */
 static const struct gm_scheme *scheme_at(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;
     struct gm_decimals decimals = polishing->decimals;
     decimals.instead = polishing->x;
     source.decimals = &decimals;
-    return gm_user_scheme_open(&source, polishing->fault);
+    const struct gm_scheme *scheme = gm_user_scheme_open(&source, polishing->fault);
+    gm_arena_need(polishing->arena, scheme);
+    return scheme;
 }
 
-/* Returns F at x; the caller frees. NULL with a fault. */
+/* Returns F at x, in the arena. */
 static struct gm_ball *residuals(struct polishing *polishing)
 {
     struct gm_polish *polish = polishing->polish;
     const struct gm_scheme *scheme = scheme_at(polishing);
-    if (!scheme) {
-        return NULL;
-    }
     size_t count = 0;
     struct gm_ball *all = gm_theory_residuals(scheme->exact, polish->order, polish->claims & GM_SYMPLECTIC,
                                               polish->claims & GM_SYMMETRIC, &count);
     gm_user_scheme_close(scheme);
-    if (!all) {
-        return no_memory(polishing);
-    }
+    gm_arena_keep(polishing->arena, all, free);
     if (polishing->counted && count != polish->conditions) {
-        free(all);
-        return fail(polishing,
-                    "a coefficient vanishes at some of the numbers near these, and conditions with it");
+        gm_fail(polishing->fault, 0,
+                "a coefficient vanishes at some of the numbers near these, and conditions with it");
+        gm_arena_leave(polishing->arena);
     }
     polish->conditions = count;
     polishing->counted = true;
@@ -97,7 +82,7 @@ static double largest(struct gm_polish *polish, const struct gm_ball *all)
 }
 
 /* Computes J, with rows of zeros below if there are more decimals than conditions. */
-static bool differentiate(struct polishing *polishing, const struct gm_ball *here, gsl_matrix *jacobian)
+static void differentiate(struct polishing *polishing, const struct gm_ball *here, gsl_matrix *jacobian)
 {
     const double step = 1e-30;
     gsl_matrix_set_zero(jacobian);
@@ -106,15 +91,11 @@ static bool differentiate(struct polishing *polishing, const struct gm_ball *her
         polishing->x[k] = gm_ball_add(kept, gm_ball_of(step));
         struct gm_ball *there = residuals(polishing);
         polishing->x[k] = kept;
-        if (!there) {
-            return false;
-        }
         for (size_t i = 0; i < polishing->polish->conditions; i++) {
             gsl_matrix_set(jacobian, i, k, gm_ball_midpoint(gm_ball_subtract(there[i], here[i])) / step);
         }
-        free(there);
+        gm_arena_drop(polishing->arena, there);
     }
-    return true;
 }
 
 /* x := x - J^+ F, J = U diag(values) V'. Where F hardly changes along a direction, it is that of a free
@@ -136,57 +117,48 @@ static void move(struct polishing *polishing, const struct gm_ball *here, const 
     }
 }
 
-static bool iterate(struct polishing *polishing, gsl_matrix *u, gsl_matrix *v, gsl_vector *values)
+static void free_matrix(void *matrix)
+{
+    gsl_matrix_free(matrix);
+}
+
+static void free_vector(void *vector)
+{
+    gsl_vector_free(vector);
+}
+
+static void solve(struct polishing *polishing)
 {
     enum { ITERATIONS = 40 };
     const double solved = 1e-45, hopeless = 1e3;
     struct gm_polish *polish = polishing->polish;
+    struct gm_arena *arena = polishing->arena;
+    const size_t count = polishing->decimals.count;
     struct gm_ball *here = residuals(polishing);
-    bool good = here != NULL;
-    polish->after = good ? largest(polish, here) : INFINITY;
+    polish->before = polish->after = largest(polish, here);
+    const size_t rows = polish->conditions > count ? polish->conditions : count;
+    gsl_matrix *u = gm_arena_keep(arena, gsl_matrix_alloc(rows, count), free_matrix),
+               *v = gm_arena_keep(arena, gsl_matrix_alloc(count, count), free_matrix);
+    gsl_vector *values = gm_arena_keep(arena, gsl_vector_alloc(count), free_vector);
     double last = INFINITY;
-    for (int i = 0; good && i < ITERATIONS && polish->after > solved && polish->after < hopeless &&
+    for (int i = 0; i < ITERATIONS && polish->after > solved && polish->after < hopeless &&
                     (polish->after > polish->doubt || polish->after < last / 2);
          i++) {
         last = polish->after;
-        good = differentiate(polishing, here, u);
-        if (good) {
-            gsl_linalg_SV_decomp_jacobi(u, v, values);
-            move(polishing, here, u, v, values);
-            free(here);
-            here = residuals(polishing);
-            good = here != NULL;
-            polish->after = good ? largest(polish, here) : INFINITY;
-        }
+        differentiate(polishing, here, u);
+        gsl_linalg_SV_decomp_jacobi(u, v, values);
+        move(polishing, here, u, v, values);
+        gm_arena_drop(arena, here);
+        here = residuals(polishing);
+        polish->after = largest(polish, here);
     }
-    free(here);
-    return good &&
-           (polish->after <= fmax(solved, polish->doubt) ||
-            fail(polishing,
-                 "no coefficients near these satisfy the conditions of order %d and of what is claimed: %.1e "
-                 "remains",
-                 polish->order, polish->after));
-}
-
-static bool solve(void *data)
-{
-    struct polishing *polishing = data;
-    struct gm_polish *polish = polishing->polish;
-    const size_t count = polishing->decimals.count;
-    struct gm_ball *here = residuals(polishing);
-    if (!here) {
-        return false;
+    if (!(polish->after <= fmax(solved, polish->doubt))) {
+        gm_fail(polishing->fault, 0,
+                "no coefficients near these satisfy the conditions of order %d and of what is claimed: %.1e "
+                "remains",
+                polish->order, polish->after);
+        gm_arena_leave(arena);
     }
-    polish->before = largest(polish, here);
-    free(here);
-    const size_t rows = polish->conditions > count ? polish->conditions : count;
-    gsl_matrix *u = gsl_matrix_alloc(rows, count), *v = gsl_matrix_alloc(count, count);
-    gsl_vector *values = gsl_vector_alloc(count);
-    const bool good = u && v && values ? iterate(polishing, u, v, values) : no_memory(polishing) != NULL;
-    gsl_matrix_free(u);
-    gsl_matrix_free(v);
-    gsl_vector_free(values);
-    return good;
 }
 
 static int by_place(const void *a, const void *b)
@@ -205,22 +177,13 @@ static size_t end_of(const struct gm_user_scheme_source *source, bool is_word)
     return is_word ? end - 1 : end;
 }
 
-/* Returns the numbers to write, x and the sums of rows, in the order of the text; the caller frees. NULL with
-   a fault. */
+/* Returns the numbers to write, x and the sums of rows, in the order of the text. */
 static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
 {
     polishing->decimals.sums = &polishing->sums;
-    const struct gm_scheme *scheme = scheme_at(polishing);
-    polishing->decimals.sums = NULL;
-    if (!scheme) {
-        return NULL;
-    }
-    gm_user_scheme_close(scheme);
+    gm_user_scheme_close(scheme_at(polishing));
     const size_t decimals = polishing->decimals.count, sums = polishing->sums.count;
-    struct gm_decimal *all = malloc((decimals + sums) * sizeof *all);
-    if (!all) {
-        return no_memory(polishing);
-    }
+    struct gm_decimal *all = gm_arena_take(polishing->arena, decimals + sums, sizeof *all);
     for (size_t i = 0; i < decimals; i++) {
         all[i] = polishing->decimals.at[i];
         all[i].ball = polishing->x[i];
@@ -251,20 +214,15 @@ static void put_numbers(FILE *stream, const char *text, size_t end, const struct
     fprintf(stream, "%.*s", (int)(end - from), text + from);
 }
 
-static char *write(struct polishing *polishing, const struct gm_written_scheme *written)
+static void write(struct polishing *polishing, const struct gm_written_scheme *written)
 {
     const struct gm_user_scheme_source *source = polishing->source;
     const bool is_word = gm_written_is_word(source->text, source->length);
-    char *text = NULL;
     size_t size = 0, count = 0;
-    struct gm_decimal *numbers = polished(polishing, &count);
-    FILE *stream = numbers ? open_memstream(&text, &size) : NULL;
-    if (!stream) {
-        free(numbers);
-        return numbers ? no_memory(polishing) : NULL;
-    }
+    const struct gm_decimal *numbers = polished(polishing, &count);
+    FILE *stream = open_memstream(&polishing->text, &size);
+    gm_arena_need(polishing->arena, stream);
     put_numbers(stream, source->text, end_of(source, is_word), numbers, count, polishing->polish->doubt);
-    free(numbers);
     if (!written->lines[GM_SCHEME_WORD_ORDER].said) {
         fprintf(stream, "%sorder: %d", is_word ? "; " : "\n", polishing->polish->order);
     }
@@ -272,70 +230,82 @@ static char *write(struct polishing *polishing, const struct gm_written_scheme *
         fprintf(stream, "%sclaims:%s", is_word ? "; " : "\n", polishing->polish->claims ? "" : " none");
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
             if (polishing->polish->claims >> bit & 1) {
-                fprintf(stream, " %s", gm_claim_word(bit));
+                fprintf(stream, " %s", gm_claim_key(bit));
             }
         }
     }
     fputs(is_word ? ")\n" : "\n", stream);
-    if (fclose(stream) != 0) {
-        free(text);
-        return no_memory(polishing);
-    }
-    return text;
+    gm_arena_need(polishing->arena, fclose(stream) == 0);
 }
 
 /* Gathers the decimals and the conditions on them. */
-static bool gather(struct polishing *polishing)
+static void gather(struct polishing *polishing)
 {
     struct gm_user_scheme_source source = *polishing->source;
     source.decimals = &polishing->decimals;
     const struct gm_scheme *scheme = gm_user_scheme_open(&source, polishing->fault);
-    if (!scheme) {
-        return false;
-    }
+    gm_arena_need(polishing->arena, scheme);
     const bool known = scheme->exact != NULL;
     polishing->polish->order = scheme->order;
     polishing->polish->claims = scheme->claims;
     gm_user_scheme_close(scheme);
-    const size_t count = polishing->decimals.count;
-    polishing->polish->decimals = count;
+    const size_t count = polishing->polish->decimals = polishing->decimals.count;
     if (!known || count == 0) {
-        return fail(polishing, known ? "there is nothing to polish: all its numbers are exact"
-                                     : "theory knows no conditions of such a scheme");
+        gm_fail(polishing->fault, 0, "%s",
+                known ? "there is nothing to polish: all its numbers are exact"
+                      : "theory knows no conditions of such a scheme");
+        gm_arena_leave(polishing->arena);
     }
     qsort(polishing->decimals.at, count, sizeof *polishing->decimals.at, by_place);
-    polishing->x = malloc(count * sizeof *polishing->x);
-    for (size_t i = 0; polishing->x && i < count; i++) {
+    polishing->x = gm_arena_take(polishing->arena, count, sizeof *polishing->x);
+    for (size_t i = 0; i < count; i++) {
         polishing->x[i] = polishing->decimals.at[i].ball;
         polishing->x[i].radius = 0;
     }
-    return polishing->x || no_memory(polishing);
+}
+
+static void close_written(void *written)
+{
+    gm_written_close(written);
+}
+
+static void polish_all(struct gm_arena *arena, void *data)
+{
+    struct polishing *polishing = data;
+    struct gm_polish *polish = polishing->polish;
+    const struct gm_user_scheme_source *source = polishing->source;
+    struct gm_written_scheme *written = gm_arena_take(arena, 1, sizeof *written);
+    gm_arena_keep(arena, written, close_written);
+    gm_arena_need(arena, gm_written_open(written, source->text, 0, source->length, NULL, polishing->fault));
+    gather(polishing);
+    solve(polishing);
+    for (size_t i = 0; i < polish->decimals; i++) {
+        polish->change =
+            fmax(polish->change,
+                 fabs(gm_ball_midpoint(gm_ball_subtract(polishing->x[i], polishing->decimals.at[i].ball))));
+    }
+    write(polishing, written);
+}
+
+static bool work(void *data)
+{
+    struct polishing *polishing = data;
+    return gm_arena_run(polishing->arena, polish_all, polishing);
 }
 
 char *gm_user_scheme_polish(const struct gm_user_scheme_source *source, struct gm_polish *polish,
                             struct gm_fault *fault)
 {
-    struct polishing polishing = {.source = source, .polish = polish, .fault = fault};
-    struct gm_written_scheme *written = malloc(sizeof *written);
-    char *text = NULL;
+    struct polishing polishing = {
+        .source = source, .polish = polish, .arena = gm_arena_open(), .fault = fault};
     *polish = (struct gm_polish){0};
     *fault = (struct gm_fault){0};
-    if (!written) {
-        return NULL;
+    if (!gm_memory_guard_gsl(work, &polishing)) {
+        free(polishing.text);
+        polishing.text = NULL;
     }
-    if (gm_written_open(written, source->text, 0, source->length, NULL, fault) && gather(&polishing) &&
-        gm_memory_guard_gsl(solve, &polishing)) {
-        for (size_t i = 0; i < polish->decimals; i++) {
-            polish->change =
-                fmax(polish->change,
-                     fabs(gm_ball_midpoint(gm_ball_subtract(polishing.x[i], polishing.decimals.at[i].ball))));
-        }
-        text = write(&polishing, written);
-    }
-    gm_written_close(written);
-    free(written);
+    gm_arena_close(polishing.arena);
     free(polishing.decimals.at);
     free(polishing.sums.at);
-    free(polishing.x);
-    return text;
+    return polishing.text;
 }

@@ -66,25 +66,17 @@ static bool energy_formula(const struct gm_problem *problem, struct gm_formula *
     return *node != GM_NO_NODE;
 }
 
-static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_late_tape_values(&own_of(problem)->field, y, f, m);
-}
-
-static void velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_late_tape_values(&own_of(problem)->velocity, y, f, m);
-}
-
-static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_late_tape_values(&own_of(problem)->force, y, f, m);
-}
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    gm_late_tape_values(&own_of(problem)->energy, y, value, m);
-}
+/* A function of a facet: the values of a tape, of a component of the problem's own data. */
+#define VALUES_OF(tape)                                                                                      \
+    static void tape(const struct gm_problem *problem, const double *y, double *values, size_t m)            \
+    {                                                                                                        \
+        gm_late_tape_values(&own_of(problem)->tape, y, values, m);                                           \
+    }
+VALUES_OF(field)
+VALUES_OF(velocity)
+VALUES_OF(force)
+VALUES_OF(energy)
+VALUES_OF(slow_force)
 
 static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
@@ -98,25 +90,17 @@ static void jacobian(const struct gm_problem *problem, const double *y, double *
     }
 }
 
-static void lagrangian_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_user_lagrangian_field(&own_of(problem)->lagrangian, y, f, m);
-}
-
-static void lagrangian_velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_user_lagrangian_velocity(&own_of(problem)->lagrangian, y, f, m);
-}
-
-static void lagrangian_force(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    gm_user_lagrangian_force(&own_of(problem)->lagrangian, y, f, m);
-}
-
-static void lagrangian_energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    gm_user_lagrangian_energy(&own_of(problem)->lagrangian, y, value, m);
-}
+/* The same of a Lagrangian. */
+#define VALUES_OF_LAGRANGIAN(name)                                                                           \
+    static void lagrangian_##name(const struct gm_problem *problem, const double *y, double *values,         \
+                                  size_t m)                                                                  \
+    {                                                                                                        \
+        gm_user_lagrangian_##name(&own_of(problem)->lagrangian, y, values, m);                               \
+    }
+VALUES_OF_LAGRANGIAN(field)
+VALUES_OF_LAGRANGIAN(velocity)
+VALUES_OF_LAGRANGIAN(force)
+VALUES_OF_LAGRANGIAN(energy)
 
 static void lagrangian_jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
@@ -215,11 +199,6 @@ static void prepare(const struct gm_problem *problem, unsigned needs)
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return own_of(problem)->frequencies[i];
-}
-
-static void slow_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
-{
-    gm_late_tape_values(&own_of(problem)->slow_force, q, force, m);
 }
 
 static void attraction(const struct gm_problem *problem, const double *q, double *potential, size_t m)

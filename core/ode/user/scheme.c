@@ -66,14 +66,6 @@ _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct ma
     gm_arena_leave(making->arena);
 }
 
-/* Leaves the arena's body if `good` is false: out of memory. */
-static void opened(const struct making *making, bool good)
-{
-    if (!good) {
-        gm_arena_leave(making->arena);
-    }
-}
-
 static void close_coefficients(void *coefficients)
 {
     gm_coefficients_close(coefficients);
@@ -120,8 +112,7 @@ static char *keep_text(const struct making *making, char *text)
     return gm_arena_keep(making->arena, text, free);
 }
 
-/* -- tableaus
-   ------------------------------------------------------------------------------------------------ */
+/* ---- tableaus ---- */
 
 /* A tableau of `stages` stages with entry(i, j), and weights as its row i = stages. */
 struct tableau {
@@ -134,6 +125,20 @@ static struct gm_written_number *entry(struct tableau *tableau, int i, int j)
     return &tableau->at[i * tableau->stages + j];
 }
 
+/* Writes `rows` rows of numbers to a row's arrays, and as balls one after the other; returns what is behind
+   these numbers. */
+static const struct gm_written_number *put(const struct gm_written_number *numbers, int rows, int columns,
+                                           double (*to)[GM_TABLEAU_STAGES], struct gm_ball *exact)
+{
+    for (int i = 0; i < rows; i++) {
+        for (int j = 0; j < columns; j++, numbers++) {
+            to[i][j] = numbers->value;
+            *exact++ = numbers->ball;
+        }
+    }
+    return numbers;
+}
+
 static struct own *of_tableau(const struct making *making, struct tableau *tableau)
 {
     const int stages = tableau->stages;
@@ -143,28 +148,13 @@ static struct own *of_tableau(const struct making *making, struct tableau *table
             is_explicit = is_explicit && entry(tableau, i, j)->value == 0;
         }
     }
-    struct own *self =
-        open_user(making, is_explicit ? sizeof(struct gm_explicit_user) : sizeof(struct gm_implicit_row));
-    opened(making, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
-    struct gm_explicit_user *explicit_row = is_explicit ? self->coefficients : NULL;
-    struct gm_implicit_row *implicit_row = is_explicit ? NULL : self->coefficients;
+    struct own *self = open_user(making, sizeof(struct gm_tableau));
+    gm_arena_need(making->arena, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
+    struct gm_tableau *row = self->coefficients;
     self->row.family = is_explicit ? &gm_family_explicit : &gm_family_implicit;
-    if (is_explicit) {
-        explicit_row->row = GM_EXPLICIT_USER;
-        explicit_row->tableau.stages = stages;
-    } else {
-        implicit_row->stages = stages;
-        implicit_row->composition = &gm_composition_none;
-    }
-    for (int i = 0; i <= stages; i++) {
-        double *row = is_explicit ? (i < stages ? explicit_row->tableau.a[i] : explicit_row->tableau.b)
-                                  : (i < stages ? implicit_row->a[i] : implicit_row->b);
-        struct gm_ball *exact = i < stages ? self->exact.a[0] + i * stages : self->exact.b[0];
-        for (int j = 0; j < stages; j++) {
-            row[j] = entry(tableau, i, j)->value;
-            exact[j] = entry(tableau, i, j)->ball;
-        }
-    }
+    row->stages = stages;
+    row->composition = is_explicit ? NULL : &gm_composition_none;
+    put(put(tableau->at, stages, stages, row->a, self->exact.a[0]), 1, stages, &row->b, self->exact.b[0]);
     return self;
 }
 
@@ -183,98 +173,61 @@ static struct own *make_runge_kutta(const struct making *making, const struct gm
 static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficients *exact,
                        struct tableau *tableau)
 {
-    const struct gm_implicit_row *implicit_row = NULL;
-    const struct gm_explicit_tableau *explicit_row = NULL;
-    if (scheme->family == &gm_family_explicit) {
-        explicit_row = gm_explicit_tableau_of(scheme->coefficients);
-        tableau->stages = explicit_row->stages;
-    } else if (scheme->family == &gm_family_implicit) {
-        implicit_row = scheme->coefficients;
-        tableau->stages = implicit_row->stages;
-    }
-    if (!(explicit_row || implicit_row) || exact->stages != tableau->stages) {
+    const struct gm_tableau *row = scheme->coefficients;
+    if ((scheme->family != &gm_family_explicit && scheme->family != &gm_family_implicit) ||
+        exact->stages != row->stages) {
         return false;
     }
-    for (int i = 0; i <= tableau->stages; i++) {
-        const bool weights = i == tableau->stages;
-        const double *row = explicit_row ? (weights ? explicit_row->b : explicit_row->a[i])
-                                         : (weights ? implicit_row->b : implicit_row->a[i]);
-        for (int j = 0; j < tableau->stages; j++) {
-            *entry(tableau, i, j) = (struct gm_written_number){
-                .value = row[j], .ball = weights ? exact->b[0][j] : exact->a[0][i * tableau->stages + j]};
-        }
+    const int stages = tableau->stages = row->stages;
+    for (int i = 0; i < stages * (stages + 1); i++) {
+        const bool weights = i >= stages * stages;
+        tableau->at[i] =
+            (struct gm_written_number){.value = weights ? row->b[i % stages] : row->a[i / stages][i % stages],
+                                       .ball = weights ? exact->b[0][i % stages] : exact->a[0][i]};
     }
     return true;
 }
 
-/* -- partitioned tableaus
-   --------------------------------------------------------------------------------- */
-
 static struct own *make_partitioned(const struct making *making, const struct gm_written_scheme *written)
 {
-    const struct gm_written_line *a = &written->lines[GM_SCHEME_WORD_A],
-                                 *b = &written->lines[GM_SCHEME_WORD_B];
-    const struct gm_written_line *c = &written->lines[GM_SCHEME_WORD_AH],
-                                 *d = &written->lines[GM_SCHEME_WORD_BH];
-    const int stages = a->rows;
-    d = d->said ? d : b;
+    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_number *b = lines[GM_SCHEME_WORD_B].numbers,
+                                   *d = lines[GM_SCHEME_WORD_BH].numbers;
+    const int stages = lines[GM_SCHEME_WORD_A].rows;
     struct own *self = open_user(making, sizeof(struct gm_partitioned_row));
-    opened(making, gm_coefficients_open(&self->exact, GM_EQUATIONS_PARTITIONED, stages));
+    struct gm_coefficients *exact = &self->exact;
+    gm_arena_need(making->arena, gm_coefficients_open(exact, GM_EQUATIONS_PARTITIONED, stages));
     struct gm_partitioned_row *row = self->coefficients;
     self->row.family = &gm_family_partitioned;
     self->row.needs = GM_NEEDS_HAMILTONIAN;
     row->stages = (size_t)stages;
-    for (int i = 0; i < stages; i++) {
-        row->b[i] = b->numbers[i].value;
-        row->d[i] = d->numbers[i].value;
-        self->exact.b[GM_SIDE_Q][i] = b->numbers[i].ball;
-        self->exact.b[GM_SIDE_P][i] = d->numbers[i].ball;
-        for (int j = 0; j < stages; j++) {
-            row->a[i][j] = a->numbers[i * stages + j].value;
-            row->c[i][j] = c->numbers[i * stages + j].value;
-            self->exact.a[GM_SIDE_Q][i * stages + j] = a->numbers[i * stages + j].ball;
-            self->exact.a[GM_SIDE_P][i * stages + j] = c->numbers[i * stages + j].ball;
-        }
-    }
+    put(lines[GM_SCHEME_WORD_A].numbers, stages, stages, row->a, exact->a[GM_SIDE_Q]);
+    put(lines[GM_SCHEME_WORD_AH].numbers, stages, stages, row->c, exact->a[GM_SIDE_P]);
+    put(b, 1, stages, &row->b, exact->b[GM_SIDE_Q]);
+    put(d ? d : b, 1, stages, &row->d, exact->b[GM_SIDE_P]);
     return self;
 }
 
-/* -- Nystrom methods
-   ----------------------------------------------------------------------------------------- */
-
 static struct own *make_nystrom(const struct making *making, const struct gm_written_scheme *written)
 {
-    static const enum gm_scheme_word words[] = {GM_SCHEME_WORD_A, GM_SCHEME_WORD_B, GM_SCHEME_WORD_BV,
-                                                GM_SCHEME_WORD_C};
     const struct gm_written_line *lines = written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     const size_t s = (size_t)stages;
     struct own *self = open_user(making, sizeof(struct gm_nystrom_row));
-    struct gm_ball *balls = gm_arena_take(making->arena, (s + 3) * s, sizeof *balls);
-    struct gm_ball *at = balls, *b = balls + s * s;
-    for (size_t k = 0; k < GM_COUNT(words); k++) {
-        for (int i = 0; i < lines[words[k]].rows * stages; i++) {
-            *at++ = lines[words[k]].numbers[i].ball;
-        }
-    }
-    opened(making, gm_coefficients_open_nystrom(&self->exact, stages, balls, b, b + s, b + 2 * s));
     struct gm_nystrom_row *row = self->coefficients;
+    struct gm_ball *a = gm_arena_take(making->arena, (s + 3) * s, sizeof *a), *b = a + s * s;
     self->row.family = &gm_family_nystrom;
     self->row.needs = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM;
     row->stages = stages;
-    for (int i = 0; i < stages; i++) {
-        row->b[i] = lines[GM_SCHEME_WORD_B].numbers[i].value;
-        row->bv[i] = lines[GM_SCHEME_WORD_BV].numbers[i].value;
-        row->c[i] = lines[GM_SCHEME_WORD_C].numbers[i].value;
-        for (int j = 0; j < stages; j++) {
-            row->a[i][j] = lines[GM_SCHEME_WORD_A].numbers[i * stages + j].value;
-        }
-    }
+    put(lines[GM_SCHEME_WORD_A].numbers, stages, stages, row->a, a);
+    put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &row->b, b);
+    put(lines[GM_SCHEME_WORD_BV].numbers, 1, stages, &row->bv, b + s);
+    put(lines[GM_SCHEME_WORD_C].numbers, 1, stages, &row->c, b + 2 * s);
+    gm_arena_need(making->arena, gm_coefficients_open_nystrom(&self->exact, stages, a, b, b + s, b + 2 * s));
     return self;
 }
 
-/* -- splittings
-   --------------------------------------------------------------------------------------------- */
+/* ---- splittings ---- */
 
 struct pieces {
     int count;
@@ -316,7 +269,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
         return self;
     }
     /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
-    opened(making, gm_family_splitting.coefficients_open(&self->row, &self->exact));
+    gm_arena_need(making->arena, gm_family_splitting.coefficients_open(&self->row, &self->exact));
     for (int j = 0; j < pieces->count; j++) {
         const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
         self->exact.b[side][j] = pieces->at[j].fraction.ball;
@@ -344,8 +297,7 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
     return of_pieces(making, &pieces, written->nystrom ? GM_NEEDS_NYSTROM : 0);
 }
 
-/* -- compositions
-   ------------------------------------------------------------------------------------------- */
+/* ---- compositions ---- */
 
 /* Steps of schemes, one after the other. */
 struct substeps {
@@ -367,7 +319,7 @@ static struct own *flatten(const struct making *making, const struct substeps *s
         const struct gm_scheme *scheme = substeps->at[k].scheme;
         struct gm_splitting made;
         const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
-        opened(making, gm_scheme_coefficients_open(scheme, &exact[k]));
+        gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &exact[k]));
         needs |= scheme->needs;
         for (int i = 0; i < table->count; i++) {
             const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
@@ -393,7 +345,7 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
         if (!scheme->exact && !scheme->family->coefficients_open) {
             return;
         }
-        opened(making, gm_scheme_coefficients_open(scheme, &parts[k]));
+        gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &parts[k]));
         fractions[k] = substeps->at[k].fraction.ball;
         stages += parts[k].stages;
         if (parts[k].equations != parts[0].equations || !parts[k].nystrom != !parts[0].nystrom ||
@@ -401,7 +353,7 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
             return;
         }
     }
-    opened(making, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
+    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
 }
 
 /* Makes a composition; faults are reported at `place`. */
@@ -435,15 +387,14 @@ static struct own *compose(const struct making *making, const struct substeps *s
     return self;
 }
 
-/* -- adjoints
-   ------------------------------------------------------------------------------------------------- */
+/* ---- adjoints ---- */
 
 /* A row of its own for a scheme that is its own adjoint. */
 static struct own *same(const struct making *making, const struct gm_scheme *scheme)
 {
     struct own *self = open_user(making, 1);
     const bool known = scheme->exact || scheme->family->coefficients_open;
-    opened(making, !known || gm_scheme_coefficients_open(scheme, &self->exact));
+    gm_arena_need(making->arena, !known || gm_scheme_coefficients_open(scheme, &self->exact));
     self->row.family = scheme->family;
     self->row.coefficients = scheme->coefficients;
     self->row.needs = scheme->needs;
@@ -486,7 +437,7 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
     const struct gm_nystrom_row *row = scheme->coefficients;
     const int stages = row->stages, last = stages - 1;
     struct own *self = open_user(making, sizeof *row);
-    opened(making, gm_coefficients_open_adjoint(&self->exact, exact));
+    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
     struct gm_nystrom_row *adjoint = self->coefficients;
     adjoint->stages = stages;
     for (int i = 0; i < stages; i++) {
@@ -530,7 +481,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
     reversed->count = substeps->count;
     self->row.family = scheme->family;
     self->row.needs = scheme->needs;
-    opened(making, !scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact));
+    gm_arena_need(making->arena, !scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact));
     return self;
 }
 
@@ -543,7 +494,7 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
     }
     struct gm_coefficients *exact = take_coefficients(making, 1);
     struct tableau tableau;
-    opened(making, gm_scheme_coefficients_open(scheme, exact));
+    gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, exact));
     if (scheme->family == &gm_family_splitting) {
         return adjoint_splitting(making, scheme, exact);
     }
@@ -568,8 +519,7 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
     return self;
 }
 
-/* -- schemes of schemes
-   -------------------------------------------------------------------------------------- */
+/* ---- schemes of schemes ---- */
 
 static struct own *make(const struct making *making, struct gm_span span, const char *name,
                         const char *title);
@@ -589,7 +539,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
         if (!scheme && sentence[0]) {
             fail(making, span.begin, "%s", sentence);
         }
-        opened(making, scheme);
+        gm_arena_need(making->arena, scheme);
         return scheme;
     }
     const struct gm_scheme *scheme = gm_scheme_find(name);
@@ -633,8 +583,7 @@ static struct own *make_processed(const struct making *making, const struct gm_w
     return compose(making, substeps, written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
 }
 
-/* -- what the row says
-   ---------------------------------------------------------------------------------------- */
+/* ---- what the row says ---- */
 
 static void read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
 {
@@ -764,7 +713,7 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     struct gm_theory theory = {.known = false};
     if (row->exact && !tried && (written->order == 0 || !lines[GM_SCHEME_WORD_CLAIMS].said)) {
         theory = gm_theory_of(row->exact);
-        opened(making, theory.known);
+        gm_arena_need(making->arena, theory.known);
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known; word++) {
         theory.order = schemes[word] && theory.order == 0 ? schemes[word]->order : theory.order;
@@ -828,8 +777,8 @@ static struct own *make(const struct making *making, struct gm_span span, const 
     }
     struct gm_written_scheme *written = gm_arena_take(making->arena, 1, sizeof *written);
     gm_arena_keep(making->arena, written, close_written);
-    opened(making,
-           gm_written_open(written, source->text, span.begin, span.end, source->decimals, making->fault));
+    gm_arena_need(making->arena, gm_written_open(written, source->text, span.begin, span.end,
+                                                 source->decimals, making->fault));
     return make_written(&inner, written, name, title);
 }
 

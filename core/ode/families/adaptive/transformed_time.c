@@ -45,7 +45,7 @@ static bool slopes(const struct gm_problem *problem, double E, const double *y, 
 struct work {
     const struct gm_task *task;
     const struct gm_members *members;
-    double *stage, *gradient, times[GM_IMPLICIT_STAGES];
+    double *stage, *gradient, times[GM_TABLEAU_STAGES];
     bool collapsed; /* Q was not a density */
     struct gm_progress *progress;
 };
@@ -53,7 +53,7 @@ struct work {
 static bool sweep(void *data, const double *F, double *next, double *scale)
 {
     struct work *work = data;
-    const struct gm_implicit_row *row = work->task->scheme->coefficients;
+    const struct gm_tableau *row = work->task->scheme->coefficients;
     const double *y = work->members->y, ds = work->task->dt, E = work->members->memory[ENERGY];
     const size_t n = work->members->n, stages = (size_t)row->stages;
     for (size_t i = 0; i < stages; i++) {
@@ -79,7 +79,7 @@ static bool sweep(void *data, const double *F, double *next, double *scale)
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    const struct gm_implicit_row *row = task->scheme->coefficients;
+    const struct gm_tableau *row = task->scheme->coefficients;
     const size_t n = members->n, stages = (size_t)row->stages;
     struct work work = {.task = task,
                         .members = members,
@@ -123,7 +123,7 @@ static enum gm_status start(const struct gm_task *task)
 
 static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return (2 + 2 * (size_t)((const struct gm_implicit_row *)scheme->coefficients)->stages) * problem->n;
+    return (2 + 2 * (size_t)((const struct gm_tableau *)scheme->coefficients)->stages) * problem->n;
 }
 
 #define IN_POINCARES_TIME(method, number, words, degree)                                                     \

@@ -112,12 +112,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static size_t room(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return (3 * MOST + 2 + problem->n) * problem->n;
-}
-
 #define COLLOCATION(row, degree)                                                                             \
     .family = &gm_family_energy_collocation, .coefficients = &(row),                                         \
     .formula = "σ′(cᵢ) = h B(σ(cᵢ)) ∫ lᵢ(t)/bᵢ ∇H(σ(t)) dt,  σ of degree " degree ",  y₁ = σ(1)",            \
@@ -141,5 +135,5 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_energy_collocation = {
     .title = "energy-preserving collocation",
-    GM_MEMBERS(.step = step, .room = room),
+    GM_MEMBERS(.step = step, .vectors = 3 * MOST + 2, .squares = 1),
 };

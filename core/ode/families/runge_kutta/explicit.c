@@ -8,34 +8,25 @@
 
 #include <stdlib.h>
 
+#include "core/basics.h"
 #include "core/ode/families/families.h"
+#include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"
-#include "core/theory/coefficients.h"
 
 /* The loop for an n chosen at run time, through the problem's field. */
 
-enum { STAGES = GM_EXPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK };
-
-const struct gm_explicit_tableau *gm_explicit_tableau_of(const enum gm_explicit_row *row)
-{
-    static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
-#define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
-#include "core/ode/families/runge_kutta/explicit.def"
-#undef GM_EXPLICIT
-    };
-    return *row == GM_EXPLICIT_USER ? &((const struct gm_explicit_user *)row)->tableau : tableaus[*row];
-}
+enum { STAGES = GM_TABLEAU_STAGES, BLOCK = GM_PASSIVE_BLOCK };
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const size_t stages = (size_t)gm_explicit_tableau_of(scheme->coefficients)->stages;
+    const size_t stages = (size_t)((const struct gm_tableau *)scheme->coefficients)->stages;
     /* stages, slopes, increment */
     return gm_tiles_open(problem, (2 * stages + 1) * gm_tile_components(problem), 0);
 }
 
 /* stage = y + h sum_(j<i) a_ij k_j, for `count` components whose slopes lie `stride` apart */
-GM_OF_TILE void stage_of(const struct gm_explicit_tableau *tableau, int i, double h, const double *y,
+GM_OF_TILE void stage_of(const struct gm_tableau *tableau, int i, double h, const double *y,
                          const double *slopes, size_t stride, double *stage, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
@@ -48,8 +39,8 @@ GM_OF_TILE void stage_of(const struct gm_explicit_tableau *tableau, int i, doubl
     }
 }
 
-GM_OF_TILE void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes,
-                             size_t stride, double *increment, size_t count)
+GM_OF_TILE void increment_of(const struct gm_tableau *tableau, double h, const double *slopes, size_t stride,
+                             double *increment, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
         increment[c] = h * tableau->b[0] * slopes[c];
@@ -60,8 +51,7 @@ GM_OF_TILE void increment_of(const struct gm_explicit_tableau *tableau, double h
 }
 
 /* The passive particles, a block at a time, through the stages that the active components have gone. */
-static void carry_along(const struct gm_task *task, const struct gm_explicit_tableau *tableau,
-                        struct gm_tile *tile)
+static void carry_along(const struct gm_task *task, const struct gm_tableau *tableau, struct gm_tile *tile)
 {
     const struct gm_problem *problem = task->problem;
     const size_t active = gm_tile_components(problem), passive = problem->passive;
@@ -87,7 +77,7 @@ static void carry_along(const struct gm_task *task, const struct gm_explicit_tab
 GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *tile,
                                   struct gm_progress *progress, size_t members)
 {
-    const struct gm_explicit_tableau *tableau = tile->row;
+    const struct gm_tableau *tableau = tile->row;
     const size_t active = gm_tile_components(task->problem) * members;
     const size_t all = (size_t)tableau->stages * active;
     double *stages = tile->scratch, *slopes = stages + all, *increment = slopes + all;
@@ -107,31 +97,8 @@ GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    return gm_tiles_advance(task, gm_explicit_tableau_of(task->scheme->coefficients),
-                            task->problem->m == 1 ? step_one : step_many);
+    return gm_tiles_advance(task, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
 }
-
-static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
-{
-    const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(scheme->coefficients);
-    const int stages = tableau->stages;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
-        return false;
-    }
-    for (int i = 0; i < stages; i++) {
-        for (int j = 0; j < i; j++) {
-            coefficients->a[0][i * stages + j] = gm_ball_written(tableau->a[i][j]);
-        }
-        coefficients->b[0][i] = gm_ball_written(tableau->b[i]);
-    }
-    return true;
-}
-
-static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
-#define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
-#include "core/ode/families/runge_kutta/explicit.def"
-#undef GM_EXPLICIT
-};
 
 static const struct gm_scheme schemes[] = {
 #define GM_EXPLICIT(identifier, order_, claims_, tableau_, name_, title_, formula_, reference_)              \
@@ -141,7 +108,7 @@ static const struct gm_scheme schemes[] = {
         .formula = formula_,                                                                                 \
         .reference = reference_,                                                                             \
         .family = &gm_family_explicit,                                                                       \
-        .coefficients = &rows[GM_EXPLICIT_##identifier],                                                     \
+        .coefficients = &gm_explicit_##identifier,                                                           \
         .order = order_,                                                                                     \
         .claims = claims_,                                                                                   \
     },
@@ -152,10 +119,10 @@ static const struct gm_scheme schemes[] = {
 const struct gm_family gm_family_explicit = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_EXPLICIT,
-    .coefficients_open = coefficients_open,
+    .coefficients_open = gm_tableau_coefficients_open,
     .title = "explicit Runge-Kutta",
     .schemes = schemes,
-    .count = GM_EXPLICIT_COUNT,
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .carries_passive = true,

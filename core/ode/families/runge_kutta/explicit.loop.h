@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The explicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/compiled/pass.h. */
 
-GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struct K(block) * block, double h,
+GM_INLINE mask K(explicit_step)(const struct gm_tableau *tableau, struct K(block) * block, double h,
                                 const void *parameters, bool compensated, bool stiff,
                                 struct K(counts) * counts)
 {
@@ -37,7 +37,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 }
 
 #define GM_DRIVE K(explicit_drive)
-#define GM_ROW struct gm_explicit_tableau
+#define GM_ROW struct gm_tableau
 #define GM_STEP K(explicit_step)
 #define GM_ABREAST K(ABREAST)
 #define GM_QUICK
@@ -46,11 +46,11 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 /* A tableau that is known at run time alone, without its zeros, multiplied by h: stage i adds entries
    from[i] .. from[i + 1), the last row being b. */
 struct K(explicit_terms) {
-    int stages, from[GM_EXPLICIT_STAGES + 2];
+    int stages, from[GM_TABLEAU_STAGES + 2];
     struct {
         int of; /* stage */
         double factor;
-    } terms[GM_EXPLICIT_STAGES * (GM_EXPLICIT_STAGES + 1)];
+    } terms[GM_TABLEAU_STAGES * (GM_TABLEAU_STAGES + 1)];
 };
 
 GM_INLINE mask K(explicit_own_step)(const struct K(explicit_terms) * table, struct K(block) * block, double h,
@@ -59,7 +59,7 @@ GM_INLINE mask K(explicit_own_step)(const struct K(explicit_terms) * table, stru
 {
     (void)h;
     (void)stiff;
-    real k[GM_EXPLICIT_STAGES][GM_COMPONENTS];
+    real k[GM_TABLEAU_STAGES][GM_COMPONENTS];
     for (int i = 0; i < table->stages; i++) {
         real stage[GM_COMPONENTS];
         for (int c = 0; c < GM_COMPONENTS; c++) {
@@ -96,8 +96,7 @@ GM_INLINE mask K(explicit_own_step)(const struct K(explicit_terms) * table, stru
 #include "core/ode/kernel/drive.h"
 
 /* The weights are all there, as in the loops of the list. */
-static struct gm_progress K(explicit_own_run)(const struct gm_task *task,
-                                              const struct gm_explicit_tableau *tableau)
+static struct gm_progress K(explicit_own_run)(const struct gm_task *task, const struct gm_tableau *tableau)
 {
     struct K(explicit_terms) table = {.stages = tableau->stages};
     int count = 0;
@@ -117,22 +116,18 @@ static struct gm_progress K(explicit_own_run)(const struct gm_task *task,
 
 __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)
 {
-    const enum gm_explicit_row *row = task->scheme->coefficients;
-    const struct gm_explicit_tableau *tableau =
-        NULL; /* a tableau without a loop; compensated runs have none */
-    switch (*row) {
+    const struct gm_tableau *tableau = task->scheme->coefficients;
+    switch ((enum gm_explicit_row)tableau->listed) {
 #define GM_EXPLICIT(identifier, ...)                                                                         \
     case GM_EXPLICIT_##identifier:                                                                           \
         if (!task->carry) {                                                                                  \
             return K(explicit_drive)(task, &gm_explicit_##identifier, false);                                \
         }                                                                                                    \
-        tableau = &gm_explicit_##identifier;                                                                 \
         break;
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
-    case GM_EXPLICIT_USER:
-        tableau = &((const struct gm_explicit_user *)row)->tableau;
+    case GM_EXPLICIT_NOT_LISTED:
         break;
     }
-    return K(explicit_own_run)(task, tableau);
+    return K(explicit_own_run)(task, tableau); /* compensated runs have no loop of one row */
 }

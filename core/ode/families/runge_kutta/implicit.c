@@ -23,7 +23,7 @@
 #include "core/theory/coefficients.h"
 
 /* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) const struct gm_implicit_row gm_implicit_##identifier = {__VA_ARGS__};
+#define GM_SCHEME_ROW(identifier, ...) const struct gm_tableau gm_implicit_##identifier = {__VA_ARGS__};
 #define GM_SCHEME_TEXTS(...)
 #include "core/implicit_schemes.def"
 #undef GM_SCHEME_ROW
@@ -33,7 +33,7 @@
    member's bits depend neither on the others nor on the loop. A passive particle whose iteration does not
    contract, because a vortex turns it too fast, is solved by Newton's method. */
 
-enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150 };
+enum { STAGES = GM_TABLEAU_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150 };
 
 /* A tile's scratch; in arrays over stages, stage i begins at i * n * members. */
 struct stage_scratch {
@@ -81,7 +81,7 @@ static void workspace_close(void *workspace)
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_implicit_row *row = scheme->coefficients;
+    const struct gm_tableau *row = scheme->coefficients;
     const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
     struct work *work = calloc(1, sizeof *work);
     if (!work) {
@@ -103,7 +103,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 
 /* Updates components [from, to) of the increments, z := h a f, of the members that still iterate, and the sum
    of the changes: a sum passes a NaN on, a maximum may lose it. */
-GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, size_t members, size_t from,
+GM_OF_TILE void update(const struct gm_tableau *row, double h, size_t n, size_t members, size_t from,
                        size_t to, const struct stage_scratch *s, double *change)
 {
     memset(change, 0, members * sizeof *change);
@@ -144,17 +144,43 @@ GM_OF_TILE void find_state(const struct stage_scratch *s, size_t n, size_t membe
     }
 }
 
+/* The equations of a step for the components of a tile, or for those of passive particles. */
+struct equations {
+    const struct gm_problem *problem;
+    const struct gm_loops *loops;
+    const struct gm_tableau *row;
+    double h;
+    const double *y;        /* n * members */
+    size_t n;               /* 2: of passive particles */
+    const double *carriers; /* the states of the active components at the stages; NULL: not of particles */
+};
+
+GM_OF_TILE void find_slope(const struct equations *equations, const struct stage_scratch *s, size_t members,
+                           size_t i)
+{
+    const struct gm_problem *problem = equations->problem;
+    double *at = s->at + i * equations->n * members, *slope = s->state;
+    if (equations->carriers) {
+        const double *active = equations->carriers + i * gm_tile_components(problem);
+        equations->loops->passive(problem, active, at, at + members, slope, slope + members, NULL, members);
+    } else {
+        equations->loops->field(problem, at, slope, members);
+    }
+}
+
 /* One iteration: new slopes at y + z, and new z from them. If q' depends on p alone and p' on q alone, p' is
    taken at the new q, which doubles the order in h that an iteration gains. */
-GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops *loops,
-                        const struct gm_implicit_row *row, double h, const double *y, size_t members,
-                        const struct stage_scratch *s)
+GM_OF_TILE void iterate(const struct equations *equations, size_t members, const struct stage_scratch *s)
 {
-    const size_t n = gm_tile_components(problem), half = n / 2, stages = (size_t)row->stages;
+    const struct gm_problem *problem = equations->problem;
+    const struct gm_loops *loops = equations->loops;
+    const struct gm_tableau *row = equations->row;
+    const double h = equations->h, *y = equations->y;
+    const size_t n = equations->n, half = n / 2, stages = (size_t)row->stages;
     if (!loops->force || n % 2 != 0) {
         for (size_t i = 0; i < stages; i++) {
             find_state(s, n, members, i, y);
-            loops->field(problem, s->at + i * n * members, s->state, members);
+            find_slope(equations, s, members, i);
             take(s, n, members, i, 0, n);
         }
         update(row, h, n, members, 0, n, s, s->change);
@@ -177,18 +203,21 @@ GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops 
     }
 }
 
-/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0; if Newton's method is
-   available, it must contract well. */
-GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
-                               size_t members, const struct stage_scratch *s, struct gm_progress *progress)
+/* Solves for the slopes of all members by fixed-point iteration, from z = 0; if Newton's method is available,
+   it must contract well. */
+GM_OF_TILE void by_fixed_point(const struct equations *equations, size_t members,
+                               const struct stage_scratch *s, struct gm_progress *progress)
 {
-    const struct gm_implicit_row *row = tile->row;
-    const double *y = tile->y;
-    const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
+    const double *y = equations->y;
+    const size_t n = equations->n, stages = (size_t)equations->row->stages;
     const double least = GM_LEAST_CHANGE(stages * n);
-    const bool newton = gm_matrix_size(problem) > 0;
+    const bool newton = gm_matrix_size(equations->problem) > 0;
     memset(s->z, 0, stages * n * members * sizeof *s->z);
     memset(s->norm, 0, members * sizeof *s->norm);
+    for (size_t l = 0; l < members; l++) {
+        s->going[l] = 1;
+        s->solved[l] = 0;
+    }
     for (size_t c = 0; c < n; c++) {
         for (size_t l = 0; l < members; l++) {
             s->norm[l] += fabs(y[c * members + l]);
@@ -201,7 +230,7 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
     for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
         progress->evaluations += stages * left;
         progress->iterations += left;
-        iterate(problem, tile->loops, row, h, y, members, s);
+        iterate(equations, members, s);
         left = 0;
         for (size_t l = 0; l < members; l++) {
             const double change = s->change[l], roundoff = 8 * (double)stages * GM_EPSILON * s->norm[l];
@@ -219,7 +248,7 @@ GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm
     }
 }
 
-static void set_stages(struct gm_stages *stages, const struct gm_implicit_row *row, double h, const double *y,
+static void set_stages(struct gm_stages *stages, const struct gm_tableau *row, double h, const double *y,
                        struct gm_progress *progress)
 {
     stages->h = h;
@@ -233,7 +262,7 @@ static void set_stages(struct gm_stages *stages, const struct gm_implicit_row *r
 static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
-    const struct gm_implicit_row *row = tile->row;
+    const struct gm_tableau *row = tile->row;
     const size_t n = problem->n, members = tile->members;
     double *y = tile->shared, *increment = y + n;
     struct gm_stage_solver solver = gm_stage_solver_lay(problem, (size_t)row->stages, increment + n);
@@ -251,157 +280,89 @@ static bool by_newton(const struct gm_problem *problem, const struct gm_tile *ti
     return true;
 }
 
-/* A block of passive particles in one sub-step. */
-struct block {
-    size_t count;
-    double start[2][BLOCK];
-    double z[STAGES][2][BLOCK], slopes[STAGES][2][BLOCK];
-};
-
-static void block_slopes(const struct gm_problem *problem, const double *states, size_t stages,
-                         struct block *block)
-{
-    for (size_t i = 0; i < stages; i++) {
-        double stage[2][BLOCK];
-        for (int side = 0; side < 2; side++) {
-            for (size_t k = 0; k < block->count; k++) {
-                stage[side][k] = block->start[side][k] + block->z[i][side][k];
-            }
-        }
-        gm_ode_of(problem)->loops[gm_isa_best()]->passive(problem, states + i * gm_tile_components(problem),
-                                                          stage[0], stage[1], block->slopes[i][0],
-                                                          block->slopes[i][1], NULL, block->count);
-    }
-}
-
-/* The states of the active components at the stages. */
-struct carriers {
-    const struct gm_problem *problem;
-    const double *states;
-};
-
+/* gm_stages.slope of one particle */
 static bool carried_slope(void *data, size_t j, const double *state, double *f, double *jacobian)
 {
-    const struct carriers *carriers = data;
-    const struct gm_problem *problem = carriers->problem;
+    const struct equations *equations = data;
     double strain[2];
-    gm_ode_of(problem)->loops[gm_isa_best()]->passive(problem,
-                                                      carriers->states + j * gm_tile_components(problem),
-                                                      &state[0], &state[1], &f[0], &f[1], strain, 1);
+    equations->loops->passive(equations->problem,
+                              equations->carriers + j * gm_tile_components(equations->problem), &state[0],
+                              &state[1], &f[0], &f[1], strain, 1);
     jacobian[0] = strain[0];
     jacobian[1] = jacobian[2] = strain[1];
     jacobian[3] = -strain[0];
     return true;
 }
 
-/* Solves for one particle by Newton's method, from z = 0; leaves its slopes in the block. */
-static bool solve_one(const struct gm_problem *problem, const double *states,
-                      const struct gm_implicit_row *row, double h, struct block *block, size_t k)
+/* Solves for particle k of `count` by Newton's method, from z = 0, and writes its slopes; NaN if there is no
+   solution. */
+static void solve_one(const struct equations *equations, const struct stage_scratch *s, size_t k,
+                      size_t count)
 {
     enum { MOST = 2 * STAGES };
-    const double start[2] = {block->start[0][k], block->start[1][k]};
+    const double start[2] = {equations->y[k], equations->y[count + k]};
     double z[MOST] = {0}, f[MOST], state[2], jacobian[4], scratch[MOST * (MOST + 3)];
-    struct carriers carriers = {problem, states};
     struct gm_progress ignored = {0};
-    struct gm_stages stages = {.count = (size_t)row->stages,
+    struct gm_stages stages = {.count = (size_t)equations->row->stages,
                                .n = 2,
                                .slope = carried_slope,
-                               .data = &carriers,
+                               .data = (void *)equations,
                                .f = f,
                                .state = state,
                                .jacobian = jacobian};
-    set_stages(&stages, row, h, start, &ignored);
-    const struct gm_implicit_equations equations = {.size = 2 * stages.count,
-                                                    .data = &stages,
-                                                    .linear = gm_stages_linear,
-                                                    .counted = 2 * stages.count,
-                                                    .y = start,
-                                                    .n = 2};
-    const bool solved = gm_newton_solve(&equations, scratch, z, &ignored);
-    for (size_t j = 0; j < stages.count; j++) {
-        block->slopes[j][0][k] = f[2 * j];
-        block->slopes[j][1][k] = f[2 * j + 1];
+    set_stages(&stages, equations->row, equations->h, start, &ignored);
+    const struct gm_implicit_equations newton = {.size = 2 * stages.count,
+                                                 .data = &stages,
+                                                 .linear = gm_stages_linear,
+                                                 .counted = 2 * stages.count,
+                                                 .y = start,
+                                                 .n = 2};
+    const bool solved = isfinite(start[0]) && gm_newton_solve(&newton, scratch, z, &ignored);
+    for (size_t j = 0; j < 2 * stages.count; j++) {
+        s->slopes[j * count + k] = solved ? f[j] : NAN;
     }
-    return solved;
 }
 
-/* Solves for the particles of a block. Each freezes once it is solved, so that its bits do not depend on its
-   neighbours. Particles without a solution get NaN for slopes. */
-static void solve_block(const struct gm_problem *problem, const double *states,
-                        const struct gm_implicit_row *row, double h, struct block *block)
+/* s->state := h sum_i b_i f_i of n * members numbers */
+GM_OF_TILE void increment(const struct gm_tableau *row, double h, size_t count, const struct stage_scratch *s)
 {
-    const size_t stages = (size_t)row->stages;
-    double previous[BLOCK];
-    double kept[STAGES][2][BLOCK];
-    bool solved[BLOCK] = {false}, diverged[BLOCK] = {false};
-    size_t left = block->count;
-    memset(block->z, 0, stages * sizeof block->z[0]);
-    for (size_t k = 0; k < block->count; k++) {
-        previous[k] = INFINITY;
-        diverged[k] = !isfinite(block->start[0][k] + block->start[1][k]);
-        left -= diverged[k];
-    }
-    for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
-        block_slopes(problem, states, stages, block);
-        for (size_t k = 0; k < block->count; k++) {
-            if (solved[k] || diverged[k]) {
-                continue;
-            }
-            double change = 0;
-            for (size_t i = 0; i < stages; i++) {
-                for (int side = 0; side < 2; side++) {
-                    double next = 0;
-                    for (size_t j = 0; j < stages; j++) {
-                        next += h * row->a[i][j] * block->slopes[j][side][k];
-                    }
-                    change += fabs(next - block->z[i][side][k]);
-                    block->z[i][side][k] = next;
-                }
-            }
-            const double roundoff =
-                8 * (double)stages * GM_EPSILON * (fabs(block->start[0][k]) + fabs(block->start[1][k]));
-            solved[k] = gm_is_settled(change, roundoff, &previous[k]);
-            diverged[k] = !solved[k] && !(change < 1e100);
-            left -= solved[k] || diverged[k];
-            for (size_t i = 0; solved[k] && i < stages; i++) {
-                kept[i][0][k] = block->slopes[i][0][k];
-                kept[i][1][k] = block->slopes[i][1][k];
-            }
-        }
-    }
-    for (size_t k = 0; k < block->count; k++) {
-        const bool by_newton =
-            !solved[k] && isfinite(block->start[0][k]) && solve_one(problem, states, row, h, block, k);
-        for (size_t i = 0; i < stages && !by_newton; i++) {
-            block->slopes[i][0][k] = solved[k] ? kept[i][0][k] : NAN;
-            block->slopes[i][1][k] = solved[k] ? kept[i][1][k] : NAN;
+    for (int i = 0; i < row->stages; i++) {
+        const double b = h * row->b[i], *slope = s->slopes + (size_t)i * count;
+        for (size_t c = 0; c < count; c++) {
+            s->state[c] = i == 0 ? b * slope[c] : s->state[c] + b * slope[c];
         }
     }
 }
 
+/* Moves the passive particles, a block at a time. Each freezes once it is solved, so that its bits do not
+   depend on its neighbours. */
 static void carry_along(const struct gm_problem *problem, double h, const double *states,
                         struct gm_tile *tile)
 {
-    const struct gm_implicit_row *row = tile->row;
-    const size_t active = gm_tile_components(problem), passive = problem->passive;
+    const struct gm_tableau *row = tile->row;
+    const size_t active = gm_tile_components(problem), passive = problem->passive,
+                 stages = (size_t)row->stages;
     for (size_t first = 0; first < passive; first += BLOCK) {
-        struct block block; /* filled up to the number of stages and particles */
-        block.count = passive - first < BLOCK ? passive - first : BLOCK;
+        const size_t count = passive - first < BLOCK ? passive - first : BLOCK;
         const size_t at[2] = {active + first, active + passive + first};
-        for (int side = 0; side < 2; side++) {
-            memcpy(block.start[side], tile->y + at[side], block.count * sizeof(double));
+        double y[2 * BLOCK], scratch[(6 * STAGES + 2 + OVER_MEMBERS) * BLOCK]; /* filled as far as needed */
+        const struct stage_scratch s = stages_of(scratch, stages, 2, count);
+        const struct equations equations = {
+            .problem = problem, .loops = tile->loops, .row = row, .h = h, .y = y, .n = 2, .carriers = states};
+        struct gm_progress ignored = {0};
+        for (size_t side = 0; side < 2; side++) {
+            memcpy(y + side * count, tile->y + at[side], count * sizeof *y);
         }
-        solve_block(problem, states, row, h, &block);
-        for (int side = 0; side < 2; side++) {
-            double increment[BLOCK];
-            for (size_t k = 0; k < block.count; k++) {
-                increment[k] = 0;
-                for (int i = 0; i < row->stages; i++) {
-                    increment[k] += h * row->b[i] * block.slopes[i][side][k];
-                }
+        by_fixed_point(&equations, count, &s, &ignored);
+        for (size_t k = 0; k < count; k++) {
+            if (s.solved[k] == 0) {
+                solve_one(&equations, &s, k, count);
             }
-            gm_tile_add(tile->y + at[side], 1, increment, tile->carry ? tile->carry + at[side] : NULL,
-                        block.count);
+        }
+        increment(row, h, 2 * count, &s);
+        for (size_t side = 0; side < 2; side++) {
+            gm_tile_add(tile->y + at[side], 1, s.state + side * count,
+                        tile->carry ? tile->carry + at[side] : NULL, count);
         }
     }
 }
@@ -409,16 +370,19 @@ static void carry_along(const struct gm_problem *problem, double h, const double
 GM_OF_TILE bool solve(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t members,
                       const struct stage_scratch *s, struct gm_progress *progress)
 {
+    const struct equations equations = {.problem = problem,
+                                        .loops = tile->loops,
+                                        .row = tile->row,
+                                        .h = h,
+                                        .y = tile->y,
+                                        .n = gm_tile_components(problem)};
     bool all = true;
-    for (size_t l = 0; l < members; l++) {
-        s->going[l] = 1;
-        s->solved[l] = 0;
-    }
     if (!gm_ode_of(problem)->stiff) {
-        by_fixed_point(problem, tile, h, members, s, progress);
+        by_fixed_point(&equations, members, s, progress);
     } else {
+        memset(s->solved, 0, members * sizeof *s->solved);
         memset(s->slopes, 0,
-               (size_t)((const struct gm_implicit_row *)tile->row)->stages * gm_tile_components(problem) *
+               (size_t)((const struct gm_tableau *)tile->row)->stages * gm_tile_components(problem) *
                    members * sizeof *s->slopes);
     }
     for (size_t l = 0; l < members && all; l++) {
@@ -436,7 +400,7 @@ GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *ti
                                   struct gm_progress *progress, size_t members)
 {
     const struct gm_problem *problem = task->problem;
-    const struct gm_implicit_row *row = tile->row;
+    const struct gm_tableau *row = tile->row;
     const size_t n = gm_tile_components(problem), count = n * members;
     const struct stage_scratch s = stages_of(tile->scratch, (size_t)row->stages, n, members);
     for (int substep = 0; substep < row->composition->steps; substep++) {
@@ -445,12 +409,7 @@ GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *ti
             return GM_NO_CONVERGENCE;
         }
         carry_along(problem, h, s.at, tile);
-        for (int i = 0; i < row->stages; i++) {
-            const double b = h * row->b[i], *slope = s.slopes + (size_t)i * count;
-            for (size_t c = 0; c < count; c++) {
-                s.state[c] = i == 0 ? b * slope[c] : s.state[c] + b * slope[c];
-            }
-        }
+        increment(row, h, count, &s);
         for (size_t l = 0; l < members; l++) {
             for (size_t c = l; s.solved[l] == 2 && c < count; c += members) {
                 s.state[c] = s.z[c];
@@ -486,16 +445,17 @@ static const struct gm_scheme schemes[] = {
 
 /* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
    g_l b_j of each earlier one. */
-static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
-    const struct gm_implicit_row *row = scheme->coefficients;
-    const int steps = row->composition->steps, stages = steps * row->stages;
+    const struct gm_tableau *row = scheme->coefficients;
+    const int steps = row->composition ? row->composition->steps : 1, stages = steps * row->stages;
     if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
         return false;
     }
     for (int j = 0; j < stages; j++) {
         const int step = j / row->stages, own = j % row->stages;
-        const struct gm_ball fraction = gm_ball_written(gm_composition_fraction(row->composition, step));
+        const struct gm_ball fraction =
+            gm_ball_written(row->composition ? gm_composition_fraction(row->composition, step) : 1);
         const struct gm_ball b = gm_ball_multiply(fraction, gm_ball_written(row->b[own]));
         coefficients->b[0][j] = b;
         for (int i = step * row->stages; i < stages; i++) {
@@ -511,7 +471,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
 const struct gm_family gm_family_implicit = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
-    .coefficients_open = coefficients_open,
+    .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
     .schemes = schemes,
     .count = GM_COUNT(schemes),

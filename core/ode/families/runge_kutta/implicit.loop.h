@@ -5,7 +5,7 @@ enum { K(IMPLICIT_ITERATIONS) = 150 };
 
 /* Updates components [from, to) of the increments, z := h a f in the active lanes. Returns the sum of the
    changes: a sum passes a NaN on, a maximum may lose it. */
-GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages, int from, int to, double h,
+GM_INLINE real K(implicit_update)(const struct gm_tableau *row, int stages, int from, int to, double h,
                                   mask active, real f[][GM_COMPONENTS], real z[][GM_COMPONENTS])
 {
     real change = K(constant)(0);
@@ -33,7 +33,7 @@ GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope
 
 /* One iteration: new slopes at y + z, and new z from them. If q' depends on p alone and p' on q alone, p' is
    taken at the new q, which doubles the order in h that an iteration gains. */
-GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages, const real *y, double h,
+GM_INLINE real K(implicit_iterate)(const struct gm_tableau *row, int stages, const real *y, double h,
                                    const void *parameters, mask active, real f[][GM_COMPONENTS],
                                    real z[][GM_COMPONENTS])
 {
@@ -73,7 +73,7 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
 /* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
    of z is at its end, or does not shrink as it should. A lane that is done is frozen, so its bits do not depend
    on the others. Returns the lanes that were solved. */
-GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
+GM_INLINE mask K(implicit_fixed_point)(const struct gm_tableau *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
                                        real z[][GM_COMPONENTS], struct K(counts) * counts)
 {
@@ -126,10 +126,10 @@ GM_INLINE bool implicit_slope(void *data, size_t stage, const double *state, dou
 }
 
 /* Solves the equations by Newton's method for one member, and writes its increment. */
-static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
-                            const void *parameters, double *increment, struct gm_progress *progress)
+static bool implicit_newton(const struct gm_tableau *row, const double *y, double h, const void *parameters,
+                            double *increment, struct gm_progress *progress)
 {
-    enum { N = GM_COMPONENTS, MOST = GM_IMPLICIT_STAGES * N };
+    enum { N = GM_COMPONENTS, MOST = GM_TABLEAU_STAGES * N };
     double z[MOST] = {0}, f[MOST], state[N], jacobian[N * N], scratch[MOST * (MOST + 1)];
     struct gm_stages stages = {
         .count = (size_t)row->stages,
@@ -160,7 +160,7 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 #endif
 
 /* Solves the lanes in `which`, one by one; returns the solved ones. */
-static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
+static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_tableau *row, mask which,
                                                             const real *y, double h, const void *parameters,
                                                             real *increments, struct K(counts) * counts)
 {
@@ -191,7 +191,7 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
     return solved;
 }
 
-GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
+GM_INLINE mask K(implicit_step_stages)(const struct gm_tableau *row, int stages, struct K(block) * block,
                                        double dt, const void *parameters, bool compensated, bool stiff,
                                        real f[][GM_COMPONENTS], real z[][GM_COMPONENTS],
                                        struct K(counts) * counts)
@@ -225,8 +225,8 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
 /* The number of stages as a constant, so that the small loops unroll; of more stages there are fewer
    schemes. */
 #define GM_IMPLICIT_STEP(name, count, room)                                                                  \
-    GM_INLINE mask K(implicit_step_##name)(const struct gm_implicit_row *row, struct K(block) * block,       \
-                                           double dt, const void *parameters, bool compensated, bool stiff,  \
+    GM_INLINE mask K(implicit_step_##name)(const struct gm_tableau *row, struct K(block) * block, double dt, \
+                                           const void *parameters, bool compensated, bool stiff,             \
                                            struct K(counts) * counts)                                        \
     {                                                                                                        \
         real f[room][GM_COMPONENTS], z[room][GM_COMPONENTS];                                                 \
@@ -236,30 +236,30 @@ GM_IMPLICIT_STEP(1, 1, 1)
 GM_IMPLICIT_STEP(2, 2, 2)
 GM_IMPLICIT_STEP(3, 3, 3)
 GM_IMPLICIT_STEP(4, 4, 4)
-GM_IMPLICIT_STEP(any, row->stages, GM_IMPLICIT_STAGES)
+GM_IMPLICIT_STEP(any, row->stages, GM_TABLEAU_STAGES)
 #undef GM_IMPLICIT_STEP
 
-#define GM_ROW struct gm_implicit_row
+#define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_1)
 #define GM_STEP K(implicit_step_1)
 #define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
-#define GM_ROW struct gm_implicit_row
+#define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_2)
 #define GM_STEP K(implicit_step_2)
 #define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
-#define GM_ROW struct gm_implicit_row
+#define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_3)
 #define GM_STEP K(implicit_step_3)
 #define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
-#define GM_ROW struct gm_implicit_row
+#define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_4)
 #define GM_STEP K(implicit_step_4)
 #define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
-#define GM_ROW struct gm_implicit_row
+#define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_any)
 #define GM_STEP K(implicit_step_any)
 #define GM_ABREAST 1
@@ -267,7 +267,7 @@ GM_IMPLICIT_STEP(any, row->stages, GM_IMPLICIT_STAGES)
 
 __attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)
 {
-    const struct gm_implicit_row *row = task->scheme->coefficients;
+    const struct gm_tableau *row = task->scheme->coefficients;
     const bool compensated = task->carry != NULL;
     switch (row->stages) {
     case 1:

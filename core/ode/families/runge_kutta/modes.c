@@ -15,7 +15,7 @@
 #include "core/linear/modes.h"
 #include "core/ode/kernel/tiles.h"
 
-enum { LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
+enum { LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_TABLEAU_STAGES * LARGEST };
 
 struct work {
     struct gm_modes modes;
@@ -36,7 +36,7 @@ void gm_implicit_modes_close(void *workspace)
     free(work);
 }
 
-void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_implicit_row *row)
+void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_tableau *row)
 {
     const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields,
                  stages = (size_t)row->stages, unknowns = stages * fields;
@@ -62,7 +62,7 @@ void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_i
 }
 
 /* Solves for K of one mode, from N and y; K overwrites the waves of N. */
-static bool solve_mode(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
+static bool solve_mode(const struct gm_problem *problem, const struct gm_tableau *row, double h,
                        struct work *work, size_t mode)
 {
     const size_t fields = work->modes.fields, points = work->modes.points, stages = work->stages,
@@ -120,7 +120,7 @@ static bool sweep(void *data, const double *z, double *next, double *scale)
 {
     const struct substep *substep = data;
     const struct gm_problem *problem = substep->task->problem;
-    const struct gm_implicit_row *row = substep->task->scheme->coefficients;
+    const struct gm_tableau *row = substep->task->scheme->coefficients;
     struct work *work = substep->work;
     const size_t n = work->n;
     for (size_t i = 0; i < work->stages; i++) {
@@ -158,7 +158,7 @@ static bool find_slopes(struct substep *substep)
 
 struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
 {
-    const struct gm_implicit_row *row = task->scheme->coefficients;
+    const struct gm_tableau *row = task->scheme->coefficients;
     struct work *work = task->workspace;
     const size_t n = work->n;
     double *y = task->out;

@@ -9,7 +9,7 @@
    linear part, so that it converges if h N' is small, however large h L is. */
 
 /* Returns the workspace; NULL: out of memory. */
-void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_implicit_row *row);
+void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_tableau *row);
 void gm_implicit_modes_close(void *workspace);
 
 /* Makes all steps; the workspace is that of gm_implicit_modes_open. */

@@ -3,12 +3,12 @@
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_NYSTROM_H
 
-enum { GM_NYSTROM_STAGES = 16 };
+#include "core/ode/kernel/stages.h"
 
 struct gm_nystrom_row {
     int stages;
-    double a[GM_NYSTROM_STAGES][GM_NYSTROM_STAGES];
-    double b[GM_NYSTROM_STAGES], bv[GM_NYSTROM_STAGES], c[GM_NYSTROM_STAGES];
+    double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
+    double b[GM_TABLEAU_STAGES], bv[GM_TABLEAU_STAGES], c[GM_TABLEAU_STAGES];
 };
 
 #endif

@@ -5,12 +5,10 @@
 
 #include "core/ode/kernel/stages.h"
 
-enum { GM_PARTITIONED_STAGES = GM_TABLEAU_STAGES };
-
 struct gm_partitioned_row {
     size_t stages;
-    double a[GM_PARTITIONED_STAGES][GM_PARTITIONED_STAGES], c[GM_PARTITIONED_STAGES][GM_PARTITIONED_STAGES];
-    double b[GM_PARTITIONED_STAGES], d[GM_PARTITIONED_STAGES];
+    double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES], c[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
+    double b[GM_TABLEAU_STAGES], d[GM_TABLEAU_STAGES];
 };
 
 #endif

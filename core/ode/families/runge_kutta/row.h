@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of an implicit Runge-Kutta method, which its loops over kernels, over nodes and over waves share. */
+/* The row of a Runge-Kutta method, which the loops of explicit and of implicit ones share. */
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 
 #include "core/ode/families/compositions.h"
 #include "core/ode/kernel/stages.h"
 
-/* The largest number of stages with a loop compiled for it, and the largest at all. */
-enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = GM_TABLEAU_STAGES };
+/* The largest number of stages with an implicit loop compiled for it. */
+enum { GM_IMPLICIT_KNOWN_STAGES = 4 };
 
-/* An implicit Runge-Kutta method, or a composition of one with itself. */
-struct gm_implicit_row {
+/* A Runge-Kutta method, or a composition of an implicit one with itself. */
+struct gm_tableau {
     int stages;
-    double a[GM_IMPLICIT_STAGES][GM_IMPLICIT_STAGES];
-    double b[GM_IMPLICIT_STAGES];
-    const struct gm_composition *composition;
+    int listed; /* explicit: its number in the list explicit.def, from 1 on; 0: it is not in it */
+    double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
+    double b[GM_TABLEAU_STAGES];
+    const struct gm_composition *composition; /* implicit; NULL: explicit */
 };
 
 #endif

@@ -72,12 +72,6 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return problem->n * problem->m;
-}
-
 static enum gm_status start(const struct gm_task *task)
 {
     memcpy(task->memory_out, task->y, task->problem->n * task->problem->m * sizeof(double));
@@ -114,9 +108,8 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_extended_phase_space = {
     .title = "extended phase space",
-    GM_MEMBERS(.step = step, .vectors = 2),
+    GM_MEMBERS_WITH_MEMORY(.step = step, .halves = 2, .vectors = 2),
     .parameters = gm_settings_of_tao,
-    .memory = memory,
     .start = start,
     .doubled = true,
 };

@@ -169,13 +169,14 @@ static void reduced(const struct gm_problem *problem, const double *state, doubl
     }
 }
 
-/* Writes `count` velocities at (x, y), due to vortices at (at_x, at_y); if strain is not NULL also their
-   derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
-static inline __attribute__((always_inline)) void carry(double factor, const double *at_x, const double *at_y,
-                                                        size_t vortices, const double *x, const double *y,
-                                                        double *velocity_x, double *velocity_y,
-                                                        double *strain, size_t count, bool images)
+/* Writes `count` velocities at (x, y), due to the active vortices, or to two of them and their images; if strain
+   is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
+static inline __attribute__((always_inline)) void
+carry(const struct gm_problem *problem, const double *active, const double *x, const double *y,
+      double *velocity_x, double *velocity_y, double *strain, size_t count, bool images)
 {
+    const size_t vortices = images ? 2 : (problem->n - 2 * problem->passive) / 2;
+    const double *at_x = active, *at_y = active + vortices, factor = factor_of(problem);
     for (size_t i = 0; i < count; i += LANES) {
         const size_t members = count - i < LANES ? count - i : LANES;
         lanes x_i = {0}, y_i = {0}, sum_x = {0}, sum_y = {0}, a = {0}, b = {0};
@@ -206,29 +207,19 @@ static inline __attribute__((always_inline)) void carry(double factor, const dou
     }
 }
 
-static void carried(const struct gm_problem *problem, const double *active, const double *x, const double *y,
-                    double *velocity_x, double *velocity_y, double *strain, size_t count)
-{
-    const size_t vortices = (problem->n - 2 * problem->passive) / 2;
-    if (strain) {
-        carry(factor_of(problem), active, active + vortices, vortices, x, y, velocity_x, velocity_y, strain,
-              count, false);
-    } else {
-        carry(factor_of(problem), active, active + vortices, vortices, x, y, velocity_x, velocity_y, NULL,
-              count, false);
+/* gm_loops.passive; without derivatives the loop has no trace of them */
+#define CARRIED(name, images)                                                                                \
+    static void name(const struct gm_problem *problem, const double *active, const double *x,                \
+                     const double *y, double *velocity_x, double *velocity_y, double *strain, size_t count)  \
+    {                                                                                                        \
+        if (strain) {                                                                                        \
+            carry(problem, active, x, y, velocity_x, velocity_y, strain, count, images);                     \
+        } else {                                                                                             \
+            carry(problem, active, x, y, velocity_x, velocity_y, NULL, count, images);                       \
+        }                                                                                                    \
     }
-}
-
-static void carried_by_four(const struct gm_problem *problem, const double *active, const double *x,
-                            const double *y, double *velocity_x, double *velocity_y, double *strain,
-                            size_t count)
-{
-    if (strain) {
-        carry(factor_of(problem), active, active + 2, 2, x, y, velocity_x, velocity_y, strain, count, true);
-    } else {
-        carry(factor_of(problem), active, active + 2, 2, x, y, velocity_x, velocity_y, NULL, count, true);
-    }
-}
+CARRIED(carried, false)
+CARRIED(carried_by_four, true)
 
 const struct gm_loops GM_LOOPS_NAME(vortices,
                                     GM_ISA) = {.field = pair_sum, .energy = pair_energy, .passive = carried};
