@@ -456,8 +456,8 @@ int gm_command_list(const struct gm_options *options)
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool is_system =
-        *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
+    const bool equations = options->latex || options->arguments.count > 1 || !gm_scene_find(first);
+    const bool is_system = *first && equations && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
         return gm_list_system(options, typed ? NULL : &file);
     }
@@ -468,7 +468,7 @@ int gm_command_list(const struct gm_options *options)
     if (options->arguments.count > 1) {
         return gm_give_up(
             GM_EXIT_USAGE,
-            "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system, a room or a scheme");
+            "list takes one name, and values only after the name of a system: list kepler eccentricity=0.3");
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->source) {

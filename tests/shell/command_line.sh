@@ -666,6 +666,10 @@ import sys
 pixels = [data[data.index(b"IDAT"):] for data in (open(name, "rb").read() for name in sys.argv[1:])]
 sys.exit(pixels[0] != pixels[1])
 END
+# a key that the scene had in an earlier version
+status 0 render kepler scheme=verlet until=1 -o pictures/q1.svg
+sed 's/>kepler scheme=verlet until=1</>kepler scheme=verlet until=1 q1=0.5</' pictures/q1.svg >pictures/earlier.svg
+refused 3 'until=1 q1=0.5"; render them without the refused one: scene kepler has no parameter "q1"' again pictures/earlier.svg
 status 0 render disc --frames 3 --size 320x200 --out sequence
 [ "$(ls sequence | wc -l)" = 3 ] || fail '--frames 3 makes three files'
 [ "$(cat err)" = 'geomint: wrote 3 frames, sequence/disc-render-*.png' ] || fail "frames are not told: $(cat err)"
