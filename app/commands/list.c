@@ -401,7 +401,7 @@ static int refuse_name(const char *word)
     const char *found = list                                 ? list
                         : gm_system_near(word, near, folder) ? near
                         : folder[0]                          ? NULL
-                                                             : gm_scheme_meant(NULL, word);
+                                                             : gm_scheme_near(word, NULL, 0);
     if (!found && folder[0]) {
         return gm_give_up(GM_EXIT_FILE, "%s", folder);
     }

@@ -52,7 +52,7 @@ const struct gm_option gm_option_rows[] = {
     {"--max", FLAG, GM_RUN, AT(maximum), "", "also NAME_max, the value of largest magnitude over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
     {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
-    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
+    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(pace.every), "K",
      "run: a row of --csv and --save, render: a frame, every K steps"},
     {"--interval", RATE, GM_RUN, AT(interval), "T",
      "a row at the steps next to multiples of T in model time"},
@@ -61,11 +61,11 @@ const struct gm_option gm_option_rows[] = {
     {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE",
      "write the state to FILE, from which --continue resumes"},
     {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "resume from a checkpoint"},
-    {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
-    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames per second of the movie (30)"},
-    {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time per second of the movie"},
-    {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
-    {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
+    {"--frames", WHOLE, GM_RENDER, AT(pace.frames), "N", "N frames, evenly spaced in model time"},
+    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(pace.fps), "F", "frames per second of the movie (30)"},
+    {"--rate", RATE, GM_RENDER, AT(pace.rate), "R", "model time per second of the movie"},
+    {"--from", TIME, GM_RENDER, AT(pace.from), "T", "first frame at model time T"},
+    {"--at", TIME, GM_RENDER, AT(pace.at), "T", "one picture at model time T"},
     {"--output", TEXT, PRINTS, AT(output), "FILE",
      "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
     {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
@@ -94,7 +94,7 @@ const struct gm_option gm_option_rows[] = {
      "keys before --shot: 2s lets 2 s pass, ENTER, ESC, UP ..., or text to type"},
     {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
-    {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(pace.movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv",
      "write the rows to FILE.csv; the same command resumes"},
     {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one per core)"},
@@ -103,8 +103,9 @@ const struct gm_option gm_option_rows[] = {
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
      "also with more than a million runs or 1e11 steps"},
     {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv", "join the shards' tables, and list the missing rows"},
-    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shards of the frames"},
-    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N", "only the I-th of N shards of the runs, in its own table"},
+    {"--shard", SHARD, GM_RENDER, AT(pace.shard), "I/N", "only the I-th of N shards of the frames"},
+    {"--shard", SHARD, GM_SWEEP, AT(pace.shard), "I/N",
+     "only the I-th of N shards of the runs, in its own table"},
     {"--engine", ENGINE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
      "auto|interpreted|native", "what advances user-defined systems (auto: compiled code, if it is faster)"},
     {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove the compiled code"},
@@ -172,8 +173,8 @@ static bool store_whole(char *place, const struct gm_option *row, const char *va
 static bool read_shard(const char *value, struct gm_options *options)
 {
     int used = 0;
-    return sscanf(value, "%6ld/%6ld%n", &options->shard, &options->shards, &used) == 2 && !value[used] &&
-           options->shard >= 1 && options->shard <= options->shards;
+    return sscanf(value, "%6ld/%6ld%n", &options->pace.shard, &options->pace.shards, &used) == 2 &&
+           !value[used] && options->pace.shard >= 1 && options->pace.shard <= options->pace.shards;
 }
 
 static bool is_painted(double width, double height)
@@ -280,7 +281,7 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
                       "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm");
     case SHARD:
         return read_shard(value, options) ||
-               refuse(message, row->name, value, "is not I/N, the I-th of N shares, with I from 1 to N");
+               refuse(message, row->name, value, "is not I/N, the I-th of N shards, with I from 1 to N");
     case ENGINE:
         return gm_engine_named(value, &options->engine) ||
                refuse(message, row->name, value, "is none of: auto, interpreted, native");
@@ -413,7 +414,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
                  {"--save-tracks", options->tracks},
                  {"--table", options->table},
                  {"--output", options->output},
-                 {"--movie", options->movie},
+                 {"--movie", options->pace.movie},
                  {"--polish", options->polish},
                  {"--shot", options->terminal.shot},
                  {"--checkpoint", options->checkpoint}};
@@ -480,10 +481,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message)
 {
-    *options = (struct gm_options){.fps = NAN,
-                                   .rate = NAN,
-                                   .from = NAN,
-                                   .at = NAN,
+    *options = (struct gm_options){.pace = {.fps = NAN, .rate = NAN, .from = NAN, .at = NAN},
                                    .interval = NAN,
                                    .look = {.width = 1280, .height = 720}};
     bool given[ROWS] = {false};

@@ -49,7 +49,7 @@ extern const struct gm_study_row gm_study_work, gm_study_stability, gm_study_bac
 /* The functions of kinds that have cells; grid.h describes them. */
 void gm_cells_open(struct gm_grid *grid);
 void gm_cells_measure(struct gm_grid *grid);
-void gm_cells_write(const struct gm_grid *grid, FILE *csv);
+bool gm_cells_write(const struct gm_grid *grid, FILE *csv);
 
 void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture);
 

@@ -96,9 +96,8 @@ static bool write_table(const struct gm_chart *chart, const char *path)
     if (!table) {
         return false;
     }
-    chart->write(chart->data, table);
-    const bool failed = ferror(table) != 0;
-    return fclose(table) == 0 && !failed;
+    const bool good = chart->write(chart->data, table) && !ferror(table);
+    return fclose(table) == 0 && good;
 }
 
 /* The numbers aside first: with a table that has to stay nothing is drawn. */

@@ -62,7 +62,8 @@ struct gm_chart {
     struct gm_print print; /* gm_chart_write sets its path */
     const void *data;
     void (*draw)(const void *data, struct gm_picture *picture); /* fills an empty picture */
-    void (*write)(const void *data, FILE *table);               /* NULL: the numbers exist already */
+    /* Writes the numbers; false with errno if they could not be read. NULL: they exist already. */
+    bool (*write)(const void *data, FILE *table);
     char picture[4096], csv[4096]; /* the paths of the written files; the second is "" without a table */
 };
 

@@ -50,9 +50,6 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
 /* The own name of the scheme that a word means for a scene; the word itself if it is a file or unknown. */
 const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word);
 
-/* The name of the scheme that an unknown word probably means, among those that fit the scene (NULL: among all),
-   or NULL. */
-const char *gm_scheme_meant(const struct gm_scene *scene, const char *word);
 /* Refuses an unknown scheme, with what the word probably means. Returns false. */
 bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message);
 

@@ -158,7 +158,7 @@ static void draw_region(const void *data, struct gm_picture *picture)
     }
 }
 
-static void write_region(const void *data, FILE *csv)
+static bool write_region(const void *data, FILE *csv)
 {
     const struct region *region = data;
     const bool plane = region->test == GM_TEST_PLANE;
@@ -172,6 +172,7 @@ static void write_region(const void *data, FILE *csv)
                    isfinite(region->known[i]) ? region->known[i] : NAN);
         fputc('\n', csv);
     }
+    return true;
 }
 
 /* The limits of a region, its part of the picture, and the largest difference from the stability function; NAN:

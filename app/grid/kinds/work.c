@@ -629,6 +629,16 @@ static void conclude(const struct gm_grid *grid, struct gm_grid_line *line)
     }
 }
 
+/* Returns true if a scheme is measured by its tolerance. */
+static bool has_tolerances(const struct gm_grid *grid)
+{
+    bool has = false;
+    for (size_t i = 0; i < grid->count; i++) {
+        has |= grid->lines[i].scheme->family->by_tolerance;
+    }
+    return has;
+}
+
 static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number)
 {
     (void)number;
@@ -637,8 +647,10 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     }
     gm_row_put(row, "dt %.17g, steps %.0f, t %.17g, status %s", cell->dt, (double)cell->steps, cell->t,
                gm_status_name(cell->status));
-    if (row->form == GM_ROW_JSON && cell->spec->settings.tolerance > 0) {
-        gm_row_number(row, "tolerance", cell->spec->settings.tolerance, 17);
+    const double tolerance = cell->spec->settings.tolerance;
+    const bool is_step = cell->spec == grid->request.lanes; /* of a ladder of steps, not of tolerances */
+    if (row->form == GM_ROW_JSON ? tolerance > 0 : has_tolerances(grid)) {
+        gm_row_number(row, "tolerance", row->form == GM_ROW_CSV && is_step ? NAN : tolerance, 17);
     }
     gm_row_number(row, row->form == GM_ROW_HEAD ? grid->measure : "error",
                   isfinite(cell->error) ? cell->error : NAN, 17);
