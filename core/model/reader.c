@@ -694,6 +694,29 @@ static bool read_timing(struct gm_reading *reading, const struct gm_system_line 
     return item->text != NULL;
 }
 
+/* dt = KEY*F: either of the step and a parameter follows from the other; F has no such parameter. */
+static bool read_tie(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const char *text = reading->text;
+    const size_t equals = gm_span_until(text, line->value, "="), end = line->value.end;
+    const struct gm_span step = gm_span_trimmed(text, (struct gm_span){line->value.begin, equals}),
+                         product = gm_span_trimmed(text, (struct gm_span){equals + (equals < end), end});
+    const size_t length = gm_name_length(text + product.begin, product.end - product.begin),
+                 times = product.begin + length;
+    const struct gm_entry *entry = gm_reading_entry(reading, text + product.begin, length, false, 0);
+    if (step.end - step.begin != 2 || memcmp(text + step.begin, "dt", 2) != 0 || times >= product.end ||
+        text[times] != '*' || !entry || entry->role != GM_ENTRY_PARAMETER) {
+        return gm_fail_first(&reading->fault, line->value.begin,
+                             "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
+    }
+    struct gm_system_item *item =
+        add_item(reading, line, (struct gm_span){product.begin, product.begin + length});
+    if (item) {
+        item->variable = reading->system->parameters + entry->number;
+    }
+    return item && add_formula(reading, item, (struct gm_span){times + 1, product.end});
+}
+
 /* geomint: 1 */
 static bool read_version(struct gm_reading *reading, const struct gm_system_line *line)
 {

@@ -13,6 +13,7 @@
        figure 26   a self-similar viscous shock */
 #include <math.h>
 
+#include "scenes/common/system/rows.h"
 #include "scenes/field/burgers_draw.h"
 #include "scenes/field/field.h"
 
@@ -61,7 +62,8 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
     struct gm_burgers_scene *scene = self;
     const double length = 2 * half_length(scene);
     scene->dx = length / fmax(2, round(length / scene->dx));
-    return gm_settle_courant(keys, count, scene->dx, &scene->timing, &scene->courant, sentence);
+    const struct gm_tie tie = {"courant", &scene->courant, scene->dx, &scene->timing};
+    return gm_tie_settle(&tie, keys, count, sentence);
 }
 
 static bool setup(const void *self, struct gm_problem *problem, char *sentence)

@@ -23,22 +23,6 @@ struct gm_grid1 gm_between_walls(double half_length, long points)
                              .walls = true};
 }
 
-bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
-                       double *courant, char *sentence)
-{
-    const double follows = *courant * dx;
-    const bool dt = gm_is_given("dt", keys, count);
-    if (dt && gm_is_given("courant", keys, count) && fabs(follows - timing->dt) > 1e-9 * follows) {
-        return gm_refuse(sentence, "dt= and courant= are both given; one of them follows from the other");
-    }
-    if (dt) {
-        *courant = timing->dt / dx;
-    } else {
-        timing->dt = follows;
-    }
-    return true;
-}
-
 double gm_field_u(const struct gm_view *view, size_t node)
 {
     return view->state[node];

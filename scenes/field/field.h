@@ -39,11 +39,6 @@ struct gm_grid1 gm_ring(double half_length, long points);
 /* Returns a grid of `points` nodes from wall to wall. */
 struct gm_grid1 gm_between_walls(double half_length, long points);
 
-/* Sets the time step from the Courant number dt / dx, or the reverse. Returns false with a sentence if both
-   are given and contradict. */
-bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
-                       double *courant, char *sentence);
-
 /* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);
 

@@ -26,6 +26,7 @@
 #include "core/ode/user/evolution.h"
 #include "core/schemes.h"
 #include "core/tape.h"
+#include "scenes/common/system/hook.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/common/system/rows.h"
 #include "scenes/common/system/studies.h"
@@ -256,7 +257,16 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 {
     const struct gm_graph kept = {.highest = true, .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
     const char *const *usual = field->kind->graphs[field->solved];
+    const struct gm_system_item *item;
     size_t count = 0;
+    for (; count < MOST_GRAPHS && (item = gm_system_item_of(&field->of_file.system, GM_WORD_GRAPH, count));
+         count++) {
+        graphs[count] = (struct gm_graph){.observable = item->name};
+        gm_system_graph(item, &graphs[count]);
+    }
+    if (count > 0) {
+        return count;
+    }
     for (size_t i = 0; i < MOST_GRAPHS && usual[i]; i++) {
         graphs[count] = kept;
         graphs[count++].observable = usual[i];
@@ -817,12 +827,14 @@ static void make_observables(struct user_field *field)
     static const char infinite[] = "its density is not finite everywhere";
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
-    size_t count = field->kind->observable_count;
+    const struct gm_hook *hook = field->kind == &waves ? of_file->hook : NULL;
+    size_t count = hook ? hook->observable_count : field->kind->observable_count;
     of_file->observables = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
     of_file->formulas = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
     of_file->terms = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
     gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
-    memcpy(of_file->observables, field->kind->observables, count * sizeof *of_file->observables);
+    memcpy(of_file->observables, hook ? hook->observables : field->kind->observables,
+           count * sizeof *of_file->observables);
     if (field->solved && field->kind == &moving_waves) {
         memcpy(of_file->observables + count, on_nodes, sizeof on_nodes);
         count += GM_COUNT(on_nodes);
@@ -1005,6 +1017,9 @@ static void make(struct gm_arena *arena, void *data)
     const char *const *texts = (const char *const *)system->texts;
     if (kind->no_walls && texts[GM_WORD_BOUNDARY] && strcmp(texts[GM_WORD_BOUNDARY], "walls") == 0) {
         gm_arena_refuse(arena, "%s", kind->no_walls);
+    }
+    if (!gm_system_find_hook(of_file, sentence)) {
+        gm_arena_refuse(arena, "%s", sentence);
     }
     gm_arena_need(arena, derive(field));
     field->solved = gm_line_is_solved(system);

@@ -7,7 +7,7 @@
    axis: the last member is in the middle, all others of a disc are on the edge. Observables are values of the
    centre; if the state is a plane, also the disc's area. */
 #include "scenes/ode/system.h"
-#include "scenes/ode/hooks/hook.h"
+#include "scenes/common/system/hook.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -602,33 +602,12 @@ static const char *title_of(struct gm_system_scene *system_scene)
     return kept ? kept : "A user-defined system";
 }
 
-/* Finds the hook that the file names, if it does. False with a sentence if it is unknown, or suits other
-   systems. */
-static bool find_hook(struct gm_system_scene *system_scene, char *sentence)
-{
-    static const struct gm_hook *const hooks[] = {
-#define GM_HOOK(name) &gm_hook_##name,
-#include "scenes/ode/hooks/hooks.def"
-#undef GM_HOOK
-    };
-    const char *name = system_scene->system.texts[GM_WORD_HOOK];
-    for (size_t i = 0; name && i < GM_COUNT(hooks); i++) {
-        system_scene->hook = strcmp(hooks[i]->name, name) == 0 ? hooks[i] : system_scene->hook;
-    }
-    const struct gm_hook *hook = system_scene->hook;
-    if (name && !hook) {
-        return gm_refuse(sentence, "hook: there is no hook \"%.60s\"", name);
-    }
-    return !hook || hook->suits(&system_scene->system) ||
-           gm_refuse(sentence, "the hook \"%s\" is for %s", hook->name, hook->needs);
-}
-
 static bool make(struct gm_system_scene *system_scene, const char *name, const char *const *words, bool typed,
                  char *sentence)
 {
     struct gm_user_system *system = &system_scene->system;
     gm_refuse(sentence, "not enough memory");
-    if (!find_hook(system_scene, sentence) || !gm_user_model_open(&system_scene->model, system) ||
+    if (!gm_system_find_hook(system_scene, sentence) || !gm_user_model_open(&system_scene->model, system) ||
         !make_rows(system_scene, typed)) {
         return false;
     }

@@ -148,13 +148,18 @@ static bool jump_of(const struct gm_user_system *system, const gm_node_id *node,
     return good;
 }
 
-/* Returns true for V = 1 - cos(u). */
-static bool is_sine_gordon(const struct gm_user_system *system)
+/* Returns the problem whose loops compute V = 0 or V = 1 - cos(u); NULL for other potentials. */
+static const struct gm_problem *known_potential(const struct gm_user_system *system)
 {
     const struct gm_node *nodes = system->graph.nodes, *V = &nodes[system->energy];
-    return V->operation == GM_OPERATION_SUBTRACT && gm_is_constant(&system->graph, V->a, 1) &&
-           nodes[V->b].operation == GM_OPERATION_COS && nodes[nodes[V->b].a].operation == GM_VARIABLE &&
-           nodes[nodes[V->b].a].a == 0;
+    if (gm_is_constant(&system->graph, system->energy, 0)) {
+        return &gm_problem_wave;
+    }
+    const bool sine_gordon = V->operation == GM_OPERATION_SUBTRACT &&
+                             gm_is_constant(&system->graph, V->a, 1) &&
+                             nodes[V->b].operation == GM_OPERATION_COS &&
+                             nodes[nodes[V->b].a].operation == GM_VARIABLE && nodes[nodes[V->b].a].a == 0;
+    return sine_gordon ? &gm_problem_sine_gordon : NULL;
 }
 
 bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
@@ -172,9 +177,10 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
         return false;
     }
     self->facets = (struct gm_field){.form = &gm_form_of_waves, .wave = &formulas};
-    if (is_sine_gordon(system)) { /* loops of the program */
-        self->facets.wave = gm_field_of(&gm_problem_sine_gordon)->wave;
-        problem->bound = gm_problem_sine_gordon.bound;
+    const struct gm_problem *known = known_potential(system);
+    if (known) {
+        self->facets.wave = gm_field_of(known)->wave;
+        problem->bound = known->bound;
     }
     problem->facets = &self->facets;
     problem->parameters = self;

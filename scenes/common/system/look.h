@@ -66,7 +66,7 @@ enum {
     GM_MOST_OVER_TIME = 8
 };
 
-struct gm_hook; /* scenes/ode/hooks/hook.h */
+struct gm_hook; /* scenes/common/system/hook.h */
 
 /* The data that follows from a system once. */
 struct gm_system_scene {

@@ -19,6 +19,22 @@ static char *given_of(struct gm_system_lane *lane)
     return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
+bool gm_tie_settle(const struct gm_tie *tie, const char *const *keys, size_t count, char *sentence)
+{
+    const double follows = *tie->value * tie->unit;
+    const bool dt = gm_is_given("dt", keys, count);
+    if (dt && gm_is_given(tie->key, keys, count) && fabs(follows - tie->timing->dt) > 1e-9 * follows) {
+        return gm_refuse(sentence, "dt= and %s= are both given; one of them follows from the other",
+                         tie->key);
+    }
+    if (dt) {
+        *tie->value = tie->timing->dt / tie->unit;
+    } else {
+        tie->timing->dt = follows;
+    }
+    return true;
+}
+
 bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
                       gm_system_opener open, char *sentence)
 {
@@ -63,6 +79,16 @@ bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size
             lane->timing.until = number;
         } else if (word == GM_WORD_STEPS && !given[UNTIL] && !by_steps && number >= 0) {
             lane->timing.until = number * lane->timing.dt;
+        }
+    }
+    const struct gm_system_item *line = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
+    for (size_t row = GM_SYSTEM_ROWS; line && row < system_scene->row_count && good; row++) {
+        if (system_scene->variables[row] == line->variable) {
+            double unit;
+            gm_tape_values(&system_scene->of_items[line - system_scene->system.items], values, &unit, 1);
+            const struct gm_tie tie = {system_scene->rows[row].key, &lane->values[row - GM_SYSTEM_ROWS], unit,
+                                       &lane->timing};
+            good = gm_tie_settle(&tie, keys, count, sentence);
         }
     }
     free(values);

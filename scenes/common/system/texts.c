@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "core/model/scope.h"
-#include "scenes/common/graph.h"
 #include "scenes/common/system/pieces.h"
 
 enum { SIZE = 1024 };
@@ -177,7 +176,8 @@ bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const bool is_text = item->text && item->word != GM_WORD_LEVEL;
-        if (item->text || item->word == GM_WORD_STABILITY || item->word == GM_WORD_COLOURS) {
+        if (item->text || item->word == GM_WORD_STABILITY || item->word == GM_WORD_COLOURS ||
+            item->word == GM_WORD_TIE) {
             good = (!is_text || check_keys(system_scene, item, sentence)) &&
                    open_item(system_scene, item, &system_scene->of_items[i]);
         }
@@ -245,6 +245,19 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
         text = shown ? gm_picture_text(picture, "%s%s%s", text, text[0] ? ",  " : "", line) : text;
     }
     return text;
+}
+
+void gm_system_graph(const struct gm_system_item *item, struct gm_graph *graph)
+{
+    const struct gm_system_option *range = gm_system_option(item, GM_OPTION_RANGE);
+    graph->title = gm_system_option_text(item, GM_OPTION_TITLE, graph->title);
+    graph->scale = gm_system_option(item, GM_OPTION_LOG) ? GM_LOG : GM_LINEAR;
+    graph->highest = gm_system_option(item, GM_OPTION_HIGHEST) != NULL;
+    graph->relative = gm_system_option(item, GM_OPTION_RELATIVE) != NULL;
+    graph->magnitude = gm_system_option(item, GM_OPTION_MAGNITUDE) != NULL;
+    graph->to_last = gm_system_option(item, GM_OPTION_TO_LAST) != NULL;
+    graph->calm_low = range ? range->numbers[0] : 0;
+    graph->calm_high = range ? range->numbers[1] : 0;
 }
 
 bool gm_system_is_admitted(const struct gm_system_lane *lane, const double *values, char *sentence)

@@ -3,6 +3,7 @@
 #ifndef GM_SCENES_COMMON_SYSTEM_TEXTS_H
 #define GM_SCENES_COMMON_SYSTEM_TEXTS_H
 
+#include "scenes/common/graph.h"
 #include "scenes/common/system/look.h"
 
 /* Opens the tapes of texts, requirements and levels. False with a sentence on failure. */
@@ -14,6 +15,9 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
                                  enum gm_system_word word, const char *otherwise);
 /* Returns true if the file's text names the schemes itself. */
 bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word);
+
+/* Sets the style of a graph as a line graph: says. */
+void gm_system_graph(const struct gm_system_item *item, struct gm_graph *graph);
 
 /* Returns true if these values of all variables at the start, of which `lane` has the keys, fulfil every
    require:; else false with a sentence. */

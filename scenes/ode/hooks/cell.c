@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "scenes/common/rows.h"
-#include "scenes/ode/hooks/hook.h"
+#include "scenes/common/system/hook.h"
 
 enum { DIMENSION = 3, MEMBERS = 1 + 4 * DIMENSION };
 
@@ -13,7 +13,7 @@ static const double small = 2e-5, drawn_out = 4e-3;
 
 static bool suits(const struct gm_user_system *system)
 {
-    return system->n == DIMENSION && !system->timed;
+    return system->n == DIMENSION && !system->timed && !gm_system_is_field(system);
 }
 
 static void place(double *y)

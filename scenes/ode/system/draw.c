@@ -606,18 +606,10 @@ static void draw_number(struct gm_picture *picture, const struct gm_lane *const 
     graph.calm_low = log ? 1e-8 : 0;
     graph.calm_high = log ? 1e-4 : 0;
     if (item) {
-        const struct gm_system_option *range = gm_system_option(item, GM_OPTION_RANGE);
         const bool unit = !observable->error && observable->unit[0];
         graph.title =
             unit ? gm_picture_text(picture, "%s, %s", observable->title, observable->unit) : graph.title;
-        graph.title = gm_system_option_text(item, GM_OPTION_TITLE, graph.title);
-        graph.scale = gm_system_option(item, GM_OPTION_LOG) ? GM_LOG : GM_LINEAR;
-        graph.highest = gm_system_option(item, GM_OPTION_HIGHEST) != NULL;
-        graph.relative = gm_system_option(item, GM_OPTION_RELATIVE) != NULL;
-        graph.magnitude = gm_system_option(item, GM_OPTION_MAGNITUDE) != NULL;
-        graph.to_last = gm_system_option(item, GM_OPTION_TO_LAST) != NULL;
-        graph.calm_low = range ? range->numbers[0] : 0;
-        graph.calm_high = range ? range->numbers[1] : 0;
+        gm_system_graph(item, &graph);
     }
     gm_draw_graphs(picture, lanes, count, &graph, 1);
 }

@@ -2,7 +2,7 @@
 /* Observables of a user-defined system: its energy, the quantities that its file names, the area of a disc of
    members, the distance from the exact solution. */
 #include "scenes/ode/system/observed.h"
-#include "scenes/ode/hooks/hook.h"
+#include "scenes/common/system/hook.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Code of the program beyond the formulas of a system's file, which names it: hook: NAME. */
-#ifndef GM_SCENES_ODE_HOOKS_HOOK_H
-#define GM_SCENES_ODE_HOOKS_HOOK_H
+#ifndef GM_SCENES_COMMON_SYSTEM_HOOK_H
+#define GM_SCENES_COMMON_SYSTEM_HOOK_H
 
-#include "core/model/system.h"
-#include "scenes/common/scene.h"
+#include "scenes/common/system/look.h"
 
 struct gm_hook {
     const char *name, *needs; /* the systems that it suits: "three components" */
     bool (*suits)(const struct gm_user_system *system);
-    size_t members; /* members of every lane; the first is observed */
+    size_t members; /* members of every lane of a motion; the first is observed */
     /* Moves the members, which all start at one point; y[component * members + member]. */
     void (*place)(double *y);
+    /* They supplement those of a motion, and replace those of the kind of a field. */
     const struct gm_observable *observables;
     size_t observable_count;
 };
 
-#define GM_HOOK(name) extern const struct gm_hook gm_hook_##name;
-#include "scenes/ode/hooks/hooks.def"
-#undef GM_HOOK
+/* Finds the hook that the file names, if it does. False with a sentence if it is unknown, or suits other
+   systems. */
+bool gm_system_find_hook(struct gm_system_scene *system_scene, char *sentence);
 
 #endif
