@@ -15,6 +15,7 @@
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
+#include "core/aliases.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -76,13 +77,20 @@ static void offer_scenes(const struct stem *stem)
     offer_files(stem, GM_FILE_ROOM);
 }
 
+/* The schemes, and once a letter is typed their aliases. */
 static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
 {
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
     const size_t count = scene ? gm_fitting_elsewhere(scene, fitting) : gm_scheme_count();
     for (size_t i = 0; i < count; i++) {
         const struct gm_scheme *scheme = scene ? fitting[i] : gm_scheme_at(i);
+        const char *alias = stem->begin[0] ? gm_alias_of(scheme->name, 0) : NULL;
         offer(stem, scheme->name, scheme->title);
+        for (size_t k = 1; alias; alias = gm_alias_of(scheme->name, k++)) {
+            if (scene || gm_scheme_find(alias) == scheme) { /* a scheme of that very name has precedence */
+                offer(stem, alias, scheme->name);
+            }
+        }
     }
 }
 

@@ -8,8 +8,8 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share: explorer.c has start, loop and end; compose.c the screen; actions.c
-   the keys; input.c the list and the mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
+/* The state that the explorer's files share: explorer.c has start, loop, screen and end; actions.c the keys; input.c the
+   list and the mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
 
 /* The open scene, or a tour's step with its study, and its worker. */
 

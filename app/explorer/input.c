@@ -346,8 +346,8 @@ static double part_of(const struct gm_hit *hit, int column)
     return part < 0 ? 0 : part > 1 ? 1 : part;
 }
 
-/* Moves a slider with the pressed button. */
-static void drag(struct gm_explorer *explorer, int column)
+/* Moves a slider with the pressed button; `begins`: it was just pressed. */
+static void drag(struct gm_explorer *explorer, int column, bool begins)
 {
     const struct gm_shot *shot = explorer->open.shot;
     struct gm_order order = {.value = part_of(&explorer->pointer.held, column)};
@@ -360,6 +360,7 @@ static void drag(struct gm_explorer *explorer, int column)
     } else if (explorer->pointer.held.kind == GM_HIT_SLIDER &&
                explorer->pointer.held.index < shot->parameter_count) {
         order.kind = GM_ORDER_SLIDE;
+        order.amount = begins;
         order.row = shot->parameters[explorer->pointer.held.index].row;
     } else {
         return;
@@ -483,13 +484,13 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
     case GM_HIT_SLIDER:
         explorer->face.parameter = hit->index;
         explorer->face.explaining = true;
-        drag(explorer, event->column);
+        drag(explorer, event->column, true);
         break;
     case GM_HIT_PARAMETER:
         click_parameter(explorer, hit->index);
         break;
     case GM_HIT_PAST:
-        drag(explorer, event->column);
+        drag(explorer, event->column, true);
         break;
     case GM_HIT_PICTURE:
         if (explorer->open.studies.shown != GM_STUDY_NONE) {
@@ -517,7 +518,7 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         if (explorer->pointer.holding && is_in_space(explorer, &explorer->pointer.held)) {
             drag_space(explorer, event);
         } else if (explorer->pointer.holding && !explorer->list.shown) {
-            drag(explorer, event->column);
+            drag(explorer, event->column, false);
         }
         break;
     case GM_MOUSE_RELEASE:

@@ -80,9 +80,12 @@ static bool is_idle(const struct gm_session *session, const char *key)
     return idle;
 }
 
+/* Returns false for the end, and for a switch that the system refuses, as a portrait without a plane. */
 static bool has_effect(const struct gm_parameter *row)
 {
-    return row->offset != offsetof(struct gm_timing, until);
+    char sentence[GM_MESSAGE];
+    const bool refused = row->type == GM_BOOLEAN && row->admits && !row->admits(row, "yes", sentence);
+    return row->offset != offsetof(struct gm_timing, until) && !refused;
 }
 
 /* The scene's default end, or, after it, twice the time that has passed. */

@@ -33,7 +33,10 @@ offers 'system=oscillator system=pendulum' run disc system=
 offers 'outlet=dirichlet outlet=free outlet=soft' run room outlet=
 offers 'scheme=rk4,rk2' run disc scheme=rk4,rk2
 offers 'scheme=leapfrog' run sine-gordon scheme=leap
-offers '' run disc scheme=leap
+offers 'scheme=leapfrog' run disc scheme=leap
+offers 'scheme=rk4,velocity-verlet' run disc scheme=rk4,velo
+offers 'dormand-prince' certify dorm
+offers 'leapfrog' certify leapf
 offers '--theme' render disc --th
 offers 'light dark' render disc --theme ''
 offers '--theme=dark' render disc --theme=d

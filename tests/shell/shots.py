@@ -204,6 +204,30 @@ def undoing():
     has("There is nothing to undo", "kepler scheme=verlet,rk4", "SPACE . . . . s rk2 ENTER x u")
 
 
+def movies():
+    """A movie's length does not depend on the time that its frames take: here its program begins late."""
+    with open("ffmpeg", "w", encoding="utf-8") as program:
+        program.write('#!/bin/sh\nsleep 1\ncat >/dev/null\nfor last in "$@"; do :; done\necho movie >"$last"\n')
+    os.chmod("ffmpeg", 0o755)
+    path = os.environ["PATH"]
+    os.environ["PATH"] = os.getcwd() + ":" + path
+    done = run("tui", "kepler", "--shot", "a.txt", "--screen", "120x40", "--keys", "1s R 2s")
+    os.environ["PATH"] = path
+    lines = open("a.txt", encoding="utf-8").read().split("\n")
+    check(done.returncode == 0 and any("● 0:02.0" in line for line in lines), f"a slow movie: {done.stderr}", lines)
+
+
+def aliases():
+    for columns in COLUMNS:
+        has("^ *velocity-verlet: verlet", "kepler", "9s s velo", columns)
+        lacks(": verlet", "kepler", "9s s verl", columns)
+    has("▸ ?━━━ Verlet", "kepler scheme=rk4", "SPACE s velocity-verlet ENTER")
+    # what a system refuses is not among its parameters
+    lacks("portrait", "kepler", "1s", 120, 40)
+    has("portrait", "system H=p^2/2-cos(q) q=2 p=0", "1s", 120, 40)
+    has("portrait needs a plane", "kepler", "1s d 1s", 120, 40)
+
+
 def notices():
     has("stability of kepler is ready: m shows it", "kepler", "SPACE m ESC 1s", 120)
     lacks("is ready", "kepler", "SPACE m ESC 21s", 120)
@@ -265,7 +289,7 @@ def drive():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, notices, drive):
+        for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, movies, aliases, notices, drive):
             part()
         os.chdir("/")
     print("shots: all passed" if not faults else f"shots: {faults} faults")

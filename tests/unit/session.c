@@ -603,6 +603,45 @@ static void long_texts_stay_whole(void **unused)
     folder_remove(folder);
 }
 
+/* Moves a slider. */
+static void slide(struct gm_worker *worker, const struct gm_parameter *row, int begins, double value)
+{
+    gm_worker_order(worker,
+                    (struct gm_order){.kind = GM_ORDER_SLIDE, .row = row, .amount = begins, .value = value});
+}
+
+/* A drag of a slider is one change to undo, and so is the next drag of the same slider. */
+static void drags_are_undone_one_by_one(void **unused)
+{
+    (void)unused;
+    char *typed[] = {"kepler"}, text[GM_TEXT_SIZE];
+    struct gm_request request;
+    const int wake = eventfd(0, 0);
+    assert_true(gm_request_parse(&request, 1, typed, 1, message));
+    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    assert_non_null(worker);
+    gm_request_close(&request);
+    const struct gm_parameter *row = gm_scene_parameter(gm_scene_find("kepler"), "eccentricity");
+    assert_non_null(row);
+    const struct gm_shot *shot = next_shot(worker);
+    const size_t place = place_of(shot, "eccentricity");
+    const double drags[] = {0.2, 0.3, 0.6, 0.7};
+    for (int i = 0; i < 4; i++) {
+        slide(worker, row, i % 2 == 0, drags[i]);
+    }
+    assert_true(gm_slider_at(row, drags[1], text));
+    for (int i = 0; i < 2; i++) {
+        const unsigned long told = shot->message_number;
+        gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_UNDO});
+        for (int k = 0; k < 1000 && shot->message_number == told; k++) {
+            shot = next_shot(worker);
+        }
+        assert_string_equal(shot->parameters[place].value, i == 0 ? text : row->standard);
+    }
+    gm_worker_close(worker, message);
+    close(wake);
+}
+
 /* Who saves and leaves at once has what was saved, and is told of it; whether it is left for the shell or for another
    scene. */
 static void what_was_asked_for_is_saved(void **unused)
@@ -679,13 +718,21 @@ static void searches_prefer_names(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(past_is_visited),       cmocka_unit_test(forks_share_the_past),
-        cmocka_unit_test(time_runs_both_ways),   cmocka_unit_test(lanes_are_overlaid),
-        cmocka_unit_test(names_follow_changes),  cmocka_unit_test(ranges_hold),
-        cmocka_unit_test(words_are_whole),       cmocka_unit_test(sliders_move_finely),
-        cmocka_unit_test(sliders_tell_places),   cmocka_unit_test(switches_are_told),
-        cmocka_unit_test(searches_prefer_names), cmocka_unit_test(sliders_walk_through_words),
-        cmocka_unit_test(long_texts_stay_whole), cmocka_unit_test(what_was_asked_for_is_saved),
+        cmocka_unit_test(past_is_visited),
+        cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways),
+        cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(names_follow_changes),
+        cmocka_unit_test(ranges_hold),
+        cmocka_unit_test(words_are_whole),
+        cmocka_unit_test(sliders_move_finely),
+        cmocka_unit_test(sliders_tell_places),
+        cmocka_unit_test(switches_are_told),
+        cmocka_unit_test(searches_prefer_names),
+        cmocka_unit_test(sliders_walk_through_words),
+        cmocka_unit_test(long_texts_stay_whole),
+        cmocka_unit_test(what_was_asked_for_is_saved),
+        cmocka_unit_test(drags_are_undone_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

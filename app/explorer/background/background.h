@@ -32,8 +32,12 @@ void gm_job_close(struct gm_job *job);
 
 /* Requests the work; during the work, requests it again. */
 void gm_job_begin(struct gm_job *job);
+/* Sets a flag of the work, under the lock, and requests the work. */
+void gm_job_tell(struct gm_job *job, bool *flag);
 /* Returns true if work is requested or being done. */
 bool gm_job_is_busy(struct gm_job *job);
+/* Waits until it is not. */
+void gm_job_wait(struct gm_job *job);
 
 /* Measures a scheme with `geomint certify` while the explorer runs. It is a child process, which can be
    killed when another scheme is requested. */

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "render/files/thread.h"
@@ -51,17 +52,12 @@ bool gm_job_open(struct gm_job *job, void (*work)(void *self), void (*end)(void 
     return error == 0;
 }
 
-static void tell(struct gm_job *job, bool *what)
-{
-    pthread_mutex_lock(&job->lock);
-    *what = true;
-    pthread_cond_signal(&job->news);
-    pthread_mutex_unlock(&job->lock);
-}
-
 void gm_job_close(struct gm_job *job)
 {
-    tell(job, &job->leave);
+    pthread_mutex_lock(&job->lock);
+    job->leave = true;
+    pthread_cond_signal(&job->news);
+    pthread_mutex_unlock(&job->lock);
     pthread_join(job->thread, NULL);
     pthread_mutex_destroy(&job->lock);
     pthread_cond_destroy(&job->news);
@@ -69,7 +65,15 @@ void gm_job_close(struct gm_job *job)
 
 void gm_job_begin(struct gm_job *job)
 {
-    tell(job, &job->asked);
+    gm_job_tell(job, &job->asked);
+}
+
+void gm_job_tell(struct gm_job *job, bool *flag)
+{
+    pthread_mutex_lock(&job->lock);
+    *flag = job->asked = true;
+    pthread_cond_signal(&job->news);
+    pthread_mutex_unlock(&job->lock);
 }
 
 bool gm_job_is_busy(struct gm_job *job)
@@ -78,4 +82,11 @@ bool gm_job_is_busy(struct gm_job *job)
     const bool busy = job->asked || job->working;
     pthread_mutex_unlock(&job->lock);
     return busy;
+}
+
+void gm_job_wait(struct gm_job *job)
+{
+    while (gm_job_is_busy(job)) {
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
 }

@@ -28,8 +28,7 @@ struct gm_study {
     int wake;
     struct gm_job job;
 
-    /* shared, under the lock */
-    pthread_mutex_t lock;
+    /* shared, under the job's lock */
     bool stop, leave, save;
     enum gm_theme theme;
     bool ready; /* looks[filled] is finished and not yet taken */
@@ -60,9 +59,9 @@ static void say(struct gm_study *study, const char *sentence)
 /* Passes a look to the screen if the last one was taken. */
 static void show(struct gm_study *study)
 {
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     struct gm_study_look *look = study->ready ? NULL : &study->looks[study->filled];
-    pthread_mutex_unlock(&study->lock);
+    pthread_mutex_unlock(&study->job.lock);
     if (!look) {
         return;
     }
@@ -74,9 +73,9 @@ static void show(struct gm_study *study)
     study->looked = gm_clock_seconds();
     study->told = study->now.message_number;
     const uint64_t one = 1;
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     study->ready = true;
-    pthread_mutex_unlock(&study->lock);
+    pthread_mutex_unlock(&study->job.lock);
     if (study->wake >= 0 && write(study->wake, &one, sizeof one) < 0) {
         return; /* the counter is full: its reader will take the look */
     }
@@ -109,11 +108,11 @@ static void save(struct gm_study *study, enum gm_theme theme)
 /* Saves if requested. */
 static void save_if_wanted(struct gm_study *study)
 {
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     const bool wanted = study->save && !study->leave;
     const enum gm_theme theme = study->theme;
     study->save = false;
-    pthread_mutex_unlock(&study->lock);
+    pthread_mutex_unlock(&study->job.lock);
     if (wanted) {
         save(study, theme);
         study->looked = -INFINITY;
@@ -123,9 +122,9 @@ static void save_if_wanted(struct gm_study *study)
 static bool is_stopped(void *self)
 {
     struct gm_study *study = self;
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     const bool stop = study->stop || study->leave;
-    pthread_mutex_unlock(&study->lock);
+    pthread_mutex_unlock(&study->job.lock);
     return stop;
 }
 
@@ -215,10 +214,8 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
         free_study(study);
         return NULL;
     }
-    pthread_mutex_init(&study->lock, NULL);
     if (!gm_job_open(&study->job, work, close_grid, study, -1, message)) {
         close_grid(study);
-        pthread_mutex_destroy(&study->lock);
         free_study(study);
         return NULL;
     }
@@ -226,23 +223,13 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     return study;
 }
 
-/* Sets a flag and wakes the thread. */
-static void order(struct gm_study *study, bool *what)
-{
-    pthread_mutex_lock(&study->lock);
-    *what = true;
-    pthread_mutex_unlock(&study->lock);
-    gm_job_begin(&study->job);
-}
-
 void gm_study_close(struct gm_study *study)
 {
     if (!study) {
         return;
     }
-    order(study, &study->leave);
+    gm_job_tell(&study->job, &study->leave);
     gm_job_close(&study->job);
-    pthread_mutex_destroy(&study->lock);
     free_study(study);
 }
 
@@ -254,13 +241,13 @@ bool gm_study_is_busy(struct gm_study *study)
 struct gm_study_look *gm_study_take(struct gm_study *study)
 {
     struct gm_study_look *look = NULL;
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     if (study->ready) {
         look = &study->looks[study->filled];
         study->filled = 1 - study->filled;
         study->ready = false;
     }
-    pthread_mutex_unlock(&study->lock);
+    pthread_mutex_unlock(&study->job.lock);
     if (look) {
         gm_job_begin(&study->job);
     }
@@ -275,13 +262,13 @@ char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double
 
 void gm_study_stop(struct gm_study *study)
 {
-    order(study, &study->stop);
+    gm_job_tell(&study->job, &study->stop);
 }
 
 void gm_study_save(struct gm_study *study, enum gm_theme theme)
 {
-    pthread_mutex_lock(&study->lock);
+    pthread_mutex_lock(&study->job.lock);
     study->theme = theme;
-    pthread_mutex_unlock(&study->lock);
-    order(study, &study->save);
+    pthread_mutex_unlock(&study->job.lock);
+    gm_job_tell(&study->job, &study->save);
 }

@@ -18,6 +18,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/words/request.h"
+#include "core/basics.h"
 #include "render/clock.h"
 
 static SCREEN *screen;
@@ -128,39 +129,23 @@ static void on_stop(int number)
 /* Returns the handler of a signal; NULL: unchanged. */
 static void (*handler_of(int number))(int)
 {
-    switch (number) {
-    case SIGINT:
-    case SIGTERM:
-    case SIGQUIT:
-    case SIGHUP:
-    case SIGUSR1:
-    case SIGUSR2:
-    case SIGALRM:
-    case SIGVTALRM:
-    case SIGPROF:
-    case SIGXCPU:
-    case SIGIO:
-    case SIGPWR:
-    case SIGSTKFLT:
-        return on_leave;
-    case SIGSEGV:
-    case SIGABRT:
-    case SIGBUS:
-    case SIGFPE:
-    case SIGILL:
-    case SIGTRAP:
-    case SIGSYS:
-        return on_crash;
-    /* set before ncurses starts, so that it does not install handlers that draw */
-    case SIGWINCH:
-        return on_resize;
-    case SIGTSTP:
-        return on_stop;
-    case SIGPIPE:
-        return SIG_IGN;
-    default:
-        return number >= SIGRTMIN && number <= SIGRTMAX ? on_leave : NULL;
+    static const struct {
+        int number;
+        void (*handler)(int);
+    } rows[] = {
+        {SIGINT, on_leave},    {SIGTERM, on_leave}, {SIGQUIT, on_leave},   {SIGHUP, on_leave},
+        {SIGUSR1, on_leave},   {SIGUSR2, on_leave}, {SIGALRM, on_leave},   {SIGVTALRM, on_leave},
+        {SIGPROF, on_leave},   {SIGXCPU, on_leave}, {SIGIO, on_leave},     {SIGPWR, on_leave},
+        {SIGSTKFLT, on_leave}, {SIGSEGV, on_crash}, {SIGABRT, on_crash},   {SIGBUS, on_crash},
+        {SIGFPE, on_crash},    {SIGILL, on_crash},  {SIGTRAP, on_crash},   {SIGSYS, on_crash},
+        {SIGTSTP, on_stop},    {SIGPIPE, SIG_IGN},  {SIGWINCH, on_resize}, /* before ncurses starts, so that it does not install a handler that draws */
+    };
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        if (rows[i].number == number) {
+            return rows[i].handler;
+        }
     }
+    return number >= SIGRTMIN && number <= SIGRTMAX ? on_leave : NULL;
 }
 
 static void handle(int number, void (*handler)(int), struct sigaction *old)
@@ -192,36 +177,20 @@ static void unhandle_all(void)
 
 /* ---- the terminal ---- */
 
-static void add_parting(const char *text)
-{
-    if (!text || text == (char *)-1) {
-        return;
-    }
-    /* skips padding, which modern terminals do not need */
-    while (*text && parting_size < sizeof parting) {
-        const char *end = text[0] == '$' && text[1] == '<' ? strchr(text, '>') : NULL;
-        if (end) {
-            text = end + 1;
-        } else {
-            parting[parting_size++] = *text++;
-        }
-    }
-}
-
 static void prepare_parting(bool modern)
 {
+    /* the first one ends a half-written sequence or image, which would swallow the rest */
+    const char *const texts[] = {modern ? "\030\033\\\033[?2026l" : NULL,
+                                 reports_mouse ? GM_MOUSE_OFF : NULL,
+                                 gm_capability("sgr0"),
+                                 gm_capability("rmkx"),
+                                 gm_capability("cnorm"),
+                                 gm_capability("clear"),
+                                 gm_capability("rmcup")};
     parting_size = 0;
-    if (modern) { /* first: ends a half-written sequence or image, which would swallow the rest */
-        add_parting("\030\033\\\033[?2026l");
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        parting_size += gm_capability_copy(texts[i], parting + parting_size, sizeof parting - parting_size);
     }
-    if (reports_mouse) {
-        add_parting(GM_MOUSE_OFF);
-    }
-    add_parting(tigetstr("sgr0"));
-    add_parting(tigetstr("rmkx"));
-    add_parting(tigetstr("cnorm"));
-    add_parting(tigetstr("clear"));
-    add_parting(tigetstr("rmcup"));
 }
 
 static void say_mouse(const char *mode)
@@ -245,9 +214,8 @@ static void give_back(void)
 {
     say_mouse(GM_MOUSE_OFF);
     /* ncurses did not draw, so it does not know the current attributes */
-    const char *plain = tigetstr("sgr0");
-    if (plain && plain != (char *)-1) {
-        putp(plain);
+    if (gm_capability("sgr0")) {
+        putp(gm_capability("sgr0"));
     }
     /* clear even with an alternate screen: GNU screen claims one and mostly has none */
     clearok(stdscr, TRUE);

@@ -179,6 +179,11 @@ bool gm_console_stopping(void);
    signal asks it to leave. */
 void gm_console_stop(void);
 
+/* Returns a capability of the terminal that ncurses set up; NULL: it has none. */
+const char *gm_capability(const char *name);
+/* Copies a capability, or NULL, without its padding $<5>, which is for old terminals; returns the bytes. */
+size_t gm_capability_copy(const char *capability, char *bytes, size_t size);
+
 /* Writes the changed cells of screens to the terminal, without ever waiting for it. The whole screen goes
    this way. If ncurses owned all but the picture, two writers would track the cursor, the colours and the
    screen's content, and every resize, scroll and suspension would have to repair both. ncurses also needs
@@ -272,12 +277,10 @@ struct gm_display {
     struct gm_pixels *painter; /* NULL until needed */
     bool stale;                /* the last picture started is out of date */
     bool lost;                 /* the terminal may have lost part of its picture */
-    bool painted;              /* `bytes` are not yet shown */
+    bool painted;              /* the painted bytes are not yet shown */
     bool failed;               /* painting failed, for lack of a font: no pixels */
     enum gm_inline_kind shown; /* the kind of picture that the terminal shows */
     struct gm_pixels_job job;  /* the last one started */
-    const char *bytes;
-    size_t size;
 };
 
 /* Opens a display; `wake` is an eventfd, written when a picture is ready. Returns false when out of

@@ -6,7 +6,6 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/explorer/background/background.h"
@@ -23,8 +22,7 @@ struct gm_pixels {
     /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
     struct gm_pixels_job job;
-    const char *bytes;
-    size_t size;
+    struct gm_writer_image made;
 
     /* owned by the thread */
     struct gm_pixels_job made_for; /* the settings of the canvas, image and rgb */
@@ -78,14 +76,14 @@ static bool prepare(struct gm_pixels *pixels)
 static void paint(void *self)
 {
     struct gm_pixels *pixels = self;
-    pixels->bytes = NULL;
-    pixels->size = 0;
+    pixels->made = (struct gm_writer_image){0};
     if (!prepare(pixels) || !gm_canvas_paint(pixels->canvas, pixels->picture, pixels->rgb) ||
-        !gm_inline_encode(pixels->image, pixels->rgb, pixels->job.whole, &pixels->bytes, &pixels->size)) {
-        pixels->bytes = NULL;
+        !gm_inline_encode(pixels->image, pixels->rgb, pixels->job.whole, &pixels->made.bytes,
+                          &pixels->made.size)) {
+        pixels->made.bytes = NULL;
         forget(pixels);
-    } else if (!pixels->bytes) {
-        pixels->bytes = ""; /* nothing changed */
+    } else if (!pixels->made.bytes) {
+        pixels->made.bytes = ""; /* nothing changed */
     }
 }
 
@@ -142,17 +140,16 @@ bool gm_display_read(struct gm_display *display)
         return false;
     }
     painter->busy = false;
-    display->bytes = painter->bytes;
-    display->size = painter->size;
-    display->painted = display->bytes != NULL;
+    display->painted = painter->made.bytes != NULL;
     display->failed = !display->painted;
     return true;
 }
 
 void gm_display_finish(struct gm_display *display)
 {
-    while (painting(display) && !gm_display_read(display)) {
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    if (painting(display)) {
+        gm_job_wait(&display->painter->painting);
+        gm_display_read(display);
     }
 }
 
@@ -210,8 +207,7 @@ bool gm_display_show(struct gm_display *display, const struct gm_composed *scree
         remove_picture(display);
     }
     bool new = pixels && display->painted;
-    const struct gm_writer_image image = {.bytes = display->bytes, .size = display->size};
-    gm_writer_draw(&display->writer, screen->cells, new ? &image : NULL);
+    gm_writer_draw(&display->writer, screen->cells, new ? &display->painter->made : NULL);
     if (new) {
         display->shown = display->job.kind;
         display->painted = false;

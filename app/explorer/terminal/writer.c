@@ -166,20 +166,30 @@ static void put_glyph(struct gm_writer *writer, uint32_t code)
     put(writer, bytes, gm_text_put(code, bytes));
 }
 
-/* Queues a capability without its padding $<5>, which is for old terminals. */
+const char *gm_capability(const char *name)
+{
+    const char *text = tigetstr(name);
+    return text == (char *)-1 ? NULL : text;
+}
+
+size_t gm_capability_copy(const char *capability, char *bytes, size_t size)
+{
+    size_t count = 0;
+    for (const char *at = capability; at && *at && count < size;) {
+        const char *end = at[0] == '$' && at[1] == '<' ? strchr(at, '>') : NULL;
+        if (end) {
+            at = end + 1;
+        } else {
+            bytes[count++] = *at++;
+        }
+    }
+    return count;
+}
+
 static void put_capability(struct gm_writer *writer, const char *capability)
 {
-    if (!capability) {
-        return;
-    }
-    while (*capability) {
-        const char *end = capability[0] == '$' && capability[1] == '<' ? strchr(capability, '>') : NULL;
-        if (end) {
-            capability = end + 1;
-            continue;
-        }
-        put(writer, capability++, 1);
-    }
+    char bytes[256];
+    put(writer, bytes, gm_capability_copy(capability, bytes, sizeof bytes));
 }
 
 /* ---- colours ---- */
@@ -521,12 +531,6 @@ void gm_writer_forget(struct gm_writer *writer)
     writer->known = false;
 }
 
-static const char *capability(const char *name)
-{
-    const char *text = tigetstr(name);
-    return text == (char *)-1 ? NULL : text;
-}
-
 bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)
 {
     *writer = (struct gm_writer){.fd = -1,
@@ -537,12 +541,12 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
                                  .bound = ON_THE_WAY};
     writer->row = -1;
     writer->foreground = writer->background = -1;
-    writer->place = capability("cup");
-    writer->plain = capability("sgr0");
-    writer->strong = capability("bold");
-    writer->reversed = capability("rev");
-    writer->set_foreground = capability("setaf");
-    writer->set_background = capability("setab");
+    writer->place = gm_capability("cup");
+    writer->plain = gm_capability("sgr0");
+    writer->strong = gm_capability("bold");
+    writer->reversed = gm_capability("rev");
+    writer->set_foreground = gm_capability("setaf");
+    writer->set_background = gm_capability("setab");
     if (!writer->set_background) {
         writer->set_foreground = NULL;
     }

@@ -251,6 +251,13 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
     }
 }
 
+void gm_capture_wait(struct gm_capture *capture)
+{
+    if (capture->recorder) {
+        gm_job_wait(&capture->recorder->painting);
+    }
+}
+
 /* ---- the command lines ---- */
 
 /* Writes the arguments as a shell reads them; for a view without until= and steps=. */

@@ -84,6 +84,9 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
         gm_play_say(play, message);
         return;
     }
+    if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
+        play->undos[play->undo_count - 1].amount = 0; /* an earlier drag has ended */
+    }
     struct gm_order back = {.kind = GM_ORDER_TYPE, .amount = order->kind == GM_ORDER_SLIDE, .row = row};
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,

@@ -37,9 +37,9 @@ enum gm_order_kind {
     GM_ORDER_NUDGE,    /* moves a parameter to a nearby value */
     GM_ORDER_STANDARD, /* resets a parameter */
     GM_ORDER_TYPE,     /* sets a parameter to `text` */
-    GM_ORDER_SLIDE,    /* sets a parameter to the part `value` of its range, 0 to 1 */
-    GM_ORDER_LOOK,     /* turns the camera by x, y degrees (azimuth, elevation), scales the zoom by `value` */
-    GM_ORDER_POINT,    /* restarts from the point (x, y) of a state's panel, if the scene supports it */
+    GM_ORDER_SLIDE, /* sets a parameter to the part `value` of its range, 0 to 1; amount: 1 if a drag begins */
+    GM_ORDER_LOOK,  /* turns the camera by x, y degrees (azimuth, elevation), scales the zoom by `value` */
+    GM_ORDER_POINT, /* restarts from the point (x, y) of a state's panel, if the scene supports it */
     GM_ORDER_RESTART,
 };
 
@@ -159,6 +159,8 @@ void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence);
 /* Records a frame of the movie if one is due. */
 void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *session);
+/* Waits until the last frame is painted and passed on. */
+void gm_capture_wait(struct gm_capture *capture);
 /* Sets the command lines for the current view. */
 void gm_capture_tell(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme);
 

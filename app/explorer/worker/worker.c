@@ -374,6 +374,7 @@ struct gm_shot *gm_worker_play(struct gm_worker *worker, bool wanted)
     pthread_mutex_lock(&worker->lock);
     while (!worker->failed && go_on(worker)) {
     }
+    gm_capture_wait(&worker->capture); /* a movie does not depend on the time that its frames take */
     if (!worker->failed && worker->play.changed && (wanted || !worker->shown)) {
         take_shot(worker);
     }
