@@ -162,7 +162,7 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
     static const char *const always[] = {"always", NULL};
     const char *text = blocks->text;
     struct gm_span name, word;
-    size_t number;
+    size_t number = 0;
     if (!end_block(blocks, fault)) {
         return false;
     }

@@ -7,6 +7,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -136,18 +137,39 @@ static bool read_node(struct reading *reading, struct gm_span span, gm_node_id *
     return gm_formula_read(reading->graph, reading->room->text, span.begin, span.end, &scope, node, fault);
 }
 
-static bool read_formula(struct gm_room *room, struct gm_span span, enum gm_room_word word,
-                         enum gm_room_key key, struct gm_room_formula *value, struct gm_fault *fault)
+void gm_room_refuse(const struct gm_room *room, size_t place, const char *format, ...)
+{
+    char sentence[GM_FAULT_SENTENCE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    gm_fail(room->fault, place, "%s", sentence);
+    gm_arena_refuse(room->arena, "%s", sentence);
+}
+
+void gm_room_need(const struct gm_room *room, bool good)
+{
+    const char *sentence = room->fault->sentence;
+    if (!good) {
+        gm_arena_refuse(room->arena, "%s", sentence[0] ? sentence : "not enough memory");
+    }
+}
+
+char *gm_room_keep(const struct gm_room *room, struct gm_span span)
+{
+    return gm_arena_keep(room->arena, gm_span_words(room->text, span), free);
+}
+
+static void read_formula(struct gm_room *room, struct gm_span span, enum gm_room_word word,
+                         enum gm_room_key key, struct gm_room_formula *value)
 {
     struct reading reading = {room, &room->graph, may_hold(word, key), false};
     gm_node_id node = 0;
-    if (!read_node(&reading, span, &node, fault)) {
-        return false;
-    }
+    gm_room_need(room, read_node(&reading, span, &node, room->fault));
     room->timed = room->timed || (reading.timed && word <= GM_ROOM_BOUNDARY);
     value->place = span.begin;
-    value->part = gm_formula_parts(&room->graph, node, &value->parts);
-    return value->part != NULL;
+    value->part = gm_arena_keep(room->arena, gm_formula_parts(&room->graph, node, &value->parts), free);
 }
 
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
@@ -295,8 +317,7 @@ static const char *list_keys(unsigned set, const char *between, char *list, size
     return list;
 }
 
-static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct gm_span rest,
-                       struct gm_fault *fault)
+static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct gm_span rest)
 {
     const enum gm_room_word word = line->word;
     unsigned given = 0;
@@ -309,7 +330,7 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             key--;
         }
         if (length == 0 || key < 0 || !(words[word].may >> key & 1)) {
-            return gm_fail(fault, rest.begin, "%s: takes %s%s", words[word].word,
+            gm_room_refuse(room, rest.begin, "%s: takes %s%s", words[word].word,
                            list_keys(words[word].may, ", ", list, sizeof list),
                            given || words[word].names >= START ? ""
                                                                : "; a name with blanks is in double quotes");
@@ -317,47 +338,41 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
         size_t equals = rest.begin + length;
         equals += strspn(room->text + equals, " \t\r\n");
         if (equals >= rest.end || room->text[equals] != '=') {
-            return gm_fail(fault, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
+            gm_room_refuse(room, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
                            keys[key]);
         }
         equals++;
         const size_t end = next_key(room->text, (struct gm_span){equals, rest.end});
         if (given >> key & 1) {
-            return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
+            gm_room_refuse(room, rest.begin, "%s = is given twice", keys[key]);
         }
         const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
-        if (!read_formula(room, formula, word, (enum gm_room_key)key, &line->value[key], fault)) {
-            return false;
-        }
+        read_formula(room, formula, word, (enum gm_room_key)key, &line->value[key]);
         given |= 1u << key;
         rest.begin = end;
     }
     const unsigned missing = words[word].must & ~given;
     if (missing) {
-        return gm_fail(fault, line->place, "%s: needs %s", words[word].word,
+        gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
                        list_keys(missing & -missing, "", list, sizeof list));
     }
     if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
-        return gm_fail(fault, line->place, "wall: holds its temperature = or gives heat =, not both");
+        gm_room_refuse(room, line->place, "wall: holds its temperature = or gives heat =, not both");
     }
     if (given & PLACE && (given & PLACE) != PLACE) {
-        return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[word].word);
+        gm_room_refuse(room, line->place, "%s: has x = and y =, or neither", words[word].word);
     }
-    return !words[word].some || given & words[word].some ||
-           gm_fail(fault, line->place, "%s: needs %s", words[word].word,
-                   list_keys(words[word].some, " or ", list, sizeof list));
+    if (words[word].some && !(given & words[word].some)) {
+        gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
+                       list_keys(words[word].some, " or ", list, sizeof list));
+    }
 }
 
-static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_text_line text_line,
-                      struct gm_fault *fault)
+static void read_line(struct gm_room *room, enum gm_room_word word, struct gm_text_line text_line)
 {
     struct gm_span value = text_line.value;
-    struct gm_room_line *more = realloc(room->lines, (room->count + 1) * sizeof *more);
-    if (!more) {
-        return false;
-    }
-    room->lines = more;
-    struct gm_room_line *line = &more[room->count];
+    room->lines = gm_arena_resize(room->arena, room->lines, room->count + 1, sizeof *room->lines);
+    struct gm_room_line *line = &room->lines[room->count];
     *line = (struct gm_room_line){.word = word,
                                   .place = value.begin < value.end ? value.begin : text_line.word.begin};
     if (words[word].names < START) {
@@ -369,28 +384,29 @@ static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
         }
         const size_t length = name.end - name.begin;
         if (quoted && name.end == value.end) {
-            return gm_fail(fault, value.begin, "%s: the name has no closing quote", words[word].word);
+            gm_room_refuse(room, value.begin, "%s: the name has no closing quote", words[word].word);
         }
         if (length == 0 || length >= GM_ROOM_NAME) {
-            return gm_fail(fault, line->place, "%s: needs a name, of at most 63 bytes", words[word].word);
+            gm_room_refuse(room, line->place, "%s: needs a name, of at most 63 bytes", words[word].word);
         }
         memcpy(line->name, room->text + name.begin, length);
         value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
     }
     for (size_t i = 0; i < room->count; i++) {
-        if (words[more[i].word].names == words[word].names && strcmp(more[i].name, line->name) == 0) {
-            return words[word].names >= START
-                       ? gm_fail(fault, line->place, "%s: is given twice", words[word].word)
-                       : gm_fail(fault, line->place, "%.63s is named twice", line->name);
+        if (words[room->lines[i].word].names == words[word].names &&
+            strcmp(room->lines[i].name, line->name) == 0) {
+            gm_room_refuse(room, line->place, "%.63s%s",
+                           words[word].names >= START ? words[word].word : line->name,
+                           words[word].names >= START ? ": is given twice" : " is named twice");
         }
     }
     room->count++;
-    return read_pairs(room, line, value, fault);
+    read_pairs(room, line, value);
 }
 
 /* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ...,
-   or flat-torus; ... Returns false without a fault if the line names a file. */
-static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_fault *fault)
+   or flat-torus; ... Returns false if the line names a file. */
+static bool read_rectangle(struct gm_room *room, struct gm_span rest)
 {
     struct gm_rectangle *rectangle = &room->rectangle;
     const size_t place = rest.begin;
@@ -420,12 +436,10 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
         if (i < GM_COUNT(options)) {
             const struct gm_room_range range = options[i].range;
             double *number = options[i].number;
-            if (!gm_room_number(room, value, number, fault)) {
-                return false;
-            }
+            gm_room_need(room, gm_room_number(room, value, number, room->fault));
             if (*number < range.least || *number > range.most ||
                 (options[i].key && *number != floor(*number))) {
-                return gm_fail(fault, value.begin, "%s: is a %snumber from %g to %g", options[i].word,
+                gm_room_refuse(room, value.begin, "%s: is a %snumber from %g to %g", options[i].word,
                                options[i].key ? "whole " : "", range.least, range.most);
             }
             if (options[i].key) {
@@ -438,15 +452,13 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
             double *at = room->fixed + 2 * rectangle->fixed_count++;
             for (int c = 0; c < 2; c++) {
                 gm_span_take(room->text, &value, ",", &piece);
-                if (!gm_room_number(room, piece, &at[c], fault)) {
-                    return false;
-                }
+                gm_room_need(room, gm_room_number(room, piece, &at[c], room->fault));
             }
             if (value.begin < value.end) {
-                return gm_fail(fault, value.begin, "keep: has two numbers, x, y");
+                gm_room_refuse(room, value.begin, "keep: has two numbers, x, y");
             }
         } else {
-            return gm_fail(fault, word.begin,
+            gm_room_refuse(room, word.begin,
                            "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
                            "up to %zu keep",
                            GM_COUNT(room->fixed) / 2);
@@ -455,13 +467,14 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest, struct gm_
     rectangle->edges = (long)edges;
     rectangle->strips = (long)strips;
     room->multiple = (long)multiple;
-    return room->rectangular &&
-           ((rectangle->width > 0 && rectangle->height > 0 && edges > 0) ||
-            gm_fail(fault, place, "a rectangle has a width, a height and a number of edges"));
+    if (room->rectangular && !(rectangle->width > 0 && rectangle->height > 0 && edges > 0)) {
+        gm_room_refuse(room, place, "a rectangle has a width, a height and a number of edges");
+    }
+    return room->rectangular;
 }
 
-/* Returns true if a name has no other meaning in formulas, on a command line (except `show`) or in tables. */
-static bool is_free(const char *name, size_t place, struct gm_fault *fault)
+/* Refuses a name with another meaning in formulas, on a command line (except `show`) or in tables. */
+static void check_free(const struct gm_room *room, const char *name, size_t place)
 {
     bool reserved = strcmp(name, "show") != 0 && gm_reading_reserves(name, strlen(name));
     for (size_t i = 0; i < VARIABLES; i++) {
@@ -470,63 +483,48 @@ static bool is_free(const char *name, size_t place, struct gm_fault *fault)
     for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
         reserved |= strcmp(name, measures[i]) == 0;
     }
-    return !reserved || gm_fail(fault, place, "the name %.60s is reserved", name);
+    if (reserved) {
+        gm_room_refuse(room, place, "the name %.60s is reserved", name);
+    }
 }
 
 /* NAME = VALUE; low .. high; meaning */
-static bool read_parameter(struct gm_room *room, struct gm_span rest, const struct gm_room_given *given,
-                           size_t count, struct gm_fault *fault)
+static void read_parameter(struct gm_room *room, struct gm_span rest, const struct gm_room_input *input)
 {
-    struct gm_room_parameter *more = realloc(room->parameters, (room->parameter_count + 1) * sizeof *more);
     struct gm_span head, piece, after;
     struct gm_room_range range = {NAN, NAN};
-    if (!more) {
-        return false;
-    }
-    room->parameters = more;
-    struct gm_room_parameter *parameter = &more[room->parameter_count++];
+    room->parameters =
+        gm_arena_resize(room->arena, room->parameters, room->parameter_count + 1, sizeof *room->parameters);
+    struct gm_room_parameter *parameter = &room->parameters[room->parameter_count++];
     *parameter = (struct gm_room_parameter){.value = NAN, .place = rest.begin};
     gm_span_take(room->text, &rest, ";", &head);
     const size_t equals = gm_span_until(room->text, head, "=");
     const struct gm_span value = {equals < head.end ? equals + 1 : equals, head.end};
     after = rest;
     if (gm_span_take(room->text, &after, ";", &piece) && gm_span_until(room->text, piece, "..") < piece.end) {
-        if (!gm_room_range_of(room, piece, &range, fault)) {
-            return false;
-        }
+        gm_room_need(room, gm_room_range_of(room, piece, &range, room->fault));
         rest = after;
     }
     parameter->low = range.least;
     parameter->high = range.most;
-    const struct {
-        char **text;
-        struct gm_span span;
-    } parts[] = {
-        {&parameter->name, {head.begin, equals}}, {&parameter->text, value}, {&parameter->meaning, rest}};
-    for (size_t i = 0; i < GM_COUNT(parts); i++) {
-        *parts[i].text = gm_span_words(room->text, parts[i].span);
-        if (!*parts[i].text) {
-            return false;
-        }
-    }
+    parameter->name = gm_room_keep(room, (struct gm_span){head.begin, equals});
+    parameter->text = gm_room_keep(room, value);
+    parameter->meaning = gm_room_keep(room, rest);
     gm_number_parse(parameter->text, &parameter->value);
     const size_t letters = strlen(parameter->name);
     if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
         gm_choice_named(&room->choices, parameter->name) ||
         gm_name_length(parameter->name, letters) != letters) {
-        return gm_fail(fault, head.begin, "parameter: needs a new name, for example height = 1");
+        gm_room_refuse(room, head.begin, "parameter: needs a new name, for example height = 1");
     }
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(given[i].name, parameter->name) == 0) {
-            char *text = given[i].text ? strdup(given[i].text) : parameter->text;
-            if (given[i].text) {
-                free(parameter->text);
-            }
-            parameter->text = text;
-            parameter->value = given[i].text ? NAN : given[i].value;
+    for (size_t i = 0; i < input->count; i++) {
+        if (strcmp(input->given[i].name, parameter->name) == 0) {
+            parameter->text = input->given[i].text ? gm_arena_print(room->arena, "%s", input->given[i].text)
+                                                   : parameter->text;
+            parameter->value = input->given[i].text ? NAN : input->given[i].value;
         }
     }
-    return parameter->text && is_free(parameter->name, head.begin, fault);
+    check_free(room, parameter->name, head.begin);
 }
 
 static const char reference[] = "reference-temperature";
@@ -556,24 +554,24 @@ static bool share_name(const char *one, const char *other)
     return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* Returns true if a line has a value and is not repeated. */
-static bool check_line(const struct gm_room *room, struct gm_text_line line, size_t other,
-                       struct gm_fault *fault)
+/* Refuses a line without a value, and a repeated one. */
+static void check_line(const struct gm_room *room, struct gm_text_line line, size_t other)
 {
     struct gm_span earlier;
     for (size_t i = 0; gm_room_said(room, others[other], i, &earlier) && earlier.begin < line.value.begin;
          i++) {
         if (other < OFTEN ||
             (other >= NAMED && share_name(room->text + earlier.begin, room->text + line.value.begin))) {
-            return gm_fail(fault, line.word.begin, "%s: is given twice", others[other]);
+            gm_room_refuse(room, line.word.begin, "%s: is given twice", others[other]);
         }
     }
-    return line.value.begin < line.value.end ||
-           gm_fail(fault, line.word.begin, "%s: has no value", others[other]);
+    if (line.value.begin == line.value.end) {
+        gm_room_refuse(room, line.word.begin, "%s: has no value", others[other]);
+    }
 }
 
 /* Reads a line with a single value; other lines are read by the room's scene. */
-static bool read_single(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
+static void read_single(struct gm_room *room, struct gm_text_line line)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
                                reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
@@ -602,12 +600,10 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, struct g
         if (!is_word(room, line.word, rows[i].word)) {
             continue;
         }
-        if (rows[i].text == &room->mesh && (read_rectangle(room, value, fault) || fault->sentence[0])) {
-            return !fault->sentence[0];
-        }
         if (rows[i].text) {
-            *rows[i].text = gm_span_words(room->text, value);
-            return *rows[i].text != NULL;
+            const bool rectangle = rows[i].text == &room->mesh && read_rectangle(room, value);
+            *rows[i].text = rectangle ? NULL : gm_room_keep(room, value);
+            return;
         }
         char number[64];
         gm_span_take(room->text, &rest, ";", &value);
@@ -615,17 +611,17 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, struct g
         const double least = rows[i].range.least, most = rows[i].range.most;
         if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
             (least >= 0 && !(*rows[i].number > 0))) {
-            return gm_fail(fault, value.begin, "%s: is a %s number", rows[i].word,
+            gm_room_refuse(room, value.begin, "%s: is a %s number", rows[i].word,
                            least >= 0 ? "positive" : "finite");
         }
-        if (rows[i].number == &room->dt && gm_span_take(room->text, &rest, ";", &piece) &&
-            !gm_room_range_of(room, piece, &room->dt_range, fault)) {
-            return false;
+        if (rows[i].number == &room->dt && gm_span_take(room->text, &rest, ";", &piece)) {
+            gm_room_need(room, gm_room_range_of(room, piece, &room->dt_range, room->fault));
         }
-        return (*rows[i].number >= least && *rows[i].number <= most) ||
-               gm_fail(fault, value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
+        if (!(*rows[i].number >= least && *rows[i].number <= most)) {
+            gm_room_refuse(room, value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
+        }
+        return;
     }
-    return true;
 }
 
 /* The start of the first line with this word; 0: none. */
@@ -635,9 +631,8 @@ static size_t place_of(const struct gm_room *room, const char *word)
     return find_line(room, word, 0, &line) ? line.word.begin : 0;
 }
 
-/* Completes values; false with a fault if one is missing or given twice. */
-static bool complete(struct gm_room *room, const struct gm_room_given *given, size_t count,
-                     struct gm_fault *fault)
+/* Completes values, and refuses missing ones and those that are given twice. */
+static void complete(struct gm_room *room, const struct gm_room_input *input)
 {
     const struct {
         const char *name;
@@ -647,37 +642,37 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
     for (size_t i = 0; i < GM_COUNT(numbers); i++) {
         const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
         if (parameter && !isnan(*numbers[i].number)) {
-            return gm_fail(fault, place_of(room, numbers[i].name),
+            gm_room_refuse(room, place_of(room, numbers[i].name),
                            "%s: is given twice, here and as a parameter", numbers[i].name);
         }
         if (parameter && !(parameter->value > 0 || (i == 0 && parameter->value == 0))) {
-            return gm_fail(fault, parameter->place, "%s: is a positive number", numbers[i].name);
+            gm_room_refuse(room, parameter->place, "%s: is a positive number", numbers[i].name);
         }
         *numbers[i].number = parameter ? parameter->value : *numbers[i].number;
     }
     if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
-        return gm_fail(fault, place_of(room, "reynolds"),
+        gm_room_refuse(room, place_of(room, "reynolds"),
                        "viscosity: and reynolds: say the same; a room has one of them");
     }
     if (!isnan(room->diffusivity) && !isnan(room->schmidt)) {
-        return gm_fail(fault, place_of(room, "schmidt"),
+        gm_room_refuse(room, place_of(room, "schmidt"),
                        "diffusivity: and schmidt: say the same; a room has one of them");
     }
-    for (size_t k = 0; k < count; k++) {
-        for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, given[k].name); i++) {
-            if (strcmp(given[k].name, numbers[i].name) == 0) {
+    for (size_t k = 0; k < input->count; k++) {
+        for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, input->given[k].name); i++) {
+            if (strcmp(input->given[k].name, numbers[i].name) == 0) {
                 room->reynolds = i == 0 ? NAN : room->reynolds;
-                *numbers[i].number = given[k].value;
+                *numbers[i].number = input->given[k].value;
             }
         }
     }
     struct gm_span side;
     if (!room->rectangular && gm_room_said(room, "side", 0, &side)) {
-        return gm_fail(fault, side.begin, "side: is of a rectangle; a mesh of Gmsh has physical groups");
+        gm_room_refuse(room, side.begin, "side: is of a rectangle; a mesh of Gmsh has physical groups");
     }
     room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
     if (!(room->mesh || room->rectangular) || isnan(room->viscosity)) {
-        return gm_fail(fault, 0, "a room needs a line %s",
+        gm_room_refuse(room, 0, "a room needs a line %s",
                        room->mesh || room->rectangular ? "viscosity: (or reynolds:)" : "mesh:");
     }
     room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
@@ -685,7 +680,7 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
                                                    : room->diffusivity;
     const double ratio = room->viscosity / room->diffusivity;
     if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most) && room->viscosity > 0) {
-        return gm_fail(fault, place_of(room, "diffusivity"),
+        gm_room_refuse(room, place_of(room, "diffusivity"),
                        "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
                        gm_room_schmidt.least, gm_room_schmidt.most);
     }
@@ -697,19 +692,18 @@ static bool complete(struct gm_room *room, const struct gm_room_given *given, si
         place = here > 0 ? here : place;
     }
     if (warm > 0 && isnan(room->buoyancy)) {
-        return gm_fail(
-            fault, place,
+        gm_room_refuse(
+            room, place,
             "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
     }
     if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
         const char *word = isnan(room->buoyancy) ? reference : "buoyancy";
-        return gm_fail(fault, place_of(room, word),
+        gm_room_refuse(room, place_of(room, word),
                        "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
                        word);
     }
     room->reference_temperature =
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
-    return true;
 }
 
 /* A line in a block of a choice replaces one outside if only one is allowed. */
@@ -722,59 +716,70 @@ static enum gm_line_identity identity(const char *text, struct gm_span word)
 }
 
 /* Makes comments of lines that hold for other words of a choice. */
-static bool choose_lines(struct gm_room *room, const struct gm_room_given *given, size_t count,
-                         struct gm_fault *fault)
+static void choose_lines(struct gm_room *room, const struct gm_room_input *input)
 {
     struct gm_written_choices *choices = &room->choices;
     static const char *const chosen[] = {"time",   "subtitle",    "caption", "mesh", "colours",
                                          "levels", "exact-while", "graph",   "side", NULL};
     struct gm_text_line line;
-    bool good = gm_choices_read(choices, room->text, room->length, fault), inside = false;
-    for (size_t at = 0; good && gm_lines_next(room->text, room->length, &at, &line, fault);) {
+    bool inside = false;
+    gm_room_need(room, gm_choices_read(choices, room->text, room->length, room->fault));
+    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, room->fault);) {
         const bool fixed = gm_span_among(room->text, line.word, others) < OTHERS &&
                            !chosen[gm_span_among(room->text, line.word, chosen)];
         inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
-        good = !inside || !fixed ||
-               gm_fail(fault, line.word.begin,
-                       "this line cannot depend on a choice: write it outside of blocks");
-    }
-    for (size_t i = 0; good && i < choices->count; i++) {
-        good = is_free(choices->list[i].name, choices->list[i].place, fault);
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (given[i].text) {
-            gm_choices_take(choices, given[i].name, given[i].text);
+        if (inside && fixed) {
+            gm_room_refuse(room, line.word.begin,
+                           "this line cannot depend on a choice: write it outside of blocks");
         }
     }
-    return good && gm_choices_apply(choices, room->text, room->length, identity, fault);
+    for (size_t i = 0; i < choices->count; i++) {
+        check_free(room, choices->list[i].name, choices->list[i].place);
+    }
+    for (size_t i = 0; i < input->count; i++) {
+        if (input->given[i].text) {
+            gm_choices_take(choices, input->given[i].name, input->given[i].text);
+        }
+    }
+    gm_room_need(room, gm_choices_apply(choices, room->text, room->length, identity, room->fault));
 }
 
 /* A line that declares no parameter. */
-static bool read_any(struct gm_room *room, struct gm_text_line line, struct gm_fault *fault)
+static void read_any(struct gm_room *room, struct gm_text_line line)
 {
     const size_t other = gm_span_among(room->text, line.word, others);
     if (other < OTHERS) {
-        return check_line(room, line, other, fault) && read_single(room, line, fault);
+        check_line(room, line, other);
+        read_single(room, line);
+        return;
     }
     for (int i = 0; i < WORDS; i++) {
         if (is_word(room, line.word, words[i].word)) {
-            return read_line(room, (enum gm_room_word)i, line, fault);
+            read_line(room, (enum gm_room_word)i, line);
+            return;
         }
     }
     char name[41];
     const size_t letters = line.word.end - line.word.begin;
     snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), room->text + line.word.begin);
     const char *near = gm_nearest(name, WORDS + OTHERS, line_word, NULL);
-    return gm_fail(fault, line.word.begin, "a room has no line %s:; %s%s%s", name,
+    gm_room_refuse(room, line.word.begin, "a room has no line %s:; %s%s%s", name,
                    near ? "did you mean " : "geomint list office --source prints a room with its lines",
                    near ? near : "", near ? ":" : "");
 }
 
-bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
-                  size_t count, struct gm_fault *fault)
+static void close_graph(void *graph)
 {
-    *room = (struct gm_room){.text = malloc(length + 1),
-                             .length = length,
+    gm_formula_close(graph);
+}
+
+void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_room_input *input,
+                  struct gm_fault *fault)
+{
+    *room = (struct gm_room){.arena = arena,
+                             .fault = fault,
+                             .text = gm_arena_take(arena, input->length + 1, 1),
+                             .length = input->length,
                              .viscosity = NAN,
                              .diffusivity = NAN,
                              .reynolds = NAN,
@@ -786,68 +791,68 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, const s
                              .dt_range = gm_room_dt,
                              .outlet = GM_VERTEX_SOFT,
                              .measures = {NAN, NAN, NAN, NAN}};
-    *fault = (struct gm_fault){0};
-    gm_formula_open(&room->graph);
-    if (!room->text) {
-        return false;
-    }
-    memcpy(room->text, text, length);
-    room->text[length] = '\0';
-    if (!gm_lines_are_text(text, length, fault) || !choose_lines(room, given, count, fault)) {
-        return false;
-    }
     struct gm_text_line line;
     struct gm_span value;
-    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
-        if (is_word(room, line.word, "parameter") && !read_parameter(room, line.value, given, count, fault)) {
-            return false;
+    double holds = 1;
+    *fault = (struct gm_fault){0};
+    gm_formula_open(&room->graph);
+    gm_arena_keep(arena, &room->graph, close_graph);
+    memcpy(room->text, input->text, room->length);
+    gm_room_need(room, gm_lines_are_text(room->text, room->length, fault));
+    choose_lines(room, input);
+    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, fault);) {
+        if (is_word(room, line.word, "parameter")) {
+            read_parameter(room, line.value, input);
         }
     }
-    for (size_t at = 0; gm_lines_next(room->text, length, &at, &line, fault);) {
-        if (!read_any(room, line, fault)) {
-            return false;
-        }
+    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, fault);) {
+        read_any(room, line);
     }
-    if (!fault->sentence[0] && gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
-        return gm_fail(fault, value.begin, "this program reads files of format 1, not %.*s",
+    gm_room_need(room, !fault->sentence[0] && !room->graph.failed);
+    if (gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
+        gm_room_refuse(room, value.begin, "this program reads files of format 1, not %.*s",
                        (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
                        room->text + value.begin);
     }
-    if (fault->sentence[0] || room->graph.failed) {
-        return false;
-    }
-    double holds = 1;
-    if (gm_room_said(room, "exact-while", 0, &value) && !gm_room_number(room, value, &holds, fault)) {
-        return false;
+    if (gm_room_said(room, "exact-while", 0, &value)) {
+        gm_room_need(room, gm_room_number(room, value, &holds, fault));
     }
     room->unsolved = !(holds > 0);
-    room->scratch = malloc((room->graph.count + 1) * sizeof *room->scratch);
-    return room->scratch && complete(room, given, count, fault);
+    room->scratch = gm_arena_take(arena, room->graph.count + (size_t)1, sizeof *room->scratch);
+    complete(room, input);
+}
+
+/* A room while it is opened. */
+struct opening {
+    const struct gm_room_input *input;
+    struct gm_fault *fault;
+    struct gm_room *room;
+};
+
+static void open_room(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    opening->room = gm_arena_take(arena, 1, sizeof *opening->room);
+    gm_room_read(arena, opening->room, opening->input, opening->fault);
+}
+
+struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault *fault)
+{
+    struct opening opening = {input, fault, NULL};
+    struct gm_arena *arena = gm_arena_open();
+    *fault = (struct gm_fault){0};
+    if (!gm_arena_run(arena, open_room, &opening)) {
+        gm_arena_close(arena);
+        return NULL;
+    }
+    return opening.room;
 }
 
 void gm_room_close(struct gm_room *room)
 {
-    gm_formula_close(&room->graph);
-    for (size_t i = 0; i < room->count; i++) {
-        for (int key = 0; key < GM_ROOM_KEYS; key++) {
-            free(room->lines[i].value[key].part);
-        }
+    if (room) {
+        gm_arena_close(room->arena);
     }
-    for (size_t i = 0; i < room->parameter_count; i++) {
-        free(room->parameters[i].name);
-        free(room->parameters[i].text);
-        free(room->parameters[i].meaning);
-    }
-    free(room->parameters);
-    free(room->scratch);
-    free(room->text);
-    free(room->lines);
-    free(room->title);
-    free(room->about);
-    free(room->mesh);
-    free(room->units);
-    free(room->scalar);
-    *room = (struct gm_room){0};
 }
 
 /* The values along a side; the first place with a value that is not finite is stored. */

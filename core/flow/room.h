@@ -2,6 +2,7 @@
 #ifndef GM_CORE_FLOW_ROOM_H
 #define GM_CORE_FLOW_ROOM_H
 
+#include "core/arena.h"
 #include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
@@ -82,7 +83,9 @@ enum gm_room_measure {
 };
 
 struct gm_room {
-    char *text; /* text of the file; lines for other words of a choice are comments */
+    struct gm_arena *arena; /* all that is read */
+    struct gm_fault *fault; /* of the text, while it is read */
+    char *text;             /* text of the file; lines for other words of a choice are comments */
     size_t length;
     struct gm_formula graph;
     double *scratch; /* a number for each node of the graph */
@@ -110,11 +113,29 @@ struct gm_room {
     double buoyancy, reference_temperature; /* NAN: without heat */
 };
 
-/* Reads a room's text; it is copied. Returns false with a fault, whose sentence is empty when out of
-   memory; the caller closes it in both cases. */
-bool gm_room_read(struct gm_room *room, const char *text, size_t length, const struct gm_room_given *given,
-                  size_t count, struct gm_fault *fault);
+/* A text, which is copied, and the values that a caller gives. */
+struct gm_room_input {
+    const char *text;
+    size_t length;
+    const struct gm_room_given *given;
+    size_t count;
+};
+
+/* Reads a room in a body of the arena that holds it. A fault leaves the body; its sentence is empty when out
+   of memory. */
+void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_room_input *input,
+                  struct gm_fault *fault);
+/* Opens a room in an arena of its own; NULL with a fault. */
+struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault *fault);
+/* Closes a room that was opened; it may be NULL. */
 void gm_room_close(struct gm_room *room);
+
+/* The rest of what is read in the same body: words in the room's memory; a fault, which leaves the body; and
+   leaving it if another function has set the fault. */
+char *gm_room_keep(const struct gm_room *room, struct gm_span span);
+__attribute__((format(printf, 3, 4))) _Noreturn void gm_room_refuse(const struct gm_room *room, size_t place,
+                                                                    const char *format, ...);
+void gm_room_need(const struct gm_room *room, bool good);
 
 /* The value of line number `number`, from 0, of the lines that begin with `word`; false if there are
    fewer. */

@@ -17,30 +17,29 @@
 static const char *said(struct gm_user_room *user_room, const char *word)
 {
     struct gm_span value;
-    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(user_room, value) : NULL;
+    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(&user_room->room, value) : NULL;
 }
 
 /* Returns the text of an option; NULL if it is not given. */
 static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
 {
     struct gm_span value;
-    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(user_room, value) : NULL;
+    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(&user_room->room, value)
+                                                                  : NULL;
 }
 
 static const char *take(struct gm_user_room *user_room, struct gm_span *rest, const char *separator)
 {
     struct gm_span piece;
     gm_span_take(user_room->room.text, rest, separator, &piece);
-    return gm_room_keep(user_room, piece);
+    return gm_room_keep(&user_room->room, piece);
 }
 
 static double number(struct gm_user_room *user_room, struct gm_span span)
 {
-    struct gm_fault fault = {0};
-    double value = NAN;
-    if (!gm_room_number(&user_room->room, span, &value, &fault)) {
-        gm_room_refuse(user_room, &fault);
-    }
+    const struct gm_room *room = &user_room->room;
+    double value;
+    gm_room_need(room, gm_room_number(room, span, &value, room->fault));
     return value;
 }
 
@@ -72,7 +71,7 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     size_t count = 0;
     const char **list = NULL;
     for (const char *at = text; at && *(at += strspn(at, ", ")); at += strcspn(at, ", ")) {
-        char *word = gm_room_format(user_room, "%.*s", (int)(strcspn(at, ", ")), at);
+        char *word = gm_arena_print(user_room->arena, "%.*s", (int)(strcspn(at, ", ")), at);
         list = gm_arena_resize(user_room->arena, list, count + 2, sizeof *list);
         list[count++] = word;
         list[count] = NULL;
@@ -80,22 +79,14 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
     return list;
 }
 
-/* Refuses the text at a place of the file. */
-_Noreturn static void refuse(struct gm_user_room *user_room, size_t place, const char *sentence)
-{
-    struct gm_fault fault;
-    gm_fail(&fault, place, "%s", sentence);
-    gm_room_refuse(user_room, &fault);
-}
-
 /* Returns the schemes of a list, which must be schemes for flows. */
 static const char *const *list_schemes(struct gm_user_room *user_room, struct gm_span text)
 {
-    const char *const *names = list_words(user_room, gm_room_keep(user_room, text));
+    const char *const *names = list_words(user_room, gm_room_keep(&user_room->room, text));
     for (size_t i = 0; names && names[i]; i++) {
         const struct gm_scheme *scheme = gm_scheme_find(names[i]);
         if (!scheme || scheme->family->kind != &gm_kind_flow) {
-            refuse(user_room, text.begin, gm_room_format(user_room, "%s is not a scheme of rooms", names[i]));
+            gm_room_refuse(&user_room->room, text.begin, "%s is not a scheme of rooms", names[i]);
         }
     }
     return names;
@@ -107,10 +98,11 @@ static const char *take_arguments(struct gm_user_room *user_room, struct gm_span
     const size_t place = gm_span_trimmed(user_room->room.text, *rest).begin;
     const char *text = take(user_room, rest, ";");
     for (const char *word = text; *word; word += strcspn(word, " "), word += *word == ' ') {
-        const char *key = gm_room_format(user_room, "%.*s", (int)strcspn(word, "= "), word);
+        const char *key = gm_arena_print(user_room->arena, "%.*s", (int)strcspn(word, "= "), word);
         if (word[strlen(key)] != '=' ||
             !(gm_scene_parameter(&user_room->scene, key) || gm_reading_reserves(key, strlen(key)))) {
-            refuse(user_room, place, "words key=value were expected, with keys of the room: until=5");
+            gm_room_refuse(&user_room->room, place,
+                           "words key=value were expected, with keys of the room: until=5");
         }
     }
     return text;
@@ -118,9 +110,9 @@ static const char *take_arguments(struct gm_user_room *user_room, struct gm_span
 
 static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
 {
-    const char *key = gm_room_keep(user_room, span);
+    const char *key = gm_room_keep(&user_room->room, span);
     if (gm_scene_observable(&user_room->scene, key) < 0) {
-        refuse(user_room, span.begin, "this is not an observable of the room");
+        gm_room_refuse(&user_room->room, span.begin, "this is not an observable of the room");
     }
     return key;
 }
@@ -180,7 +172,7 @@ static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct
 static char *format(struct gm_user_room *user_room, double value)
 {
     char text[40];
-    return gm_room_format(user_room, "%s", gm_number_format(value, text, sizeof text));
+    return gm_arena_print(user_room->arena, "%s", gm_number_format(value, text, sizeof text));
 }
 
 /* Checks that the usual value of a row is one of its values. */
@@ -188,7 +180,8 @@ static void check_row(struct gm_user_room *user_room, const struct gm_parameter 
 {
     struct gm_flows scratch;
     if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
-        refuse(user_room, place, "the usual value lies outside of the range, or is none of the words");
+        gm_room_refuse(&user_room->room, place,
+                       "the usual value lies outside of the range, or is none of the words");
     }
 }
 
@@ -203,7 +196,7 @@ static void add_choices(struct gm_user_room *user_room, size_t place, size_t *co
             words[i] = choice->words[i];
         }
         if (find_row(choice->name)) {
-            refuse(user_room, choice->place, "this name is reserved");
+            gm_room_refuse(&user_room->room, choice->place, "this name is reserved");
         }
         const char *meaning =
             gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
@@ -240,7 +233,7 @@ static void make_rows(struct gm_user_room *user_room)
         const struct gm_parameter plain =
             GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
         if (!template && own == GM_FLOWS_OWN) {
-            refuse(user_room, parameter->place, "a room has at most 8 parameters of its own");
+            gm_room_refuse(&user_room->room, parameter->place, "a room has at most 8 parameters of its own");
         }
         add_choices(user_room, parameter->place, &choices);
         struct gm_parameter *row = add_row(user_room, template ? template : &plain);
@@ -279,7 +272,7 @@ static void check_options(struct gm_user_room *user_room, struct gm_span rest, c
     while (gm_span_take(user_room->room.text, &rest, ";", &piece)) {
         gm_span_take(user_room->room.text, &piece, " ", &word);
         if (!words[gm_span_among(user_room->room.text, word, words)]) {
-            refuse(user_room, word.begin, "this line has no such option");
+            gm_room_refuse(&user_room->room, word.begin, "this line has no such option");
         }
     }
 }
@@ -304,8 +297,8 @@ static void observe(struct gm_user_room *user_room, struct gm_span rest)
     struct gm_observable *observable = &user_room->observables[i];
     if (i == user_room->observable_count) {
         if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
-            refuse(user_room, line.begin,
-                   "this is nothing that is observed of a room, or of a profile that it has");
+            gm_room_refuse(&user_room->room, line.begin,
+                           "this is nothing that is observed of a room, or of a profile that it has");
         }
         *observable = *row;
         user_room->subjects[user_room->observable_count++].number = profile;
@@ -323,13 +316,13 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     struct gm_span head, piece;
     const struct gm_span line = rest;
     gm_span_take(user_room->room.text, &rest, ";", &head);
-    const char *const *words = list_words(user_room, gm_room_keep(user_room, head));
+    const char *const *words = list_words(user_room, gm_room_keep(&user_room->room, head));
     *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
     char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
     profile->quantities = quantities;
     for (size_t i = 1; words && words[i]; i++) {
         if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
-            refuse(user_room, line.begin, "a profile shows u, v or scalar");
+            gm_room_refuse(&user_room->room, line.begin, "a profile shows u, v or scalar");
         }
         quantities[i - 1] = words[i][0];
     }
@@ -339,19 +332,18 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
         gm_span_take(user_room->room.text, &rest, ";", &piece);
         const double *place = numbers(user_room, piece, NULL, &count);
         if (count != 2) {
-            refuse(user_room, line.begin,
-                   "a profile has a name and quantities, two places and a number of points");
+            gm_room_refuse(&user_room->room, line.begin,
+                           "a profile has a name and quantities, two places and a number of points");
         }
         memcpy(ends[end], place, 2 * sizeof *place);
     }
     gm_span_take(user_room->room.text, &rest, ";", &piece);
     profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
-    struct gm_fault fault = {0};
-    if (gm_span_take(user_room->room.text, &rest, ";", &piece) &&
-        !gm_room_range_of(&user_room->room, piece, &profile->range, &fault)) {
-        gm_room_refuse(user_room, &fault);
+    const struct gm_room *room = &user_room->room;
+    if (gm_span_take(room->text, &rest, ";", &piece)) {
+        gm_room_need(room, gm_room_range_of(room, piece, &profile->range, room->fault));
     }
-    profile->label = rest.begin < rest.end ? gm_room_keep(user_room, rest) : NULL;
+    profile->label = rest.begin < rest.end ? gm_room_keep(&user_room->room, rest) : NULL;
 }
 
 /* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
@@ -372,8 +364,8 @@ static void add_table(struct gm_user_room *user_room, struct gm_span rest)
         }
     }
     if (!table->profile || !table->row) {
-        refuse(user_room, line.begin,
-               "a table has a name and a profile, the value of a parameter, and points");
+        gm_room_refuse(&user_room->room, line.begin,
+                       "a table has a name and a profile, the value of a parameter, and points");
     }
     table->value = number(user_room, condition);
     while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
@@ -527,27 +519,24 @@ static void check_look(struct gm_user_room *user_room)
     const struct gm_room *room = &user_room->room;
     struct gm_room measured = *room;
     struct gm_look look;
-    struct gm_fault fault = {0};
     struct gm_span rest, piece;
     struct gm_room_range ends;
-    bool nonzero,
-        good = take_colours(room, &look, &fault) && take_levels(room, NULL, &look.level_count, &fault);
+    bool nonzero, good = take_colours(room, &look, room->fault) &&
+                         take_levels(room, NULL, &look.level_count, room->fault);
     for (int i = 0; i < GM_ROOM_MEASURES; i++) {
         measured.measures[i] = 1;
     }
     gm_room_said(room, "subtitle", 0, &rest);
     while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
         double value;
-        good = gm_scene_parameter(&user_room->scene, gm_room_keep(user_room, piece)) ||
-               gm_room_number(&measured, piece, &value, &fault);
+        good = gm_scene_parameter(&user_room->scene, gm_room_keep(&user_room->room, piece)) ||
+               gm_room_number(&measured, piece, &value, room->fault);
     }
     for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
-        good = take_graph(&measured, i, &piece, &ends, &fault);
+        good = take_graph(&measured, i, &piece, &ends, room->fault);
         observable_key(user_room, piece);
     }
-    if (!good) {
-        gm_room_refuse(user_room, &fault);
-    }
+    gm_room_need(room, good);
 }
 
 /* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
@@ -581,7 +570,7 @@ static void make_studies(struct gm_user_room *user_room)
         struct gm_figure *figure = &figures[scene->figure_count++];
         figure->name = take(user_room, &rest, ";");
         figure->arguments = take_arguments(user_room, &rest);
-        figure->statement = gm_room_keep(user_room, rest);
+        figure->statement = gm_room_keep(&user_room->room, rest);
     }
     scene->figures = figures;
     if (gm_room_said(&user_room->room, "work", 0, &rest)) {
@@ -603,7 +592,8 @@ static void make_studies(struct gm_user_room *user_room)
         work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
         work->resolution = work->resolutions ? user_room->room.edges : NULL;
         if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
-            refuse(user_room, rest.begin, "work: has three errors that fall, and 1 to 30 halvings");
+            gm_room_refuse(&user_room->room, rest.begin,
+                           "work: has three errors that fall, and 1 to 30 halvings");
         }
         scene->work = work;
     }
@@ -619,7 +609,8 @@ static void make_studies(struct gm_user_room *user_room)
                                      .schemes = marching};
         map->values = numbers(user_room, rest, map->parameter, &map->value_count);
         if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
-            refuse(user_room, rest.begin, "stability: needs values of a parameter: reynolds 100, 400");
+            gm_room_refuse(&user_room->room, rest.begin,
+                           "stability: needs values of a parameter: reynolds 100, 400");
         }
         scene->stability = map;
     } else if (gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
@@ -653,7 +644,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     }
     if (gm_room_said(&user_room->room, "time", 0, &rest) &&
         gm_span_take(user_room->room.text, &rest, ";", &piece)) {
-        scene->time = rest.begin < rest.end ? gm_room_keep(user_room, rest) : time;
+        scene->time = rest.begin < rest.end ? gm_room_keep(&user_room->room, rest) : time;
     }
     check_look(user_room);
     make_studies(user_room);

@@ -48,8 +48,7 @@ struct gm_user_room {
     struct gm_scene scene; /* first, so that a pointer to the scene is one to this */
     struct gm_arena *arena;
     struct gm_room_file file;
-    struct gm_fault *wrong; /* the fault, while the scene is made */
-    struct gm_room room;    /* the room with its parameters at their defaults */
+    struct gm_room room; /* the room with its parameters at their defaults */
     struct gm_flows initial;
     const char *mesh;
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
@@ -80,13 +79,10 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
-/* Returns texts that last as long as the scene: words of its file, and others. */
-const char *gm_room_keep(struct gm_user_room *user_room, struct gm_span span);
-__attribute__((format(printf, 2, 3))) char *gm_room_format(struct gm_user_room *user_room, const char *format,
-                                                           ...);
 /* Returns a part of a lane's text, for a picture. */
-const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span);
-/* Leaves the arena with a fault in the file. Does not return. */
-_Noreturn void gm_room_refuse(struct gm_user_room *user_room, const struct gm_fault *fault);
-
+static inline const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room,
+                                       struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
+}
 #endif

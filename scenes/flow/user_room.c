@@ -164,14 +164,6 @@ static bool has_rectangle(const struct gm_flows *chosen)
     return gm_user_room_of(chosen)->room.rectangular && strcmp(chosen->mesh, "none") == 0;
 }
 
-static void close_room(struct gm_room *room)
-{
-    if (room) {
-        gm_room_close(room);
-        free(room);
-    }
-}
-
 /* Closes a problem, also one without a flow. */
 static void close_problem(struct gm_problem *problem)
 {
@@ -179,7 +171,7 @@ static void close_problem(struct gm_problem *problem)
     struct gm_room *room = flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL;
     gm_flow_close(flow);
     problem->parameters = NULL;
-    close_room(room);
+    gm_room_close(room);
 }
 
 /* Returns the room with a lane's parameters; `outlet` names its group; the caller closes it. NULL with a
@@ -189,7 +181,6 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
 {
     const struct gm_scene *scene = &user_room->scene;
     struct gm_room_given given[GM_ROOM_ROWS];
-    struct gm_room *room = calloc(1, sizeof *room);
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
         const char *place = (const char *)chosen + row->offset;
@@ -200,13 +191,9 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
                         : row->type == GM_CHOICE ? row->choices[(int)value]
                                                  : NULL;
     }
-    *fault = (struct gm_fault){0};
-    if (room && !gm_room_read(room, user_room->file.text, user_room->file.length, given,
-                              scene->parameter_count, fault)) {
-        close_room(room);
-        room = NULL;
-    }
-    return room;
+    const struct gm_room_file *file = &user_room->file;
+    return gm_room_open(&(struct gm_room_input){file->text, file->length, given, scene->parameter_count},
+                        fault);
 }
 
 static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room *room,
@@ -318,7 +305,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     room->outlet = outlet;
     const struct gm_flow *flow = open_flow(user_room, parameters, room, sentence);
     if (!flow) {
-        close_room(room);
+        gm_room_close(room);
         return false;
     }
     *problem = (struct gm_problem){
@@ -351,7 +338,7 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
             *edges = (long)fmax(row[0]->lowest, (double)(multiple * ((*edges + multiple / 2) / multiple)));
         }
     }
-    close_room(room);
+    gm_room_close(room);
     return true; /* setup reports a wrong room */
 }
 
@@ -567,7 +554,7 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
             user_room->overfull = true;
             return;
         }
-        char *key = gm_room_format(user_room, "%s_%s", name, rows[what].what), unit[GM_ROOM_UNIT + 8];
+        char *key = gm_arena_print(user_room->arena, "%s_%s", name, rows[what].what), unit[GM_ROOM_UNIT + 8];
         for (char *at = key; *at; at++) {
             *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
         }
@@ -575,12 +562,12 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
             const char *other = user_room->observables[k].key;
             user_room->doubled = strcmp(other, key) == 0 ? other : NULL;
         }
-        user_room->observables[i] =
-            (struct gm_observable){.key = key,
-                                   .title = gm_room_format(user_room, "%s %s%s", name, rows[what].title,
-                                                           beside_unit(user_room, rows[what].powers, unit)),
-                                   .evaluate = observe_local,
-                                   .missing = rows[what].missing};
+        user_room->observables[i] = (struct gm_observable){
+            .key = key,
+            .title = gm_arena_print(user_room->arena, "%s %s%s", name, rows[what].title,
+                                    beside_unit(user_room, rows[what].powers, unit)),
+            .evaluate = observe_local,
+            .missing = rows[what].missing};
         subject.what = what;
         user_room->subjects[i] = subject;
         user_room->observable_count++;
@@ -612,8 +599,8 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
         *observable = *gm_room_observable(rows[i].key, false);
         observable->title =
             rows[i].of_scalar && user_room->room.scalar
-                ? gm_room_format(user_room, "%s %s", rows[i].of_scalar, user_room->room.scalar)
-                : gm_room_format(user_room, "%s%s", observable->title,
+                ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, user_room->room.scalar)
+                : gm_arena_print(user_room->arena, "%s%s", observable->title,
                                  beside_unit(user_room, rows[i].powers, unit));
     }
 }
@@ -672,7 +659,7 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
         sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
         sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
     }
-    return gm_room_format(user_room, "%s:%08x", user_room->file.name, (unsigned)sum);
+    return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
 }
 
 /* Finds the mesh: a file, or a built-in one. */
@@ -680,8 +667,8 @@ static void find_mesh(struct gm_user_room *user_room)
 {
     const struct gm_room_file *file = &user_room->file;
     const char *mesh = user_room->room.mesh, *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
-    user_room->mesh =
-        gm_room_format(user_room, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0, file->path, mesh);
+    user_room->mesh = gm_arena_print(user_room->arena, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0,
+                                     file->path, mesh);
     if (file->built_in || access(user_room->mesh, F_OK) != 0) {
         user_room->inside = gm_built_in_find(GM_FILE_MESH, mesh);
     }
@@ -690,11 +677,6 @@ static void find_mesh(struct gm_user_room *user_room)
 static void close_mesh(void *mesh)
 {
     gm_triangulation_close(mesh);
-}
-
-static void close_read(void *room)
-{
-    gm_room_close(room);
 }
 
 /* A scene while it is made, and the fault of its file. */
@@ -726,19 +708,15 @@ static void make(struct gm_arena *arena, void *data)
     const struct gm_room_file *file = making->file;
     struct gm_user_room *user_room = making->user_room = gm_arena_take(arena, 1, sizeof *user_room);
     struct gm_triangulation *mesh = gm_arena_take(arena, 1, sizeof *mesh);
-    struct gm_fault fault;
     char sentence[GM_MESSAGE];
     user_room->arena = arena;
-    user_room->file = (struct gm_room_file){.text = gm_room_format(user_room, "%s", file->text),
+    user_room->file = (struct gm_room_file){.text = gm_arena_print(user_room->arena, "%s", file->text),
                                             .length = file->length,
-                                            .name = gm_room_format(user_room, "%s", file->name),
-                                            .path = gm_room_format(user_room, "%s", file->path),
+                                            .name = gm_arena_print(user_room->arena, "%s", file->name),
+                                            .path = gm_arena_print(user_room->arena, "%s", file->path),
                                             .built_in = file->built_in};
-    user_room->wrong = making->wrong;
-    gm_arena_keep(arena, &user_room->room, close_read);
-    if (!gm_room_read(&user_room->room, file->text, file->length, NULL, 0, &fault)) {
-        gm_room_refuse(user_room, &fault);
-    }
+    gm_room_read(arena, &user_room->room, &(struct gm_room_input){file->text, file->length, NULL, 0},
+                 making->wrong);
     const struct gm_room *room = &user_room->room;
     user_room->scene = (struct gm_scene){
         .name = user_room->file.name,
@@ -776,7 +754,7 @@ static void make(struct gm_arena *arena, void *data)
     make_observables(user_room, mesh);
     gm_room_take_lines(user_room);
     if (file->word) {
-        user_room->words[0] = gm_room_format(user_room, "%s", file->word);
+        user_room->words[0] = gm_arena_print(user_room->arena, "%s", file->word);
         user_room->scene.words = user_room->words;
         user_room->scene.room = user_room->file.text;
         user_room->scene.mark = make_mark(user_room, mesh);

@@ -134,11 +134,12 @@ static void choices_are_combined(void **unused)
         const char *sign, *power;
         double y;
         const char *lower, *twice; /* why there is no such observable */
-    } rows[] = {{"plus", "first", 1, "with sign=plus there is none", "with power=first there is none"},
-                {"minus", "first", -1, NULL, "with power=first there is none"},
-                {"plus", "second", 2, "with sign=plus there is none", NULL},
-                {"minus", "second", -2, NULL, NULL},
-                {"minus", "second", -2, NULL, NULL}};
+    } rows[] = {
+        {"plus", "first", 1, "it is not defined with sign=plus", "it is not defined with power=first"},
+        {"minus", "first", -1, NULL, "it is not defined with power=first"},
+        {"plus", "second", 2, "it is not defined with sign=plus", NULL},
+        {"minus", "second", -2, NULL, NULL},
+        {"minus", "second", -2, NULL, NULL}};
     const struct gm_scene *last = NULL;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         static const struct gm_settings settings = {.binding = 20};
