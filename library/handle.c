@@ -105,7 +105,7 @@ bool gm_handle_has(geomint *handle, size_t lane)
 
 /* ---- opening and closing ---- */
 
-geomint *gm_handle_open(struct gm_opening opening, void (*body)(struct gm_arena *arena, void *opening))
+geomint *gm_handle_open(struct gm_handle_words opening, void (*body)(struct gm_arena *arena, void *opening))
 {
     geomint *handle = opening.handle = calloc(1, sizeof *handle);
     if (!handle) {
@@ -147,7 +147,7 @@ static void name_quantities(struct gm_arena *arena, struct gm_handle_lane *lane)
 static void open_lanes(struct gm_arena *arena, void *data)
 {
     char message[GM_MESSAGE];
-    struct gm_opening *opening = data;
+    struct gm_handle_words *opening = data;
     geomint *handle = opening->handle;
     struct gm_request *request = &handle->request;
     struct gm_arguments *typed = gm_arguments_in(arena);
@@ -176,7 +176,7 @@ static void open_lanes(struct gm_arena *arena, void *data)
 
 geomint *geomint_open(int count, const char *const words[])
 {
-    return gm_handle_open((struct gm_opening){.count = count, .words = words}, open_lanes);
+    return gm_handle_open((struct gm_handle_words){.count = count, .words = words}, open_lanes);
 }
 
 void geomint_close(geomint *handle)

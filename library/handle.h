@@ -43,7 +43,7 @@ struct gm_call gm_call_begin(geomint *handle);
 int gm_call_end(const struct gm_call *call);
 
 /* The words from which a handle is opened. */
-struct gm_opening {
+struct gm_handle_words {
     const char *scheme; /* NULL: none */
     int count;
     const char *const *words;
@@ -52,7 +52,7 @@ struct gm_opening {
 };
 /* A new handle that the body fills, in its arena: the body's data is the opening. Returns NULL when out of
    memory. */
-geomint *gm_handle_open(struct gm_opening opening, void (*body)(struct gm_arena *arena, void *opening));
+geomint *gm_handle_open(struct gm_handle_words opening, void (*body)(struct gm_arena *arena, void *opening));
 
 /* Sets the status and the message of a call. Returns false. */
 bool gm_handle_refuse(geomint *handle, int status, const char *sentence);

@@ -10,7 +10,7 @@
 #include "library/handle.h"
 
 /* The scheme that an opening names. */
-static const struct gm_scheme *find(struct gm_arena *arena, struct gm_opening *opening)
+static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_words *opening)
 {
     char message[GM_MESSAGE] = "the scheme is NULL";
     const struct gm_scheme *scheme =
@@ -31,7 +31,7 @@ static FILE *open_text(struct gm_arena *arena, geomint *handle, size_t *size)
 
 static void describe(struct gm_arena *arena, void *data)
 {
-    struct gm_opening *opening = data;
+    struct gm_handle_words *opening = data;
     const struct gm_scheme *scheme = find(arena, opening);
     size_t size;
     FILE *stream = open_text(arena, opening->handle, &size);
@@ -41,13 +41,13 @@ static void describe(struct gm_arena *arena, void *data)
 
 geomint *geomint_scheme(const char *word)
 {
-    return gm_handle_open((struct gm_opening){.scheme = word}, describe);
+    return gm_handle_open((struct gm_handle_words){.scheme = word}, describe);
 }
 
 /* The certificate of a scheme; with words, on the system that they name. */
 static void certify(struct gm_arena *arena, void *data)
 {
-    struct gm_opening *opening = data;
+    struct gm_handle_words *opening = data;
     geomint *handle = opening->handle;
     const struct gm_scheme *scheme = find(arena, opening);
     const char *system = opening->count > 0 ? opening->words[0] : NULL;
@@ -72,5 +72,5 @@ static void certify(struct gm_arena *arena, void *data)
 
 geomint *geomint_certify(const char *word, int count, const char *const words[])
 {
-    return gm_handle_open((struct gm_opening){.scheme = word, .count = count, .words = words}, certify);
+    return gm_handle_open((struct gm_handle_words){.scheme = word, .count = count, .words = words}, certify);
 }
