@@ -46,15 +46,41 @@ const struct gm_scheme *gm_scheme_at(size_t index)
     return NULL;
 }
 
-static const char *name_at(size_t i, const void *data)
+/* Scheme i of a list; NULL: of all. */
+static const struct gm_scheme *scheme_of(const struct gm_scheme *const *list, size_t i)
 {
-    return (void)data, gm_scheme_at(i)->name;
+    return list ? list[i] : gm_scheme_at(i);
 }
 
-const char *gm_scheme_near(const char *word)
+static const char *name_of(size_t i, const void *list)
 {
-    const struct gm_near *near = gm_near_find(GM_NEAR_SCHEME, word, 0);
-    return near ? near->meant : gm_nearest(word, gm_scheme_count(), name_at, NULL);
+    return scheme_of(list, i)->name;
+}
+
+static bool is_known_as(const struct gm_scheme *scheme, const char *word)
+{
+    bool known = gm_word_is_part(word, scheme->name) || gm_word_is_part(word, scheme->title);
+    const char *alias;
+    for (size_t i = 0; !known && (alias = gm_alias_of(scheme->name, i)); i++) {
+        known = gm_word_is_part(word, alias);
+    }
+    return known;
+}
+
+const char *gm_scheme_near(const char *word, const struct gm_scheme *const *among, size_t count)
+{
+    const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
+    count = among ? count : gm_scheme_count();
+    for (size_t i = 0; row && i < count; i++) {
+        if (strcmp(scheme_of(among, i)->name, row->meant) == 0) {
+            return row->meant;
+        }
+    }
+    const char *near = gm_nearest(word, count, name_of, among);
+    for (size_t i = 0; !near && i < count; i++) {
+        near = is_known_as(scheme_of(among, i), word) ? scheme_of(among, i)->name : NULL;
+    }
+    return near;
 }
 
 /* The user-defined schemes, which any thread may add. */

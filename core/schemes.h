@@ -18,8 +18,9 @@ const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_pro
 /* The scheme of another name that makes the same steps on this problem; NULL: not known. */
 const struct gm_scheme *gm_scheme_same_as(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
-/* The name of the scheme that an unknown word probably means; NULL if none is near. */
-const char *gm_scheme_near(const char *word);
+/* The name of the scheme that an unknown word probably means, among these (NULL: among all of the program): a row of
+   aliases.def, else the nearest name, else a name, title or alias that contains the word; or NULL. */
+const char *gm_scheme_near(const char *word, const struct gm_scheme *const *among, size_t count);
 
 /* Adds a user-defined scheme, which is then found by its name or its word. It must never be freed. Returns
    false when out of memory. */

@@ -10,6 +10,7 @@
 #include "app/base/arguments.h"
 #include "app/data/save.h"
 #include "app/output/row.h"
+#include "core/arena.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "library/host.h"
@@ -81,7 +82,8 @@ bool gm_handle_given(geomint *handle, const void *pointer, const char *name)
     return pointer != NULL;
 }
 
-bool gm_handle_given_words(geomint *handle, int count, const char *const words[])
+/* The same for each of `count` words. */
+static bool are_given(geomint *handle, int count, const char *const words[])
 {
     bool good = count <= 0 || gm_handle_given(handle, words, "words");
     for (int i = 0; good && i < count; i++) {
@@ -103,8 +105,25 @@ bool gm_handle_has(geomint *handle, size_t lane)
 
 /* ---- opening and closing ---- */
 
-/* Finds the quantities of a lane's state, those that change first. Returns false when out of memory. */
-static bool name_quantities(struct gm_handle_lane *lane)
+geomint *gm_handle_open(struct gm_opening opening, void (*body)(struct gm_arena *arena, void *opening))
+{
+    geomint *handle = opening.handle = calloc(1, sizeof *handle);
+    if (!handle) {
+        return NULL;
+    }
+    const struct gm_call call = gm_call_begin(handle);
+    opening.refusal = GEOMINT_USAGE;
+    handle->arena = gm_arena_open();
+    if (are_given(handle, opening.count, opening.words) && !gm_arena_run(handle->arena, body, &opening)) {
+        handle->lanes = NULL;
+        gm_handle_refuse(handle, opening.refusal, gm_arena_reason(handle->arena));
+    }
+    gm_call_end(&call);
+    return handle;
+}
+
+/* Finds the quantities of a lane's state, those that change first. */
+static void name_quantities(struct gm_arena *arena, struct gm_handle_lane *lane)
 {
     const struct gm_run *run = lane->drive.lane->run;
     struct gm_quantity found[GM_QUANTITIES];
@@ -122,76 +141,49 @@ static bool name_quantities(struct gm_handle_lane *lane)
             most = found[i].derive && size > most ? size : most;
         }
     }
-    lane->scratch = most > 0 ? malloc(most * sizeof *lane->scratch) : NULL;
-    return most == 0 || lane->scratch;
+    lane->scratch = gm_arena_take(arena, most, sizeof *lane->scratch);
 }
 
-static bool open_lanes(geomint *handle)
+static void open_lanes(struct gm_arena *arena, void *data)
 {
-    const struct gm_request *request = &handle->request;
-    handle->lanes = calloc(request->count, sizeof *handle->lanes);
-    for (size_t i = 0; handle->lanes && i < request->count; i++) {
+    char message[GM_MESSAGE];
+    struct gm_opening *opening = data;
+    geomint *handle = opening->handle;
+    struct gm_request *request = &handle->request;
+    struct gm_arguments *typed = gm_arguments_in(arena);
+    for (int i = 0; i < opening->count; i++) {
+        gm_arena_need(arena, gm_arguments_add(typed, opening->words[i]));
+    }
+    if (!gm_request_parse(request, typed->count, typed->words, 1, message)) {
+        opening->refusal = gm_request_refusal(request);
+        gm_arena_refuse(arena, "%s", message);
+    }
+    gm_arena_keep(arena, request, gm_request_close);
+    handle->lanes = gm_arena_take(arena, request->count, sizeof *handle->lanes);
+    for (size_t i = 0; i < request->count; i++) {
         struct gm_handle_lane *lane = &handle->lanes[i];
-        lane->drive = (struct gm_drive){
-            .lane = gm_request_open_lane(request, i, handle->message), .request = request, .index = i};
-        if (!lane->drive.lane) {
-            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
-        }
-        if (!name_quantities(lane)) {
-            return false;
-        }
+        lane->drive =
+            (struct gm_drive){.lane = gm_lane_in(arena, gm_request_open_lane(request, i, message), message),
+                              .request = request,
+                              .index = i};
+        name_quantities(arena, lane);
     }
-    return handle->lanes && gm_chosen_open(&handle->chosen, request->scene, NULL, handle->message);
-}
-
-static void close_lanes(geomint *handle)
-{
-    for (size_t i = 0; i < handle->request.count; i++) {
-        if (handle->lanes) {
-            gm_lane_close(handle->lanes[i].drive.lane);
-            free(handle->lanes[i].state);
-            free(handle->lanes[i].scratch);
-        }
-        if (handle->drawn) {
-            gm_lane_close(handle->drawn[i].lane);
-        }
+    gm_arena_keep(arena, &handle->chosen, gm_chosen_close);
+    if (!gm_chosen_open(&handle->chosen, request->scene, NULL, message)) {
+        gm_arena_refuse(arena, "%s", message);
     }
-    free(handle->lanes);
-    free(handle->drawn);
-    gm_chosen_close(&handle->chosen);
-    gm_request_close(&handle->request);
-    handle->lanes = NULL;
-    handle->drawn = NULL;
 }
 
 geomint *geomint_open(int count, const char *const words[])
 {
-    geomint *handle = calloc(1, sizeof *handle);
-    struct gm_arguments typed = {0};
-    if (!handle) {
-        return NULL;
-    }
-    const struct gm_call call = gm_call_begin(handle);
-    bool good = gm_handle_given_words(handle, count, words);
-    for (int i = 0; i < count && good; i++) {
-        good = gm_arguments_add(&typed, words[i]);
-    }
-    if (good && !gm_request_parse(&handle->request, typed.count, typed.words, 1, handle->message)) {
-        good = gm_handle_refuse(handle, gm_request_refusal(&handle->request), handle->message);
-    }
-    if (!good || !open_lanes(handle)) {
-        close_lanes(handle);
-    }
-    gm_arguments_close(&typed);
-    gm_call_end(&call);
-    return handle;
+    return gm_handle_open((struct gm_opening){.count = count, .words = words}, open_lanes);
 }
 
 void geomint_close(geomint *handle)
 {
     if (handle) {
         const struct gm_call call = gm_call_begin(handle);
-        close_lanes(handle);
+        gm_arena_close(handle->arena);
         free(handle->text);
         gm_call_end(&call);
         free(handle);
@@ -290,7 +282,10 @@ const double *geomint_state(geomint *handle, size_t index, size_t *n, size_t *m)
     if (gm_handle_has(handle, index)) {
         struct gm_handle_lane *lane = &handle->lanes[index];
         const struct gm_problem *problem = &lane->drive.lane->problem;
-        if (!lane->state && (lane->state = malloc(problem->n * problem->m * sizeof *lane->state))) {
+        if (!lane->state) {
+            lane->state = gm_arena_take(handle->arena, problem->n * problem->m, sizeof *lane->state);
+        }
+        if (lane->state) {
             memcpy(lane->state, gm_run_state(lane->drive.lane->run),
                    problem->n * problem->m * sizeof *lane->state);
         }
@@ -492,35 +487,43 @@ int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, doubl
 
 /* ---- the copies that are drawn ---- */
 
-bool gm_handle_follow(geomint *handle)
+static void follow(struct gm_arena *arena, void *data)
 {
-    const size_t count = geomint_lanes(handle);
-    if (!handle->drawn && !(handle->drawn = calloc(count, sizeof *handle->drawn))) {
-        return gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
-    }
-    for (size_t i = 0; i < count; i++) {
+    char message[GM_MESSAGE];
+    geomint *handle = data;
+    const struct gm_request *request = &handle->request;
+    const bool fresh = !handle->drawn;
+    handle->drawn = fresh ? gm_arena_take(arena, request->count, sizeof *handle->drawn) : handle->drawn;
+    for (size_t i = 0; i < request->count; i++) {
         struct gm_drive *drawn = &handle->drawn[i];
         const struct gm_drive *drive = &handle->lanes[i].drive;
-        if (!drawn->lane) {
-            *drawn = (struct gm_drive){.request = &handle->request,
-                                       .index = i,
-                                       .lane = gm_request_open_lane(&handle->request, i, handle->message)};
-        }
-        if (!drawn->lane) {
-            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
-        }
         const double never = GM_NEVER;
+        if (fresh) {
+            *drawn = (struct gm_drive){
+                .request = request,
+                .index = i,
+                .lane = gm_lane_in(arena, gm_request_open_lane(request, i, message), message)};
+        }
         drawn->stop = &never;
         drawn->whole_steps = drive->whole_steps;
         /* repeats the step that failed, so that the picture reports it */
         const int64_t more = drive->lane->run->status == GM_OK ? 0 : 1;
-        const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
+        const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, message);
         drawn->stop = NULL;
         if (!good) {
-            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+            gm_arena_refuse(arena, "%s", message);
         }
     }
-    return true;
+}
+
+bool gm_handle_follow(geomint *handle)
+{
+    struct gm_drive *const before = handle->drawn;
+    if (gm_arena_run(handle->arena, follow, handle)) {
+        return true;
+    }
+    handle->drawn = before;
+    return gm_handle_refuse(handle, GEOMINT_USAGE, gm_arena_reason(handle->arena));
 }
 
 /* ---- texts ---- */

@@ -22,6 +22,7 @@ struct gm_handle_lane {
 };
 
 struct geomint {
+    struct gm_arena *arena; /* owns the request, the lanes and their copies */
     struct gm_request request;
     struct gm_chosen chosen; /* observables of a row */
     struct gm_handle_lane *lanes;
@@ -41,14 +42,23 @@ struct gm_call {
 struct gm_call gm_call_begin(geomint *handle);
 int gm_call_end(const struct gm_call *call);
 
+/* The words from which a handle is opened. */
+struct gm_opening {
+    const char *scheme; /* NULL: none */
+    int count;
+    const char *const *words;
+    geomint *handle; /* set by gm_handle_open, as the next */
+    int refusal;     /* the status if the body refuses them; GEOMINT_USAGE unless the body changes it */
+};
+/* A new handle that the body fills, in its arena: the body's data is the opening. Returns NULL when out of
+   memory. */
+geomint *gm_handle_open(struct gm_opening opening, void (*body)(struct gm_arena *arena, void *opening));
+
 /* Sets the status and the message of a call. Returns false. */
 bool gm_handle_refuse(geomint *handle, int status, const char *sentence);
 
 /* Returns true if the host gave a pointer; `name` is its name in geomint.h. Otherwise false with a message. */
 bool gm_handle_given(geomint *handle, const void *pointer, const char *name);
-
-/* The same for each of `count` words. */
-bool gm_handle_given_words(geomint *handle, int count, const char *const words[]);
 
 /* Returns true if the lane exists, otherwise false with a message. */
 bool gm_handle_has(geomint *handle, size_t lane);

@@ -217,7 +217,14 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         refuse(options, "its size is damaged");
     }
     gm_arena_keep(options->arena, request, gm_request_close);
-    if (!gm_request_recall(request, texts[ARGUMENTS], message)) {
+    const bool recalled = gm_request_recall(request, texts[ARGUMENTS], message);
+    if (!recalled && gm_request_refusal(request) == GM_EXIT_USAGE) {
+        gm_command_end(options, GM_EXIT_FILE,
+                       "%s cannot be redrawn from the words of an earlier version, \"%.300s\"; "
+                       "render them without the refused one: %s",
+                       options->arguments.words[0], texts[ARGUMENTS], message);
+    }
+    if (!recalled) {
         refuse(options, message);
     }
     if (!gm_changes_parse(request, texts[CHANGES])) {

@@ -6,6 +6,7 @@
 #include "app/base/files.h"
 #include "app/explorer/terminal/device.h"
 #include "app/native/engine.h"
+#include "app/output/frames.h"
 #include "app/output/printer.h"
 #include "app/output/row.h"
 #include "app/words/request.h"
@@ -30,7 +31,7 @@ enum gm_command {
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
-    const char *csv, *profile, *out, *movie, *measure, *region, *judge, *changes, *on, *polish;
+    const char *csv, *profile, *out, *measure, *region, *judge, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
     const char *painter;
     const char *format_name;
@@ -38,10 +39,9 @@ struct gm_options {
     enum gm_format format; /* the pictures' format: png, unless the two options before give another one */
     const char *name;      /* the name of a chart's files, set only by `again`; NULL: the command's */
     const char *table, *retry, *join; /* options of sweep */
-    long every, frames, jobs;
-    long shard, shards;            /* 0, 0: not given */
-    double fps, rate;              /* NAN: not given */
-    double from, at, interval;     /* NAN: not given */
+    struct gm_pace pace;              /* frames; also --every of run, --fps of tour and --shard of sweep */
+    long jobs;
+    double interval;               /* NAN: not given */
     struct gm_appearance look;     /* 1280 x 720, light */
     double page[2];                /* the page's size in mm, if it was given; else 0 */
     bool sized;                    /* a size was given */
@@ -112,9 +112,9 @@ void gm_put_duration(double seconds, char *text, size_t size);
    exit status. */
 int gm_list_system(const struct gm_options *options, const struct gm_file *file);
 
-/* Puts "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
-void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
-                      const struct gm_scheme *const *same, size_t count);
+/* Puts "schemes" and "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
+void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *schemes,
+                         const struct gm_scheme *const *same, size_t count);
 /* "file":"systems/toda.system","source":"..."; both are null without a file. */
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source);
 

@@ -32,11 +32,6 @@ static void offer(const struct stem *stem, const char *candidate, const char *he
     }
 }
 
-static struct stem whole(const char *word)
-{
-    return (struct stem){.begin = word};
-}
-
 /* The stem is the text after the last of these characters, the front is the rest. */
 static struct stem behind_last(const char *word, const char *breaks)
 {
@@ -260,7 +255,7 @@ static void offer_options(const struct gm_command_row *command, const char *word
         }
         return;
     }
-    const struct stem stem = whole(word);
+    const struct stem stem = {.begin = word};
     for (size_t i = 0; i < gm_option_count; i++) {
         if (gm_option_rows[i].commands & command->bit) {
             offer(&stem, gm_option_rows[i].name, gm_option_rows[i].help);
@@ -272,7 +267,7 @@ static void offer_options(const struct gm_command_row *command, const char *word
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
     static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
-    const struct stem stem = whole(word);
+    const struct stem stem = {.begin = word};
     switch (command->bit) {
     case GM_LIST:
         for (size_t i = 0; i < GM_COUNT(lists); i++) {
@@ -314,7 +309,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
 /* The keys of a system's formulas; a file's scene has the keys of its formulas. */
 static void offer_formulas(const char *word, const char *system, const struct gm_scene *scene)
 {
-    const struct stem stem = whole(word);
+    const struct stem stem = {.begin = word};
     struct gm_arguments formulas = {0};
     if (gm_file_is(GM_FILE_ROOM, system)) {
         return; /* it has its lines in the file alone */
@@ -332,7 +327,7 @@ static void offer_formulas(const char *word, const char *system, const struct gm
 
 static void offer_commands(const char *word)
 {
-    const struct stem stem = whole(word);
+    const struct stem stem = {.begin = word};
     for (size_t i = 0; i < gm_command_count; i++) {
         offer(&stem, gm_commands[i].name, gm_commands[i].help);
     }
@@ -368,7 +363,7 @@ int gm_command_complete(const struct gm_options *options)
     const struct gm_option *option =
         count > 2 && !strchr(words[count - 2], '=') ? option_of(command, words[count - 2]) : NULL;
     if (option && option->value[0]) {
-        const struct stem stem = whole(last);
+        const struct stem stem = {.begin = last};
         offer_values(option, &stem, scene);
     } else if (last[0] == '-') {
         offer_options(command, last, scene);

@@ -310,12 +310,7 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     gm_row_close(&parameters);
     put_keys(&row, "observables", scene->observables, scene->observable_count);
     put_keys(&row, "asked", scene->asked, scene->asked_count);
-    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
-    for (size_t i = 0; i < entry->scheme_count; i++) {
-        gm_row_text(&schemes, NULL, entry->schemes[i]->name);
-    }
-    gm_row_close(&schemes);
-    gm_list_put_same(&row, entry->schemes, entry->same, entry->scheme_count);
+    gm_list_put_schemes(&row, entry->schemes, entry->same, entry->scheme_count);
     gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
     printf("}\n");
 }
@@ -401,7 +396,7 @@ static int refuse_name(const char *word)
     const char *found = list                                 ? list
                         : gm_system_near(word, near, folder) ? near
                         : folder[0]                          ? NULL
-                                                             : gm_scheme_meant(NULL, word);
+                                                             : gm_scheme_near(word, NULL, 0);
     if (!found && folder[0]) {
         return gm_give_up(GM_EXIT_FILE, "%s", folder);
     }
@@ -461,8 +456,8 @@ int gm_command_list(const struct gm_options *options)
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool is_system =
-        *first && (options->latex || !gm_scene_find(first)) && find_file(GM_FILE_SYSTEM, first, &file);
+    const bool equations = options->latex || options->arguments.count > 1 || !gm_scene_find(first);
+    const bool is_system = *first && equations && find_file(GM_FILE_SYSTEM, first, &file);
     if ((is_system || typed) && !options->markdown && !options->source) {
         return gm_list_system(options, typed ? NULL : &file);
     }
@@ -473,7 +468,7 @@ int gm_command_list(const struct gm_options *options)
     if (options->arguments.count > 1) {
         return gm_give_up(
             GM_EXIT_USAGE,
-            "list takes one name: scenes, systems, rooms, schemes, figures, tours, a scene, a system, a room or a scheme");
+            "list takes one name, and values only after the name of a system: list kepler eccentricity=0.3");
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->source) {

@@ -31,8 +31,14 @@ static void put(const char *text)
     }
 }
 
-/* A tagged paragraph: a term in bold, then text in italics. */
-static void put_term(const char *term, const char *rest)
+static void put_line(const char *text)
+{
+    put(text);
+    putchar('\n');
+}
+
+/* A tagged paragraph: a term in bold, the rest of it in italics, then text unless it is NULL. */
+static void put_term(const char *term, const char *rest, const char *text)
 {
     printf(".TP\n\\fB");
     put(term);
@@ -43,20 +49,16 @@ static void put_term(const char *term, const char *rest)
         printf("\\fR");
     }
     putchar('\n');
-}
-
-static void put_line(const char *text)
-{
-    put(text);
-    putchar('\n');
+    if (text) {
+        put_line(text);
+    }
 }
 
 static void put_terms(const char *heading, const char *const terms[][2], size_t count)
 {
     printf(".SH %s\n", heading);
     for (size_t i = 0; i < count; i++) {
-        put_term(terms[i][0], "");
-        put_line(terms[i][1]);
+        put_term(terms[i][0], "", terms[i][1]);
     }
 }
 
@@ -64,36 +66,29 @@ static void put_commands(void)
 {
     printf(".SH COMMANDS\n");
     for (size_t i = 0; i < gm_command_count; i++) {
-        put_term(gm_commands[i].name, gm_commands[i].synopsis);
-        put_line(gm_commands[i].help);
+        put_term(gm_commands[i].name, gm_commands[i].synopsis, gm_commands[i].help);
         size_t options = 0;
         for (size_t k = 0; k < gm_option_count; k++) {
             const struct gm_option *option = &gm_option_rows[k];
             if (option->commands & gm_commands[i].bit) {
                 printf("%s", options++ ? "" : ".RS\n");
-                put_term(option->name, option->value);
-                put_line(option->help);
+                put_term(option->name, option->value, option->help);
             }
         }
         printf("%s", options ? ".RE\n" : "");
     }
-    put_term("--help, -h", "");
-    put_line("the commands; after a command, its options; with --all, the options of all commands");
-    put_term("--version, -V", "");
-    put_line("version and libraries");
+    put_term("--help, -h", "",
+             "the commands; after a command, its options; with --all, the options of all commands");
+    put_term("--version, -V", "", "version and libraries");
 }
 
 static void put_parameter(const struct gm_parameter *row)
 {
-    char range[256];
-    char text[160];
-    snprintf(text, sizeof text, "%s=%s", row->key, row->standard);
-    put_term(text, "");
-    put(row->help);
-    printf(" (");
-    put(gm_catalogue_range(row, range, sizeof range));
-    printf(")%s", row->unit[0] ? ", in " : "");
-    put_line(row->unit);
+    char range[256], term[160], text[512];
+    snprintf(term, sizeof term, "%s=%s", row->key, row->standard);
+    snprintf(text, sizeof text, "%s (%s)%s%s", row->help, gm_catalogue_range(row, range, sizeof range),
+             row->unit[0] ? ", in " : "", row->unit);
+    put_term(term, "", text);
 }
 
 static void put_scenes(void)
@@ -131,7 +126,7 @@ static void put_schemes(void)
         const struct gm_scheme *scheme = gm_scheme_at(i);
         char letters[GM_CLAIM_COUNT + 1];
         gm_catalogue_letters(scheme, letters);
-        put_term(scheme->name, "");
+        put_term(scheme->name, "", NULL);
         put(scheme->title);
         if (scheme->order > 0) {
             printf(", order %d", scheme->order);
@@ -158,8 +153,7 @@ static void put_words(void)
     for (size_t i = 0; i < gm_common_key_count; i++) {
         char name[40];
         snprintf(name, sizeof name, "%s=", gm_common_keys[i].name);
-        put_term(name, gm_common_keys[i].value);
-        put_line(gm_common_keys[i].help);
+        put_term(name, gm_common_keys[i].value, gm_common_keys[i].help);
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         put_parameter(&gm_settings_parameters[i]);

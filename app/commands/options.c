@@ -52,7 +52,7 @@ const struct gm_option gm_option_rows[] = {
     {"--max", FLAG, GM_RUN, AT(maximum), "", "also NAME_max, the value of largest magnitude over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
     {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
-    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
+    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(pace.every), "K",
      "run: a row of --csv and --save, render: a frame, every K steps"},
     {"--interval", RATE, GM_RUN, AT(interval), "T",
      "a row at the steps next to multiples of T in model time"},
@@ -61,11 +61,11 @@ const struct gm_option gm_option_rows[] = {
     {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE",
      "write the state to FILE, from which --continue resumes"},
     {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "resume from a checkpoint"},
-    {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
-    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames per second of the movie (30)"},
-    {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time per second of the movie"},
-    {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
-    {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
+    {"--frames", WHOLE, GM_RENDER, AT(pace.frames), "N", "N frames, evenly spaced in model time"},
+    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(pace.fps), "F", "frames per second of the movie (30)"},
+    {"--rate", RATE, GM_RENDER, AT(pace.rate), "R", "model time per second of the movie"},
+    {"--from", TIME, GM_RENDER, AT(pace.from), "T", "first frame at model time T"},
+    {"--at", TIME, GM_RENDER, AT(pace.at), "T", "one picture at model time T"},
     {"--output", TEXT, PRINTS, AT(output), "FILE",
      "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
     {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
@@ -94,7 +94,7 @@ const struct gm_option gm_option_rows[] = {
      "keys before --shot: 2s lets 2 s pass, ENTER, ESC, UP ..., or text to type"},
     {"--theme", TEXT, EXPLORES, AT(terminal.theme), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
-    {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(pace.movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv",
      "write the rows to FILE.csv; the same command resumes"},
     {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one per core)"},
@@ -103,8 +103,9 @@ const struct gm_option gm_option_rows[] = {
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
      "also with more than a million runs or 1e11 steps"},
     {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv", "join the shards' tables, and list the missing rows"},
-    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shards of the frames"},
-    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N", "only the I-th of N shards of the runs, in its own table"},
+    {"--shard", SHARD, GM_RENDER, AT(pace.shard), "I/N", "only the I-th of N shards of the frames"},
+    {"--shard", SHARD, GM_SWEEP, AT(pace.shard), "I/N",
+     "only the I-th of N shards of the runs, in its own table"},
     {"--engine", ENGINE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
      "auto|interpreted|native", "what advances user-defined systems (auto: compiled code, if it is faster)"},
     {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove the compiled code"},
@@ -140,40 +141,32 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
                                        [RATE] = {0, INFINITY},
                                        [FPS] = {0.01, 1000},
                                        [SCALE] = {GM_LEAST_SCALE, GM_MOST_SCALE},
-                                       [DPI] = {GM_LEAST_DPI, GM_MOST_DPI}};
+                                       [DPI] = {GM_LEAST_DPI, GM_MOST_DPI},
+                                       [WHOLE] = {1, 1e9}};
     const double low = bounds[row->kind][0], high = bounds[row->kind][1];
-    const bool open = isinf(high);
+    const bool open = isinf(high), whole = row->kind == WHOLE;
     double number = NAN;
     char what[64];
     if (!gm_number_parse(value, &number) || !isfinite(number) || number > high ||
-        !(open ? number > low : number >= low)) {
+        !(open ? number > low : number >= low) || (whole && number != floor(number))) {
         snprintf(what, sizeof what,
-                 !open        ? "is not a number from %g to %g"
+                 whole        ? "is not a whole number from 1 to 1e9"
+                 : !open      ? "is not a number from %g to %g"
                  : isinf(low) ? "is not a number"
                               : "is not a number above 0",
                  low, high);
         return refuse(message, row->name, value, what);
     }
-    memcpy(place, &number, sizeof number);
-    return true;
-}
-
-static bool store_whole(char *place, const struct gm_option *row, const char *value, char *message)
-{
-    double number = NAN;
-    if (!gm_number_parse(value, &number) || !(number >= 1 && number <= 1e9) || number != floor(number)) {
-        return refuse(message, row->name, value, "is not a whole number from 1 to 1e9");
-    }
-    const long whole = (long)number;
-    memcpy(place, &whole, sizeof whole);
+    const long integer = whole ? (long)number : 0;
+    memcpy(place, whole ? (const void *)&integer : &number, sizeof number);
     return true;
 }
 
 static bool read_shard(const char *value, struct gm_options *options)
 {
     int used = 0;
-    return sscanf(value, "%6ld/%6ld%n", &options->shard, &options->shards, &used) == 2 && !value[used] &&
-           options->shard >= 1 && options->shard <= options->shards;
+    return sscanf(value, "%6ld/%6ld%n", &options->pace.shard, &options->pace.shards, &used) == 2 &&
+           !value[used] && options->pace.shard >= 1 && options->pace.shard <= options->pace.shards;
 }
 
 static bool is_painted(double width, double height)
@@ -266,7 +259,6 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
         memcpy(place, &(int){1}, sizeof(int));
         return true;
     case WHOLE:
-        return store_whole(place, row, value, message);
     case TIME:
     case RATE:
     case FPS:
@@ -280,7 +272,7 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
                       "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm");
     case SHARD:
         return read_shard(value, options) ||
-               refuse(message, row->name, value, "is not I/N, the I-th of N shares, with I from 1 to N");
+               refuse(message, row->name, value, "is not I/N, the I-th of N shards, with I from 1 to N");
     case ENGINE:
         return gm_engine_named(value, &options->engine) ||
                refuse(message, row->name, value, "is none of: auto, interpreted, native");
@@ -371,35 +363,31 @@ static bool is_given(const bool given[ROWS], const char *name)
     return false;
 }
 
-/* A path whose folder has no detours; malloc'ed, NULL: it leads nowhere. */
-static char *straight(const char *path)
+/* The folder of a path, and its name there; false: the folder is missing. */
+static bool find_folder(const char *path, struct stat *folder, const char **name)
 {
-    char *copy = strdup(path), *slash = copy ? strrchr(copy, '/') : NULL, *whole = NULL;
-    const char *name = slash ? slash + 1 : copy;
-    if (slash) {
-        *slash = '\0';
-    }
-    char *folder = copy ? realpath(!slash ? "." : slash == copy ? "/" : copy, NULL) : NULL;
-    if (!folder || asprintf(&whole, "%s/%s", folder, name) < 0) {
-        whole = NULL;
-    }
-    free(folder);
-    free(copy);
-    return whole;
+    const char *slash = strrchr(path, '/');
+    char text[4096];
+    *name = slash ? slash + 1 : path;
+    snprintf(text, sizeof text, "%.*s.", (int)(*name - path), path);
+    return stat(text, folder) == 0;
+}
+
+static bool are_one(const struct stat *a, const struct stat *b)
+{
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
 static bool is_same_file(const char *a, const char *b)
 {
     struct stat x, y;
+    const char *one, *other;
     const bool there = stat(a, &x) == 0;
     if (stat(b, &y) == 0 && there) {
-        return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+        return S_ISREG(x.st_mode) && are_one(&x, &y);
     }
-    char *one = straight(a), *other = straight(b);
-    const bool same = one && other && strcmp(one, other) == 0;
-    free(one);
-    free(other);
-    return same;
+    return find_folder(a, &x, &one) && find_folder(b, &y, &other) && are_one(&x, &y) &&
+           strcmp(one, other) == 0;
 }
 
 /* Returns true if no file is written twice or also read; `again` may overwrite its picture. */
@@ -413,7 +401,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
                  {"--save-tracks", options->tracks},
                  {"--table", options->table},
                  {"--output", options->output},
-                 {"--movie", options->movie},
+                 {"--movie", options->pace.movie},
                  {"--polish", options->polish},
                  {"--shot", options->terminal.shot},
                  {"--checkpoint", options->checkpoint}};
@@ -480,10 +468,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message)
 {
-    *options = (struct gm_options){.fps = NAN,
-                                   .rate = NAN,
-                                   .from = NAN,
-                                   .at = NAN,
+    *options = (struct gm_options){.pace = {.fps = NAN, .rate = NAN, .from = NAN, .at = NAN},
                                    .interval = NAN,
                                    .look = {.width = 1280, .height = 720}};
     bool given[ROWS] = {false};

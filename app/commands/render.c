@@ -236,8 +236,9 @@ static bool make_frames(struct work *work, char *message)
 static const char *folder_of(const struct gm_options *options)
 {
     const char *named = options->out ? options->out : ".";
-    return options->movie && !options->out ? gm_arena_print(options->arena, "%s.frames", options->movie)
-                                           : named;
+    return options->pace.movie && !options->out
+               ? gm_arena_print(options->arena, "%s.frames", options->pace.movie)
+               : named;
 }
 
 static bool open_sinks(struct work *work, const char *name, char *message)
@@ -247,14 +248,15 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         .width = options->look.width,
         .height = options->look.height,
         .dpi = options->look.dpi,
-        .fps = isnan(options->fps) ? 30 : options->fps,
+        .fps = isnan(options->pace.fps) ? 30 : options->pace.fps,
         .texts = work->provenance.texts,
         .text_count = work->provenance.count,
         .interruptions = &gm_interrupted,
     };
     /* the parts that can fail come first */
-    if (options->movie && (!gm_folder_make_for(options->movie, message) ||
-                           !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
+    if (options->pace.movie &&
+        (!gm_folder_make_for(options->pace.movie, message) ||
+         !(work->movie = gm_sink_open_movie(options->pace.movie, &settings, message)))) {
         return false;
     }
     gm_frames_open(&work->frames, options->arena, &work->schedule, folder_of(options), name,
@@ -331,10 +333,10 @@ static void tell_written(const struct work *work)
     const struct gm_options *options = work->options;
     const struct gm_frames *frames = &work->frames;
     const long made = work->done - frames->found;
-    if (options->movie) {
-        gm_complain("wrote %s", options->movie);
+    if (options->pace.movie) {
+        gm_complain("wrote %s", options->pace.movie);
     }
-    if (made > 0 && (options->out || !options->movie)) {
+    if (made > 0 && (options->out || !options->pace.movie)) {
         gm_complain("wrote %ld frame%s, %s/%s-*.png", made, gm_plural((double)made), frames->folder,
                     frames->name);
     }
@@ -384,7 +386,7 @@ static int paint_all(struct work *work, const char *name)
     if (work->checkpoint) {
         unlink(work->checkpoint);
     }
-    if (options->movie && !options->out) {
+    if (options->pace.movie && !options->out) {
         gm_frames_remove(&work->frames);
     }
     return status;
@@ -454,17 +456,8 @@ static int render(struct gm_request *request, const struct gm_options *options, 
     gm_arena_keep(options->arena, work, close_work);
     work->picture = gm_picture_open();
     gm_arena_need(options->arena, work->picture);
-    const struct gm_pace pace = {.movie = options->movie != NULL,
-                                 .frames = options->frames,
-                                 .every = options->every,
-                                 .fps = options->fps,
-                                 .rate = options->rate,
-                                 .from = options->from,
-                                 .at = options->at,
-                                 .shard = options->shard,
-                                 .shards = options->shards};
-    if (!gm_schedule_make(&work->schedule, request, &pace, message) || !takes_format(work, message) ||
-        !open_lanes(work, message)) {
+    if (!gm_schedule_make(&work->schedule, request, &options->pace, message) ||
+        !takes_format(work, message) || !open_lanes(work, message)) {
         gm_command_end(options, GM_EXIT_USAGE, "%s", message);
     }
     gm_lane_note(work->lanes[0], message);

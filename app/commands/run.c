@@ -651,9 +651,11 @@ static bool run_lane(struct outcome *outcome, int64_t steps, char *message)
     if (!rests && !drive_lane(outcome, steps, message)) {
         return false;
     }
+    if ((keeps && !keep_state(outcome, message)) || (rests && !make_steps(outcome, steps, message))) {
+        return false;
+    }
     outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
-    return (!keeps || keep_state(outcome, message)) && (!rests || make_steps(outcome, steps, message)) &&
-           end_rows(outcome, message);
+    return end_rows(outcome, message);
 }
 
 /* The file, or standard output; NULL with a sentence. */
@@ -768,10 +770,10 @@ static void check_options(const struct gm_options *options)
         gm_command_end(options, GM_EXIT_USAGE,
                        "standard output takes one of --csv -, --profile - and --json");
     }
-    if ((options->every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
+    if ((options->pace.every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
         gm_command_end(options, GM_EXIT_USAGE,
                        "--%s selects the steps that have a row: it needs --csv or --save",
-                       options->every > 0 ? "every" : "interval");
+                       options->pace.every > 0 ? "every" : "interval");
     }
 }
 
@@ -939,7 +941,7 @@ int gm_command_run(const struct gm_options *options)
     gm_command_confirm(options, request);
     gm_catch_interrupts();
     struct outputs outputs = {.options = options,
-                              .rows = {.every = options->every, .interval = options->interval}};
+                              .rows = {.every = options->pace.every, .interval = options->interval}};
     int status = open_outputs(&outputs, request, message);
     const bool opened = status == GM_EXIT_OK;
     if (!opened) {

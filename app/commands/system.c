@@ -52,12 +52,6 @@ struct report {
     struct gm_problem problem; /* set up with the file's values; not opened if no scheme can advance it */
 };
 
-static bool fits(const struct report *report, const struct gm_scheme *scheme)
-{
-    return report->problem.kind && scheme->family->kind == report->problem.kind &&
-           gm_scheme_fits(scheme, &report->problem);
-}
-
 /* The text of a formula; a note for one that is too long to read; -0, a derivative of 0, as 0. */
 static const char *formula_of(const struct report *report, gm_node_id node, bool latex)
 {
@@ -377,7 +371,7 @@ static void print_names(const struct report *report, const struct gm_kind *other
     const char *text = "";
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (other ? scheme->family->kind == other : fits(report, scheme)) {
+        if (other ? scheme->family->kind == other : gm_scheme_fits(scheme, &report->problem)) {
             const struct gm_scheme *same = other ? NULL : gm_scheme_same_as(scheme, &report->problem);
             text = gm_arena_print(report->arena, same ? "%s%s (= %s) " : "%s%s ", text, scheme->name,
                                   same ? same->name : "");
@@ -479,16 +473,13 @@ static void print_json(const struct report *report, const struct gm_file *file)
     gm_row_close(&structure);
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
-    struct gm_row schemes = gm_row_open(&row, "schemes", ']');
-    for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
-        if (fits(report, gm_scheme_at(i))) {
-            fitting[count] = gm_scheme_at(i);
-            same[count] = gm_scheme_same_as(fitting[count], &report->problem);
-            gm_row_text(&schemes, NULL, fitting[count++]->name);
-        }
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
     }
-    gm_row_close(&schemes);
-    gm_list_put_same(&row, fitting, same, count);
+    for (size_t i = 0; i < count; i++) {
+        same[i] = gm_scheme_same_as(fitting[i], &report->problem);
+    }
+    gm_list_put_schemes(&row, fitting, same, count);
     gm_list_put_file(&row, file, system->source);
     printf("}\n");
 }
@@ -709,9 +700,14 @@ static void check_scene(const struct gm_options *options, bool typed)
     }
 }
 
-void gm_list_put_same(struct gm_row *row, const struct gm_scheme *const *schemes,
-                      const struct gm_scheme *const *same, size_t count)
+void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *schemes,
+                         const struct gm_scheme *const *same, size_t count)
 {
+    struct gm_row list = gm_row_open(row, "schemes", ']');
+    for (size_t i = 0; i < count; i++) {
+        gm_row_text(&list, NULL, schemes[i]->name);
+    }
+    gm_row_close(&list);
     struct gm_row all = gm_row_open(row, "same_as", '}');
     for (size_t i = 0; i < count; i++) {
         const struct gm_scheme *one = same[i] ? same[i] : schemes[i];

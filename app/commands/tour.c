@@ -74,9 +74,9 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
     if (options->terminal.theme && !dark && strcmp(options->terminal.theme, "light") != 0) {
         return gm_give_up(GM_EXIT_USAGE, "--theme %.60s is none of: light, dark", options->terminal.theme);
     }
-    struct gm_tour_output output = {.movie = options->movie,
+    struct gm_tour_output output = {.movie = options->pace.movie,
                                     .folder = options->out,
-                                    .fps = isnan(options->fps) ? 30 : options->fps,
+                                    .fps = isnan(options->pace.fps) ? 30 : options->pace.fps,
                                     .look = options->look};
     output.look.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
     gm_catch_interrupts();
@@ -119,7 +119,7 @@ int gm_command_tour(const struct gm_options *options)
         return gm_give_up(GM_EXIT_USAGE,
                           "tour takes one name; put a name of several words in quotation marks");
     }
-    if (options->arguments.count == 0 && (options->movie || options->out)) {
+    if (options->arguments.count == 0 && (options->pace.movie || options->out)) {
         return gm_give_up(GM_EXIT_USAGE, "which tour? geomint tour lists them");
     }
     if (options->arguments.count == 0) {
@@ -132,7 +132,7 @@ int gm_command_tour(const struct gm_options *options)
     int status = GM_EXIT_OK;
     if (options->listing) {
         status = list_steps(&tour);
-    } else if (options->movie || options->out) {
+    } else if (options->pace.movie || options->out) {
         status = make_movie(&tour, options);
     } else {
         status = explore(options, "tour", NULL, &tour);

@@ -53,10 +53,13 @@ struct bytes {
     size_t count;
 };
 
-static void put(struct bytes *bytes, uint64_t value, size_t size)
+/* Appends numbers, each with the number of bytes that its digit in `sizes` gives. */
+static void put(struct bytes *bytes, const char *sizes, const uint64_t *values)
 {
-    for (size_t i = 0; i < size; i++) {
-        bytes->at[bytes->count++] = (unsigned char)(value >> (8 * i));
+    for (; *sizes; sizes++, values++) {
+        for (int i = 0; i < *sizes - '0'; i++) {
+            bytes->at[bytes->count++] = (unsigned char)(*values >> (8 * i));
+        }
     }
 }
 
@@ -81,15 +84,10 @@ static uint32_t low(uint64_t value, bool wide)
 /* Puts the common fields of a local or central header, which follow the versions. */
 static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide, size_t extra)
 {
-    put(bytes, 0, 2); /* flags */
-    put(bytes, 0, 2); /* stored */
-    put(bytes, 0, 2); /* time */
-    put(bytes, DAY, 2);
-    put(bytes, entry->crc, 4);
-    put(bytes, low(entry->size, wide), 4);
-    put(bytes, low(entry->size, wide), 4);
-    put(bytes, strlen(entry->name), 2);
-    put(bytes, extra, 2);
+    const uint64_t size = low(entry->size, wide);
+    /* flags, the method "stored", time, day, ... */
+    put(bytes, "222244422",
+        (const uint64_t[]){0, 0, 0, DAY, entry->crc, size, size, strlen(entry->name), extra});
 }
 
 /* The offset of the head of the .npy file; the header always has the 64-bit record, so this does not
@@ -103,13 +101,9 @@ static bool write_local(struct gm_npz *npz, const struct entry *entry)
 {
     const size_t name = strlen(entry->name);
     struct bytes bytes = {.count = 0}, extra = {.count = 0};
-    put(&bytes, LOCAL, 4);
-    put(&bytes, ZIP_64, 2);
+    put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
     put_entry(&bytes, entry, true, EXTRA_LOCAL);
-    put(&extra, 1, 2);
-    put(&extra, EXTRA_LOCAL - 4, 2);
-    put(&extra, entry->size, 8);
-    put(&extra, entry->size, 8);
+    put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
     return note(npz,
                 !npz->failed && gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place) &&
                     gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL) &&
@@ -120,24 +114,16 @@ static void emit_central(struct gm_npz *npz, const struct entry *entry)
 {
     const bool wide = entry->size >= most_32 || entry->place >= most_32;
     struct bytes bytes = {.count = 0};
-    put(&bytes, CENTRAL, 4);
-    put(&bytes, ZIP_64, 2);
-    put(&bytes, ZIP_64, 2);
+    put(&bytes, "422", (const uint64_t[]){CENTRAL, ZIP_64, ZIP_64});
     put_entry(&bytes, entry, wide, wide ? EXTRA_CENTRAL : 0);
-    put(&bytes, 0, 2); /* comment */
-    put(&bytes, 0, 2); /* disk */
-    put(&bytes, 0, 2); /* attributes */
-    put(&bytes, 0, 4);
-    put(&bytes, low(entry->place, wide), 4);
+    /* comment, disk, attributes, and the place */
+    put(&bytes, "22244", (const uint64_t[]){0, 0, 0, 0, low(entry->place, wide)});
     emit(npz, bytes.at, bytes.count);
     emit(npz, entry->name, strlen(entry->name));
     if (wide) {
         bytes.count = 0;
-        put(&bytes, 1, 2);
-        put(&bytes, EXTRA_CENTRAL - 4, 2);
-        put(&bytes, entry->size, 8);
-        put(&bytes, entry->size, 8);
-        put(&bytes, entry->place, 8);
+        put(&bytes, "22888",
+            (const uint64_t[]){1, EXTRA_CENTRAL - 4, entry->size, entry->size, entry->place});
         emit(npz, bytes.at, bytes.count);
     }
 }
@@ -343,32 +329,16 @@ bool gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
 static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
 {
     const bool wide = npz->count >= MOST_16 || contents >= most_32 || size >= most_32;
-    const uint64_t at = npz->place;
     struct bytes bytes = {.count = 0};
     if (wide) {
-        put(&bytes, END_64, 4);
-        put(&bytes, 44, 8); /* bytes of this record that follow */
-        put(&bytes, ZIP_64, 2);
-        put(&bytes, ZIP_64, 2);
-        put(&bytes, 0, 4);
-        put(&bytes, 0, 4);
-        put(&bytes, npz->count, 8);
-        put(&bytes, npz->count, 8);
-        put(&bytes, size, 8);
-        put(&bytes, contents, 8);
-        put(&bytes, LOCATOR_64, 4);
-        put(&bytes, 0, 4);
-        put(&bytes, at, 8);
-        put(&bytes, 1, 4);
+        /* 44: the bytes of this record that follow */
+        put(&bytes, "48224488884484",
+            (const uint64_t[]){END_64, 44, ZIP_64, ZIP_64, 0, 0, npz->count, npz->count, size, contents,
+                               LOCATOR_64, 0, npz->place, 1});
     }
-    put(&bytes, END, 4);
-    put(&bytes, 0, 2);
-    put(&bytes, 0, 2);
-    put(&bytes, wide ? MOST_16 : npz->count, 2);
-    put(&bytes, wide ? MOST_16 : npz->count, 2);
-    put(&bytes, low(size, wide), 4);
-    put(&bytes, low(contents, wide), 4);
-    put(&bytes, 0, 2);
+    const uint64_t count = wide ? MOST_16 : npz->count;
+    put(&bytes, "42222442",
+        (const uint64_t[]){END, 0, 0, count, count, low(size, wide), low(contents, wide), 0});
     emit(npz, bytes.at, bytes.count);
 }
 

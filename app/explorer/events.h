@@ -8,8 +8,8 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share: explorer.c has start, loop and end; compose.c the screen; input.c the
-   list, keys and mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
+/* The state that the explorer's files share: explorer.c has start, loop and end; compose.c the screen; actions.c
+   the keys; input.c the list and the mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
 
 /* The open scene, or a tour's step with its study, and its worker. */
 
@@ -142,7 +142,6 @@ void gm_explorer_look_if_due(struct gm_explorer *explorer);
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
 /* Opens the prompt with the open system, the last line or an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
-void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
 void gm_explorer_ask_map(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
@@ -153,6 +152,12 @@ void gm_explorer_close_typed(struct gm_explorer *explorer);
 /* ---- input ---- */
 
 void gm_explorer_key(struct gm_explorer *explorer, int key);
+/* Handles a key of the list. */
+void gm_explorer_press_list(struct gm_explorer *explorer, int key);
+/* Leaves, or asks first if something would be lost. */
+void gm_explorer_quit(struct gm_explorer *explorer);
+/* Gives a scheme of the list to the selected lane, or to a copy of it; or asks for a typed one. */
+void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *scheme);
 /* Offers the chosen command line to the terminal's clipboard. */
 void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);

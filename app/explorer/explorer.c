@@ -311,7 +311,7 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     if (!ok) {
         gm_refuse(explorer.message, "The system has no eventfd to spare.");
     } else if (tour) {
-        explorer.open.guide = gm_guide_open(tour);
+        explorer.open.guide = gm_guide_at(tour, 0);
         explorer.face.guide = &explorer.open.guide;
         ok = gm_open_step(&explorer.open, explorer.message);
     } else if (request && request->scene) {

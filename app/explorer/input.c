@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The user's input: the list of scenes, keys, and the mouse. */
+/* The user's input: the list of scenes, and the mouse. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
@@ -118,6 +118,12 @@ static void look_soon(struct gm_explorer *explorer)
     explorer->dirty = true;
 }
 
+static void choose_entry(struct gm_explorer *explorer, size_t choice)
+{
+    explorer->list.start.choice = choice;
+    look_soon(explorer);
+}
+
 void gm_explorer_look_if_due(struct gm_explorer *explorer)
 {
     if (!explorer->list.shown || explorer->list.look_due < 0 ||
@@ -233,7 +239,7 @@ static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
 {
     struct gm_guide *guide = &explorer->open.guide;
     if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
-        *guide = gm_guide_open(tour);
+        *guide = gm_guide_at(tour, 0);
         explorer->face.guide = guide;
     }
     return gm_open_step(&explorer->open, explorer->message);
@@ -268,8 +274,7 @@ static void enter(struct gm_explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
-/* Leaves, or asks first if something would be lost. */
-static void quit(struct gm_explorer *explorer)
+void gm_explorer_quit(struct gm_explorer *explorer)
 {
     const struct gm_open *open = &explorer->open;
     explorer->dirty = true;
@@ -282,42 +287,32 @@ static void quit(struct gm_explorer *explorer)
     }
 }
 
-static void press_in_list(struct gm_explorer *explorer, int key)
+void gm_explorer_press_list(struct gm_explorer *explorer, int key)
 {
     struct gm_start *start = &explorer->list.start;
-    size_t count = start->count;
-    explorer->dirty = true;
-    if (explorer->face.page != GM_PAGE_SCENE) {
-        if (gm_pages_press(key, &explorer->face) == GM_KEY_LEAVE) {
-            quit(explorer);
-        }
-    } else if (key == '?' || key == KEY_F(1)) {
+    const size_t count = start->count;
+    if (key == '?' || key == KEY_F(1)) {
         explorer->face.page = GM_PAGE_START;
         explorer->face.scroll = 0;
-    } else if (gm_key_is_enter(key)) {
+    } else if (key == '\n') {
         enter(explorer);
-    } else if (gm_key_is_escape(key)) {
+    } else if (key == GM_KEY_ESCAPE) {
         start->typed[0] = '\0';
         find_all(explorer);
     } else if (key == 'q' && !start->typed[0]) {
-        quit(explorer);
+        gm_explorer_quit(explorer);
     } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
-        start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
-        look_soon(explorer);
+        choose_entry(explorer, (start->choice + (key == KEY_UP ? count - 1 : 1)) % count);
     } else if ((key == KEY_HOME || key == KEY_END) && count > 0) {
-        start->choice = key == KEY_HOME ? 0 : count - 1;
-        look_soon(explorer);
+        choose_entry(explorer, key == KEY_HOME ? 0 : count - 1);
     } else if (key == '\t' || key == KEY_BTAB) {
-        start->choice = gm_start_next_group(start);
-        look_soon(explorer);
-    } else if (key == '/' && !start->typed[0]) {
-        /* typing searches without a slash */
-    } else if (gm_typed_key(start->typed, key)) {
-        find_all(explorer);
+        choose_entry(explorer, gm_start_next_group(start));
+    } else if ((key != '/' || start->typed[0]) && gm_typed_key(start->typed, key)) {
+        find_all(explorer); /* typing searches without a slash */
     }
 }
 
-/* ---- keys ---- */
+/* ---- the screen ---- */
 
 void gm_explorer_resize(struct gm_explorer *explorer)
 {
@@ -334,190 +329,11 @@ void gm_explorer_resize(struct gm_explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
-/* Writes the screen again after a change of colours. */
-static void repaint(struct gm_explorer *explorer)
-{
-    struct gm_writer *writer = &explorer->display.writer;
-    writer->theme = explorer->face.theme;
-    writer->colours = explorer->face.monochrome ? GM_COLOURS_NONE : explorer->terminal.colours;
-    gm_display_forget(&explorer->display);
-    explorer->dirty = explorer->fresh = true;
-}
-
-static void next_graphics(struct gm_explorer *explorer)
-{
-    struct gm_face *face = &explorer->face;
-    struct gm_graphics graphics =
-        gm_graphics_next(&explorer->terminal, (struct gm_graphics){face->pixels, face->blocks});
-    face->pixels = graphics.pixels;
-    face->blocks = graphics.blocks;
-    explorer->dirty = true;
-}
-
 void gm_explorer_copy(struct gm_explorer *explorer)
 {
     const char *command = explorer->open.shot->commands[explorer->face.command];
     if (command) {
         gm_writer_copy(&explorer->display.writer, command);
-    }
-}
-
-/* Explains a key without a meaning, once for each key. */
-static void hint_at(struct gm_face *face, int key)
-{
-    enum { HINT_MILLISECONDS = 3000 };
-    if (key < 0 || key >= GM_KEY_NUMBERS || (face->hinted[key / 32] >> key % 32 & 1)) {
-        return;
-    }
-    face->hinted[key / 32] |= 1u << key % 32;
-    snprintf(face->hint, sizeof face->hint, key > ' ' && key <= '~' ? "%c" : "this key", key);
-    const size_t used = strlen(face->hint);
-    snprintf(face->hint + used, sizeof face->hint - used, " does nothing here; ? lists the keys");
-    face->hint_until = gm_clock_milliseconds() + HINT_MILLISECONDS;
-}
-
-/* Handles a key of the tour, if there is one. */
-static void press_in_tour(struct gm_explorer *explorer, int key)
-{
-    struct gm_open *open = &explorer->open;
-    if (!open->guide.tour) {
-        return;
-    }
-    explorer->dirty = true;
-    switch (gm_guide_press(&open->guide, key)) {
-    case GM_GUIDE_OPEN:
-        explorer->face.parameter = 0;
-        if (!gm_open_step(open, explorer->message)) {
-            gm_explorer_leave(explorer, GM_EXIT_USAGE);
-        }
-        break;
-    case GM_GUIDE_RUN:
-        gm_open_study(open);
-        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_RUN});
-        break;
-    case GM_GUIDE_END:
-        break;
-    }
-}
-
-/* Passes a key to the part that is open above the scene, or to the table of keys. */
-static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
-{
-    struct gm_face *face = press->face;
-    const bool said = press->shot->message[0] && press->shot->message_number != face->read;
-    face->read = press->shot->message_number;
-    face->watch_until = face->hint_until = 0;
-    if (press->key == GM_KEY_REDRAW) {
-        return GM_KEY_REPAINT;
-    }
-    if (press->shot->running_ahead && press->key != 'q') { /* any key stops running ahead */
-        return gm_keystroke_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
-    }
-    if (face->page != GM_PAGE_SCENE) {
-        return gm_pages_press(press->key, face);
-    }
-    if (face->choosing != GM_CHOOSE_NOTHING) {
-        return gm_chooser_press(press);
-    }
-    if (face->prompt != GM_PROMPT_NONE) {
-        return gm_prompt_press(press);
-    }
-    if (gm_key_is_escape(press->key) && (said || face->explaining)) { /* esc first dismisses the message */
-        face->explaining = false;
-        return GM_KEY_DONE;
-    }
-    return gm_key_press(press);
-}
-
-void gm_explorer_key(struct gm_explorer *explorer, int key)
-{
-    if (explorer->face.loss) {
-        explorer->face.loss = NULL;
-        explorer->dirty = true;
-        if (key == 'q') {
-            gm_explorer_leave(explorer, GM_EXIT_OK);
-        }
-        return;
-    }
-    if (explorer->typed_prompt.kind != GM_TYPED_NONE && key != GM_KEY_REDRAW) {
-        gm_explorer_press_typed(explorer, key);
-        return;
-    }
-    if (explorer->list.shown) {
-        press_in_list(explorer, key);
-        return;
-    }
-    if (!explorer->open.shot) { /* before the first picture one can only leave */
-        if (key == 'q') {
-            gm_explorer_leave(explorer, GM_EXIT_OK);
-        } else if (key == 'l' || gm_key_is_escape(key)) {
-            gm_explorer_show_start(explorer);
-        } else if (key == 'n' || key == 'N' || key == 'a') {
-            press_in_tour(explorer, key);
-        }
-        return;
-    }
-    const struct gm_face *face = &explorer->face;
-    const bool plain =
-        face->page == GM_PAGE_SCENE && face->choosing == GM_CHOOSE_NOTHING && face->prompt == GM_PROMPT_NONE;
-    if (plain && gm_studies_press(&explorer->open.studies, key, face->theme)) {
-        explorer->dirty = true;
-        return;
-    }
-    const struct gm_keystroke one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
-    switch (press_in_scene(&one)) {
-    case GM_KEY_LEAVE:
-        quit(explorer);
-        break;
-    case GM_KEY_UNKNOWN:
-        hint_at(&explorer->face, key);
-        explorer->dirty = true;
-        break;
-    case GM_KEY_BLOCKS:
-        next_graphics(explorer);
-        break;
-    case GM_KEY_REPAINT:
-        gm_explorer_resize(explorer);
-        break;
-    case GM_KEY_THEME:
-        repaint(explorer);
-        break;
-    case GM_KEY_SCENES:
-        gm_studies_leave(&explorer->open.studies);
-        gm_explorer_show_start(explorer);
-        break;
-    case GM_KEY_STUDY:
-        gm_studies_begin(&explorer->open.studies, key, explorer->open.shot, explorer->wake);
-        explorer->dirty = true;
-        break;
-    case GM_KEY_MAP:
-        gm_explorer_ask_map(explorer);
-        break;
-    case GM_KEY_TYPED: {
-        const enum gm_choosing choosing = face->choosing;
-        explorer->face.choosing = GM_CHOOSE_NOTHING;
-        if (choosing == GM_CHOOSE_NOTHING) {
-            gm_explorer_ask_system(explorer);
-        } else {
-            gm_explorer_ask_scheme(explorer, choosing == GM_CHOOSE_FORK);
-        }
-        break;
-    }
-    case GM_KEY_TOUR:
-        press_in_tour(explorer, key);
-        break;
-    case GM_KEY_FILE:
-        explorer->open.unsaved = false;
-        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
-        explorer->dirty = true;
-        break;
-    case GM_KEY_COPY:
-        gm_explorer_copy(explorer);
-        explorer->dirty = true;
-        break;
-    case GM_KEY_DONE:
-        explorer->dirty = true;
-        break;
     }
 }
 
@@ -545,24 +361,10 @@ static void drag(struct gm_explorer *explorer, int column)
                explorer->pointer.held.index < shot->parameter_count) {
         order.kind = GM_ORDER_SLIDE;
         order.row = shot->parameters[explorer->pointer.held.index].row;
-        order.of_scheme = shot->parameters[explorer->pointer.held.index].of_scheme;
     } else {
         return;
     }
     gm_worker_order(explorer->open.worker, order);
-}
-
-static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
-{
-    if (scheme == &gm_chooser_user) {
-        explorer->face.choice = scheme;
-        gm_explorer_key(explorer, '\n');
-        return;
-    }
-    const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
-    gm_worker_order(explorer->open.worker,
-                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
-    explorer->face.choosing = GM_CHOOSE_NOTHING;
 }
 
 /* Chooses a parameter. One without a slider takes its next value at a second click. */
@@ -573,10 +375,8 @@ static void click_parameter(struct gm_explorer *explorer, size_t index)
     explorer->face.parameter = index;
     explorer->face.explaining = true;
     if (again && parameter->position < 0) {
-        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_MOVE,
-                                                                 .amount = 1,
-                                                                 .row = parameter->row,
-                                                                 .of_scheme = parameter->of_scheme});
+        gm_worker_order(explorer->open.worker,
+                        (struct gm_order){.kind = GM_ORDER_MOVE, .amount = 1, .row = parameter->row});
     }
 }
 
@@ -664,8 +464,7 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
         if (explorer->list.start.choice == hit->index) {
             enter(explorer);
         } else {
-            explorer->list.start.choice = hit->index;
-            look_soon(explorer);
+            choose_entry(explorer, hit->index);
         }
         return;
     }
@@ -679,7 +478,7 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
                         (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
         break;
     case GM_HIT_SCHEME:
-        click_scheme(explorer, hit->scheme);
+        gm_explorer_choose(explorer, hit->scheme);
         break;
     case GM_HIT_SLIDER:
         explorer->face.parameter = hit->index;

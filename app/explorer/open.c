@@ -199,7 +199,7 @@ static const char *scheme_example(const struct gm_shot *shot)
     return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
 }
 
-void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork)
+static void ask_scheme(struct gm_explorer *explorer, bool fork)
 {
     const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
     const struct gm_shot *shot = explorer->open.shot;
@@ -377,14 +377,21 @@ static bool take_map(struct gm_explorer *explorer)
     return good;
 }
 
-/* Gives the scheme to the selected lane, or to a copy of it; returns false if it is NULL. */
-static bool take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
+static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
 {
-    if (scheme) {
-        gm_worker_order(explorer->open.worker,
-                        (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+    gm_worker_order(explorer->open.worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+}
+
+void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *scheme)
+{
+    const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    explorer->face.choosing = GM_CHOOSE_NOTHING;
+    if (scheme == &gm_chooser_user) {
+        ask_scheme(explorer, fork);
+    } else {
+        take_scheme(explorer, fork, scheme);
     }
-    return scheme != NULL;
 }
 
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
@@ -421,8 +428,11 @@ static void take(struct gm_explorer *explorer)
     } else if (prompt->kind == GM_TYPED_MAP) {
         good = take_map(explorer);
     } else {
-        good = take_scheme(explorer, prompt->kind == GM_TYPED_FORK,
-                           gm_typed_scheme(prompt->line.text, &prompt->fault));
+        const struct gm_scheme *scheme = gm_typed_scheme(prompt->line.text, &prompt->fault);
+        good = scheme != NULL;
+        if (good) {
+            take_scheme(explorer, prompt->kind == GM_TYPED_FORK, scheme);
+        }
     }
     if (good) {
         close_prompt(explorer);
@@ -454,10 +464,9 @@ void gm_explorer_check_typed(struct gm_explorer *explorer)
 void gm_explorer_press_typed(struct gm_explorer *explorer, int key)
 {
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    explorer->dirty = true;
-    if (gm_key_is_escape(key)) {
+    if (key == GM_KEY_ESCAPE) {
         close_prompt(explorer);
-    } else if (gm_key_is_enter(key)) {
+    } else if (key == '\n') {
         prompt->entered = !prompt->checked || !prompt->fault.sentence[0];
         if (prompt->checked && prompt->entered) {
             take(explorer);

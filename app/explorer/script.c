@@ -22,23 +22,10 @@ enum { FRAMES = 30 /* per second */, LONGEST = 600 /* seconds of a word */ };
 
 /* ---- the words ---- */
 
-static const struct {
-    const char *word;
-    int key;
-} named[] = {{"ENTER", '\n'},     {"ESC", 27},          {"TAB", '\t'},
-             {"SPACE", ' '},      {"UP", KEY_UP},       {"DOWN", KEY_DOWN},
-             {"LEFT", KEY_LEFT},  {"RIGHT", KEY_RIGHT}, {"BACKSPACE", KEY_BACKSPACE},
-             {"PGUP", KEY_PPAGE}, {"PGDN", KEY_NPAGE},  {"HOME", KEY_HOME},
-             {"END", KEY_END},    {"F1", KEY_F(1)}};
-
+/* Returns the key that a word of capital letters names; 0: its letters are typed. */
 static int key_of(const char *word)
 {
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
-        if (strcmp(word, named[i].word) == 0) {
-            return named[i].key;
-        }
-    }
-    return 0;
+    return word[0] >= 'A' && word[0] <= 'Z' && word[1] ? gm_key_named(word, strlen(word)) : 0;
 }
 
 /* Returns true for a time such as "2s" or "0.5s", and sets its frames. */
@@ -62,9 +49,9 @@ static bool check_words(const struct gm_arguments *words, char *message)
         if (strlen(word) > 1 && strspn(word, capitals) == strlen(word) && !key_of(word)) {
             size_t used =
                 (size_t)snprintf(message, GM_MESSAGE, "--keys has no key %.40s; its keys are", word);
-            for (size_t k = 0; k < sizeof named / sizeof named[0] && used < GM_MESSAGE; k++) {
-                used +=
-                    (size_t)snprintf(message + used, GM_MESSAGE - used, "%s %s", k ? "," : "", named[k].word);
+            for (size_t k = 0; gm_key_name(k) && used < GM_MESSAGE; k++) {
+                used += (size_t)snprintf(message + used, GM_MESSAGE - used, "%s %s", k ? "," : "",
+                                         gm_key_name(k));
             }
             return false;
         }

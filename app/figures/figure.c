@@ -375,11 +375,12 @@ bool gm_outcome_has(const struct gm_outcome *outcome, size_t index)
     return has;
 }
 
-char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
-                     enum gm_format format)
+const char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
+                           enum gm_format format, char path[GM_FIGURE_PATH])
 {
-    return gm_text("%s/%s%s.%s", output->folder, name, theme == GM_THEME_DARK ? "-dark" : "",
-                   gm_format_name(format));
+    snprintf(path, GM_FIGURE_PATH, "%s/%s%s.%s", output->folder, name, theme == GM_THEME_DARK ? "-dark" : "",
+             gm_format_name(format));
+    return path;
 }
 
 /* Prints the pictures in both themes. The page shows PNG files. */
@@ -388,15 +389,13 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
 {
     const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
     const enum gm_format formats[] = {GM_FORMAT_PNG, output->format};
+    char path[GM_FIGURE_PATH];
     bool good = true;
     for (size_t i = 0; good && i < (output->format == GM_FORMAT_PNG ? 2 : 4); i++) {
         struct gm_print print = {.format = formats[i / 2], .look = output->look};
         print.look.theme = themes[i % 2];
-        char *path = gm_figure_path(output, job->figure->name, print.look.theme, print.format);
-        print.path = path;
-        good = path ? gm_still_write(&print, request, (const struct gm_lane *const *)lanes, message)
-                    : gm_refuse(message, "not enough memory");
-        free(path);
+        print.path = gm_figure_path(output, job->figure->name, print.look.theme, print.format, path);
+        good = gm_still_write(&print, request, (const struct gm_lane *const *)lanes, message);
     }
     return good ? GM_EXIT_OK : GM_EXIT_FILE;
 }

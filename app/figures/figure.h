@@ -95,9 +95,10 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
    printed. */
 bool gm_outcome_has(const struct gm_outcome *outcome, size_t index);
 
-/* FOLDER/NAME.png or FOLDER/NAME-dark.png; malloc'ed. */
-char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
-                     enum gm_format format);
+/* Writes FOLDER/NAME.png or FOLDER/NAME-dark.png. Returns path. */
+enum { GM_FIGURE_PATH = 4096 };
+const char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
+                           enum gm_format format, char path[GM_FIGURE_PATH]);
 
 /* The source of a statement, as in JSON. */
 enum gm_source { GM_OF_DOCUMENT, GM_OF_OURS, GM_OF_VARIANT, GM_SOURCES };

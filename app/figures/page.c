@@ -122,19 +122,17 @@ static bool put_base64(FILE *page, const char *path)
 
 static bool put_picture(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job)
 {
-    char *dark = gm_figure_path(output, job->figure->name, GM_THEME_DARK, GM_FORMAT_PNG);
-    char *light = gm_figure_path(output, job->figure->name, GM_THEME_LIGHT, GM_FORMAT_PNG);
+    char path[GM_FIGURE_PATH];
+    const char *name = job->figure->name;
     fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
           "srcset=\"data:image/png;base64,",
           page);
-    bool good = dark && light && put_base64(page, dark);
+    bool good = put_base64(page, gm_figure_path(output, name, GM_THEME_DARK, GM_FORMAT_PNG, path));
     put(page, "\"><img loading=\"lazy\" alt=\"%s: %s", job->scene->title, job->figure->statement);
     fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->look.width,
             output->look.height);
-    good = good && put_base64(page, light);
+    good = good && put_base64(page, gm_figure_path(output, name, GM_THEME_LIGHT, GM_FORMAT_PNG, path));
     fputs("\"></picture></figure>\n", page);
-    free(dark);
-    free(light);
     return good;
 }
 

@@ -138,7 +138,7 @@ struct gm_study_row {
        arena, with a sentence ---- */
     void (*open)(struct gm_grid *grid);
     void (*measure)(struct gm_grid *grid);
-    void (*write)(const struct gm_grid *grid, FILE *table);
+    bool (*write)(const struct gm_grid *grid, FILE *table);
 
     /* ---- kinds with cells, when they are opened, in the body of the grid's arena ---- */
     const char *which; /* the question, for a message without a scene */
@@ -170,6 +170,9 @@ struct gm_study_row {
 };
 extern const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT]; /* NULL: GM_STUDY_NONE */
 
+/* The parameters that all lanes share. */
+struct gm_timing *gm_grid_timing(const struct gm_grid *grid);
+
 /* The kind with that name, or GM_STUDY_NONE. */
 enum gm_study_kind gm_study_find(const char *name);
 
@@ -184,7 +187,7 @@ void gm_grid_close(void *grid);
 
 /* Functions of a gm_chart; `grid` is a struct gm_grid. Fill an empty picture; write the cells as CSV. */
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
-void gm_grid_write(const void *grid, FILE *table);
+bool gm_grid_write(const void *grid, FILE *table);
 
 /* Writes the cells of a line as a list in JSON. */
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,

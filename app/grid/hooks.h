@@ -8,9 +8,6 @@
 
 /* ---- layout ---- */
 
-/* The parameters that all lanes share. */
-struct gm_timing *gm_grid_timing(const struct gm_grid *grid);
-
 /* Adds a value that is not there yet. */
 void gm_axis_add(struct gm_grid_axis *axis, double value);
 /* The line of a scheme, or NULL. */
@@ -49,7 +46,7 @@ extern const struct gm_study_row gm_study_work, gm_study_stability, gm_study_bac
 /* The functions of kinds that have cells; grid.h describes them. */
 void gm_cells_open(struct gm_grid *grid);
 void gm_cells_measure(struct gm_grid *grid);
-void gm_cells_write(const struct gm_grid *grid, FILE *csv);
+bool gm_cells_write(const struct gm_grid *grid, FILE *csv);
 
 void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture);
 

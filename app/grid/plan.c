@@ -77,7 +77,7 @@ static void put_row(FILE *csv, enum gm_row_form form, const struct gm_grid *grid
     fputc('\n', csv);
 }
 
-void gm_cells_write(const struct gm_grid *grid, FILE *csv)
+bool gm_cells_write(const struct gm_grid *grid, FILE *csv)
 {
     put_row(csv, GM_ROW_HEAD, grid, grid->lines[0].scheme, &grid->lines[0].cells[0], 0);
     for (size_t i = 0; i < grid->begun; i++) {
@@ -88,6 +88,7 @@ void gm_cells_write(const struct gm_grid *grid, FILE *csv)
             }
         }
     }
+    return true;
 }
 
 void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,

@@ -50,7 +50,7 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
                    const char *measure, int *status);
 
 /* The number of runs of the shard, and the number of its k-th run. */
-size_t gm_sweep_share(const struct gm_sweep *sweep);
+size_t gm_sweep_shard_runs(const struct gm_sweep *sweep);
 size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k);
 
 /* The length of a line's front, if it is that of the run's row; 0: it differs, or out of memory. */
@@ -106,10 +106,10 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
                          const struct gm_listener *listener, struct gm_sweep_sum *sum, char *message);
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
 
-/* "FILE.csv" of a table; "FILE.I-of-N.csv" of a shard. malloc'ed. Returns NULL when out of memory. */
-char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
+/* "FILE.csv" of the table FILE.csv; "FILE.I-of-N.csv" of its shard I of N. In a body of the arena. */
+const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t shard, size_t shards);
 
-/* ---- shares ---- */
+/* ---- shards ---- */
 
 /* Writes the sweep of a table's shards to FILE.csv.sweep, so that they can be joined, in a body of the sweep's
    arena; refuses a file with another sweep. */
@@ -117,9 +117,9 @@ void gm_sweep_note(const struct gm_sweep *sweep, const char *path);
 /* Opens the sweep of the note FILE.csv.sweep, as gm_sweep_open does. */
 void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char *path);
 /* Joins the shards' rows in the order of the runs to FILE.csv; calls `missing` with the words of each run
-   without a row. Returns false with a sentence. */
-bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
-                   void (*missing)(size_t run, const char *words), size_t *missing_count, char *message);
+   without a row, and returns their number. Called in a body of the sweep's arena. */
+size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
+                     void (*missing)(size_t run, const char *words));
 
 /* ---- the picture ---- */
 

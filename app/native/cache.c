@@ -154,74 +154,49 @@ bool gm_cache_keep(const char *folder, const char *library, const struct gm_cach
     return good;
 }
 
-static bool is_entry(const char *name)
+static int is_entry(const struct dirent *file)
 {
+    const char *name = file->d_name;
     return strlen(name) == GM_KEY_TEXT - 1 + sizeof ending - 1 &&
            strspn(name, "0123456789abcdef") == GM_KEY_TEXT - 1 && strcmp(name + GM_KEY_TEXT - 1, ending) == 0;
 }
 
-/* Calls `each` for everything with the name of an entry, or for the other regular files. Returns false if
-   the folder, which may be missing, cannot be read. */
-static bool each_file(const char *folder, bool entries,
-                      void (*each)(void *data, const char *path, const char *name, const struct stat *about),
-                      void *data)
+static int is_other(const struct dirent *file)
 {
-    DIR *files = opendir(folder);
-    if (!files) {
-        return errno == ENOENT;
-    }
-    for (const struct dirent *file; (file = readdir(files));) {
-        char path[GM_CACHE_PATH];
-        struct stat about;
-        snprintf(path, sizeof path, "%.3800s/%s", folder, file->d_name);
-        if (is_entry(file->d_name) == entries && lstat(path, &about) == 0 &&
-            (entries || S_ISREG(about.st_mode))) {
-            each(data, path, file->d_name, &about);
-        }
-    }
-    closedir(files);
-    return true;
+    return !is_entry(file);
 }
 
-static void remove_stale(void *data, const char *path, const char *name, const struct stat *about)
+/* Lists the files of the folder that a filter chooses, malloc'ed. Returns their number, negative with errno if the
+   folder, which may be missing, cannot be read. */
+static int list_files(const char *folder, int (*filter)(const struct dirent *file), struct dirent ***files)
 {
-    (void)name;
-    const time_t *now = data;
-    if (about->st_mtime + 3600 < *now) {
-        unlink(path);
-    }
+    *files = NULL;
+    const int count = scandir(folder, files, filter, NULL);
+    return count < 0 && errno == ENOENT ? 0 : count;
+}
+
+static bool find_file(const char *folder, const struct dirent *file, char path[GM_CACHE_PATH],
+                      struct stat *about)
+{
+    snprintf(path, GM_CACHE_PATH, "%.3800s/%s", folder, file->d_name);
+    return lstat(path, about) == 0;
 }
 
 void gm_cache_sweep(const char *folder)
 {
-    time_t now = time(NULL);
-    each_file(folder, false, remove_stale, &now);
-}
-
-struct list {
-    struct gm_cache_entry *entries;
-    size_t count, capacity;
-};
-
-static void add_entry(void *data, const char *path, const char *name, const struct stat *about)
-{
-    (void)path;
-    struct list *list = data;
-    if (!S_ISREG(about->st_mode)) {
-        return;
-    }
-    if (list->count == list->capacity) {
-        const size_t capacity = 2 * list->capacity + 16;
-        struct gm_cache_entry *more = realloc(list->entries, capacity * sizeof *more);
-        if (!more) {
-            return;
+    char path[GM_CACHE_PATH];
+    struct dirent **files;
+    struct stat about;
+    const time_t now = time(NULL);
+    const int count = list_files(folder, is_other, &files);
+    for (int i = 0; i < count; i++) {
+        if (find_file(folder, files[i], path, &about) && S_ISREG(about.st_mode) &&
+            about.st_mtime + 3600 < now) {
+            unlink(path);
         }
-        list->entries = more;
-        list->capacity = capacity;
+        free(files[i]);
     }
-    struct gm_cache_entry *entry = &list->entries[list->count++];
-    *entry = (struct gm_cache_entry){.size = (size_t)about->st_size, .used = about->st_mtime};
-    memcpy(entry->key.text, name, GM_KEY_TEXT - 1);
+    free(files);
 }
 
 static int later(const void *a, const void *b)
@@ -233,40 +208,50 @@ static int later(const void *a, const void *b)
 
 bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *count)
 {
-    struct list list = {0};
-    const bool good = each_file(folder, true, add_entry, &list);
-    if (list.count > 0) {
-        qsort(list.entries, list.count, sizeof *list.entries, later);
+    char path[GM_CACHE_PATH];
+    struct dirent **files;
+    struct stat about;
+    const int found = list_files(folder, is_entry, &files);
+    *entries = found > 0 ? calloc((size_t)found, sizeof **entries) : NULL;
+    *count = 0;
+    for (int i = 0; i < found; i++) {
+        if (*entries && find_file(folder, files[i], path, &about) && S_ISREG(about.st_mode)) {
+            struct gm_cache_entry *entry = &(*entries)[(*count)++];
+            *entry = (struct gm_cache_entry){.size = (size_t)about.st_size, .used = about.st_mtime};
+            memcpy(entry->key.text, files[i]->d_name, GM_KEY_TEXT - 1);
+        }
+        free(files[i]);
     }
-    *entries = list.entries;
-    *count = list.count;
-    return good;
-}
-
-struct removed {
-    size_t count;
-    bool all;
-    char *sentence;
-};
-
-/* A folder that is not empty belongs to the user: it is reported and stays. */
-static void remove_entry(void *data, const char *path, const char *name, const struct stat *about)
-{
-    (void)name;
-    (void)about;
-    struct removed *removed = data;
-    if (remove(path) == 0) {
-        removed->count++;
-    } else if (removed->all && errno != ENOENT) { /* ENOENT: another process has removed it */
-        removed->all = gm_refuse(removed->sentence, "%.400s could not be removed: %s", path, strerror(errno));
+    free(files);
+    if (*count > 0) {
+        qsort(*entries, *count, sizeof **entries, later);
     }
+    return found >= 0;
 }
 
 bool gm_cache_clear(const char *folder, size_t *count, char *sentence)
 {
-    struct removed entries = {.all = true, .sentence = sentence}, others = entries;
-    each_file(folder, false, remove_entry, &others);
-    each_file(folder, true, remove_entry, &entries);
-    *count = entries.count;
-    return others.all && entries.all;
+    char path[GM_CACHE_PATH];
+    struct dirent **files;
+    struct stat about;
+    bool all = true;
+    *count = 0;
+    for (int entries = 0; entries < 2; entries++) {
+        const int found = list_files(folder, entries ? is_entry : is_other, &files);
+        for (int i = 0; i < found; i++) {
+            const bool there = find_file(folder, files[i], path, &about);
+            free(files[i]);
+            if (!there || (!entries && !S_ISREG(about.st_mode))) {
+                continue;
+            }
+            /* a folder that is not empty belongs to the user; ENOENT: another process has removed the entry */
+            if (remove(path) == 0) {
+                *count += (size_t)entries;
+            } else if (all && errno != ENOENT) {
+                all = gm_refuse(sentence, "%.400s could not be removed: %s", path, strerror(errno));
+            }
+        }
+        free(files);
+    }
+    return all;
 }

@@ -41,7 +41,7 @@ struct gm_cache_entry {
     size_t size;
     time_t used; /* the time of its making or last use */
 };
-/* The entries, the last used one first; malloc'ed, NULL without entries. Returns false with errno if the
+/* The entries, the last used one first; malloc'ed, possibly NULL without entries. Returns false with errno if the
    folder cannot be read. */
 bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *count);
 /* Removes all entries, *count of them. Returns false with a sentence if something stays, such as a folder

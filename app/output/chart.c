@@ -10,7 +10,6 @@
 
 #include "app/base/arguments.h"
 #include "app/output/folder.h"
-#include "app/output/provenance.h"
 #include "app/output/row.h"
 #include "app/words/request.h"
 #include "render/files/temporary.h"
@@ -31,26 +30,22 @@ static const char *source_of(const char *command)
     return scene ? scene->source : NULL;
 }
 
+static bool describe(struct gm_provenance *provenance, const void *data, const struct gm_appearance *look,
+                     const char *painter)
+{
+    const char *command = ((const struct gm_chart *)data)->command;
+    return gm_provenance_of_command(provenance, command, source_of(command), look, painter);
+}
+
+static void draw(const void *data, struct gm_picture *picture)
+{
+    const struct gm_chart *chart = data;
+    chart->draw(chart->data, picture);
+}
+
 static bool paint(struct gm_chart *chart, char *message)
 {
-    struct gm_printer *press = gm_printer_open(&chart->print, message);
-    if (!press) {
-        return false;
-    }
-    struct gm_picture *picture = gm_picture_open();
-    struct gm_provenance provenance = {0};
-    bool good = picture && gm_provenance_of_command(&provenance, chart->command, source_of(chart->command),
-                                                    &chart->print.look, gm_printer_backend(press));
-    if (good) {
-        chart->draw(chart->data, picture);
-        good = gm_printer_write(press, &chart->print, picture, provenance.texts, provenance.count, message);
-    } else {
-        snprintf(message, GM_MESSAGE, "not enough memory for a picture");
-    }
-    gm_provenance_close(&provenance);
-    gm_picture_close(picture);
-    gm_printer_close(press);
-    return good;
+    return gm_print_write(&chart->print, &(struct gm_printed){chart, describe, draw}, message);
 }
 
 /* Sets the paths of both files. Returns false if a name is too long. */
@@ -96,9 +91,8 @@ static bool write_table(const struct gm_chart *chart, const char *path)
     if (!table) {
         return false;
     }
-    chart->write(chart->data, table);
-    const bool failed = ferror(table) != 0;
-    return fclose(table) == 0 && !failed;
+    const bool good = chart->write(chart->data, table) && !ferror(table);
+    return fclose(table) == 0 && good;
 }
 
 /* The numbers aside first: with a table that has to stay nothing is drawn. */

@@ -32,30 +32,26 @@ static bool make_all(char *path)
     return make_one(path);
 }
 
+/* The folder of this path's first bytes. */
+static bool make(const char *path, size_t length, char *message)
+{
+    char *folder = strndup(path, length);
+    const bool good =
+        (folder && make_all(folder)) || gm_refuse(message, "%.*s could not be made: %s",
+                                                  (int)(length < 360 ? length : 360), path, strerror(errno));
+    free(folder);
+    return good;
+}
+
 bool gm_folder_make(const char *path, char *message)
 {
-    char *copy = path ? strdup(path) : NULL;
-    const bool good = !path || (copy && make_all(copy));
-    if (!good) {
-        gm_refuse(message, "%.360s could not be made: %s", path, strerror(errno));
-    }
-    free(copy);
-    return good;
+    return !path || make(path, strlen(path), message);
 }
 
 bool gm_folder_make_for(const char *file, char *message)
 {
     const char *slash = strrchr(file, '/');
-    if (!slash) {
-        return true;
-    }
-    char *folder = strndup(file, (size_t)(slash - file));
-    const bool good = folder && gm_folder_make(folder, message);
-    if (!folder) {
-        gm_refuse(message, "not enough memory");
-    }
-    free(folder);
-    return good;
+    return !slash || make(file, (size_t)(slash - file), message);
 }
 
 void gm_folder_free_file(const char *name, const char *ending, char *file, size_t size)

@@ -9,7 +9,7 @@
 
 /* The options of a render's frames. */
 struct gm_pace {
-    bool movie;
+    const char *movie;  /* its file; NULL: not given */
     long frames;        /* number of frames; 0: not given */
     int64_t every;      /* steps per frame; 0: not given */
     double fps, rate;   /* frames and model time per second of the movie; NAN: not given */

@@ -12,19 +12,12 @@
 #include <unistd.h>
 
 #include "app/output/folder.h"
-#include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "core/memory.h"
 #include "render/drawing/glyphs.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"
 #include "render/vector/vector.h"
-
-struct gm_printer {
-    struct gm_canvas *canvas; /* the canvas of a PNG */
-    unsigned char *rgb;
-    const char *backend;
-};
 
 static const char *const names[GM_FORMAT_COUNT] = {"png", "svg", "pdf"};
 
@@ -62,65 +55,59 @@ void gm_printer_expect(enum gm_format format)
     }
 }
 
-struct gm_printer *gm_printer_open(const struct gm_print *print, char *message)
-{
-    const struct gm_appearance *look = &print->look;
-    struct gm_printer *press = calloc(1, sizeof *press);
-    if (!press) {
-        no_memory(look, message);
-        return NULL;
-    }
-    if (print->format != GM_FORMAT_PNG) {
-        press->backend = print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
-        return press;
-    }
-    press->canvas = gm_canvas_open(look, message);
-    press->rgb = malloc((size_t)look->width * (size_t)look->height * 3);
-    if (!press->canvas || !press->rgb) {
-        if (press->canvas || gm_memory_was_short()) {
-            no_memory(look, message);
-        }
-        gm_printer_close(press);
-        return NULL;
-    }
-    press->backend = gm_canvas_backend(press->canvas);
-    return press;
-}
-
-void gm_printer_close(struct gm_printer *press)
-{
-    if (press) {
-        gm_canvas_close(press->canvas);
-        free(press->rgb);
-        free(press);
-    }
-}
-
-const char *gm_printer_backend(const struct gm_printer *press)
-{
-    return press->backend;
-}
-
-bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct gm_picture *picture,
-                      const struct gm_png_text *texts, size_t count, char *message)
+/* Writes a picture with its metadata; a PNG is painted on the canvas first. Returns false with a sentence, or when
+   out of memory. */
+static bool write_file(struct gm_print *print, struct gm_picture *picture, struct gm_canvas *canvas,
+                       unsigned char *rgb, const struct gm_provenance *provenance, char *message)
 {
     const struct gm_appearance *look = &print->look;
     const char *path = strcmp(print->path, "-") == 0 ? "/dev/stdout" : print->path;
     if (gm_memory_was_short()) {
-        return no_memory(look, message);
+        return false;
     }
-    if (print->format != GM_FORMAT_PNG) {
+    if (!canvas) {
         const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
-            path, look, picture, texts, count, &print->fields, message);
+            path, look, picture, provenance->texts, provenance->count, &print->fields, message);
         if (!drawn && errno == ENOMEM) {
             gm_memory_refused(); /* possibly Cairo's, which does not report it otherwise */
         }
-        return drawn || (gm_memory_was_short() ? no_memory(look, message) : false);
+        return drawn;
     }
-    if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
-        return no_memory(look, message);
+    if (!gm_canvas_paint(canvas, picture, rgb)) {
+        gm_memory_refused();
     }
-    return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
+    return !gm_memory_was_short() && gm_png_write(path, look->width, look->height, look->dpi, rgb,
+                                                  provenance->texts, provenance->count, message);
+}
+
+/* The painter of a canvas, or the writer of a drawing. */
+static const char *painter_of(const struct gm_print *print, const struct gm_canvas *canvas)
+{
+    if (canvas) {
+        return gm_canvas_backend(canvas);
+    }
+    return print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
+}
+
+bool gm_print_write(struct gm_print *print, const struct gm_printed *content, char *message)
+{
+    const struct gm_appearance *look = &print->look;
+    const bool painted = print->format == GM_FORMAT_PNG;
+    struct gm_canvas *canvas = painted ? gm_canvas_open(look, message) : NULL;
+    unsigned char *rgb = canvas ? malloc((size_t)look->width * (size_t)look->height * 3) : NULL;
+    struct gm_picture *picture = gm_picture_open();
+    struct gm_provenance provenance = {0};
+    bool good = false;
+    if ((!painted || rgb) && picture &&
+        content->describe(&provenance, content->data, look, painter_of(print, canvas))) {
+        content->draw(content->data, picture);
+        good = write_file(print, picture, canvas, rgb, &provenance, message);
+    }
+    gm_provenance_close(&provenance);
+    gm_picture_close(picture);
+    free(rgb);
+    gm_canvas_close(canvas);
+    return good || (gm_memory_was_short() ? no_memory(look, message) : false);
 }
 
 int gm_printer_fail(const char *path, const char *message)
@@ -167,29 +154,29 @@ void gm_printer_report(const struct gm_print *print, const char *table)
     }
 }
 
+/* The lanes of a picture, and the words from which they are. */
+struct still {
+    const struct gm_request *request;
+    const struct gm_lane *const *lanes;
+};
+
+static bool describe_still(struct gm_provenance *provenance, const void *data,
+                           const struct gm_appearance *look, const char *painter)
+{
+    const struct still *still = data;
+    return gm_provenance_make(provenance, still->request, look, painter) &&
+           gm_provenance_take_lanes(provenance, still->lanes, still->request->count, true);
+}
+
+static void draw_still(const void *data, struct gm_picture *picture)
+{
+    const struct still *still = data;
+    gm_lanes_draw(still->lanes, still->request->count, picture);
+}
+
 bool gm_still_write(struct gm_print *print, const struct gm_request *request,
                     const struct gm_lane *const *lanes, char *message)
 {
-    if (!gm_folder_make_for(print->path, message)) {
-        return false;
-    }
-    struct gm_printer *press = gm_printer_open(print, message);
-    if (!press) {
-        return false;
-    }
-    struct gm_picture *picture = gm_picture_open();
-    struct gm_provenance provenance = {0};
-    bool good = picture &&
-                gm_provenance_make(&provenance, request, &print->look, gm_printer_backend(press)) &&
-                gm_provenance_take_lanes(&provenance, lanes, request->count, true);
-    if (good) {
-        gm_lanes_draw(lanes, request->count, picture);
-        good = gm_printer_write(press, print, picture, provenance.texts, provenance.count, message);
-    } else {
-        gm_refuse(message, "not enough memory for a picture");
-    }
-    gm_provenance_close(&provenance);
-    gm_picture_close(picture);
-    gm_printer_close(press);
-    return good;
+    const struct gm_printed content = {&(struct still){request, lanes}, describe_still, draw_still};
+    return gm_folder_make_for(print->path, message) && gm_print_write(print, &content, message);
 }

@@ -2,6 +2,7 @@
 #ifndef GM_APP_OUTPUT_PRINTER_H
 #define GM_APP_OUTPUT_PRINTER_H
 
+#include "app/output/provenance.h"
 #include "app/words/request.h"
 #include "render/files/images.h"
 #include "render/layout/appearance.h"
@@ -25,20 +26,19 @@ const char *gm_format_name(enum gm_format format);
 bool gm_format_find(const char *name, enum gm_format *format);
 bool gm_format_of(const char *path, enum gm_format *format);
 
-/* Starts the slow part of opening a press, in parallel with the run. */
+/* Starts the slow part of printing, in parallel with the run. */
 void gm_printer_expect(enum gm_format format);
 
-/* A press for one format and look. Returns NULL with a sentence (GM_MESSAGE bytes). */
-struct gm_printer;
-struct gm_printer *gm_printer_open(const struct gm_print *print, char *message);
-void gm_printer_close(struct gm_printer *press);
-
-/* The name of the painter, for the file's metadata. */
-const char *gm_printer_backend(const struct gm_printer *press);
-
-/* Writes the picture with its metadata. Returns false with a sentence (GM_MESSAGE bytes). */
-bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct gm_picture *picture,
-                      const struct gm_png_text *texts, size_t count, char *message);
+/* The content of a file: its metadata, which name the painter (false: out of memory), and what fills the empty
+   picture. */
+struct gm_printed {
+    const void *data;
+    bool (*describe)(struct gm_provenance *provenance, const void *data, const struct gm_appearance *look,
+                     const char *painter);
+    void (*draw)(const void *data, struct gm_picture *picture);
+};
+/* Writes the file. Returns false with a sentence (GM_MESSAGE bytes). */
+bool gm_print_write(struct gm_print *print, const struct gm_printed *content, char *message);
 
 /* Complains that the picture could not be written to that path (NULL: unknown). Returns the exit status:
    3, or 141 without a message if standard output is a pipe without a reader. */
@@ -62,7 +62,8 @@ struct gm_chart {
     struct gm_print print; /* gm_chart_write sets its path */
     const void *data;
     void (*draw)(const void *data, struct gm_picture *picture); /* fills an empty picture */
-    void (*write)(const void *data, FILE *table);               /* NULL: the numbers exist already */
+    /* Writes the numbers; false with errno if they could not be read. NULL: they exist already. */
+    bool (*write)(const void *data, FILE *table);
     char picture[4096], csv[4096]; /* the paths of the written files; the second is "" without a table */
 };
 

@@ -272,7 +272,11 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
         return;
     case GM_STEP_TOO_SMALL:
-        snprintf(text, size, "the steps after t = %.6g are too small for the tolerance", run->t);
+        snprintf(
+            text, size,
+            "the steps after t = %.6g are too small for the tolerance; a stiff problem needs an implicit "
+            "scheme, such as radau5",
+            run->t);
         return;
     case GM_OUT_OF_MEMORY:
         snprintf(text, size, "there was not enough memory to continue from t = %.6g, or to observe it",

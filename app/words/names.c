@@ -132,8 +132,9 @@ bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, cons
     return good;
 }
 
-void gm_chosen_close(struct gm_chosen *chosen)
+void gm_chosen_close(void *self)
 {
+    struct gm_chosen *chosen = self;
     free(chosen->numbers);
     *chosen = (struct gm_chosen){0};
 }
@@ -167,52 +168,12 @@ const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word)
     return scheme->name;
 }
 
-/* Returns true if a text contains a word of at least three letters, in any case. */
-static bool contains(const char *text, const char *word)
-{
-    return strlen(word) > 2 && strcasestr(text, word);
-}
-
-static bool is_known_as(const struct gm_scheme *scheme, const char *word)
-{
-    bool known = contains(scheme->name, word) || contains(scheme->title, word);
-    const char *alias;
-    for (size_t i = 0; !known && (alias = gm_alias_of(scheme->name, i)); i++) {
-        known = contains(alias, word);
-    }
-    return known;
-}
-
-static const char *scheme_name(size_t i, const void *schemes)
-{
-    return ((const struct gm_scheme *const *)schemes)[i]->name;
-}
-
-const char *gm_scheme_meant(const struct gm_scene *scene, const char *word)
-{
-    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
-    const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
-    size_t count = 0;
-    for (size_t i = 0; !scene && i < gm_scheme_count() && i < GM_FITTING_SCHEMES; i++) {
-        schemes[count++] = gm_scheme_at(i);
-    }
-    count = scene ? gm_fitting_elsewhere(scene, schemes) : count;
-    for (size_t i = 0; row && i < count; i++) {
-        if (strcmp(schemes[i]->name, row->meant) == 0) {
-            return row->meant;
-        }
-    }
-    const char *near = gm_nearest(word, count, scheme_name, schemes);
-    for (size_t i = 0; !near && i < count; i++) {
-        near = is_known_as(schemes[i], word) ? schemes[i]->name : NULL;
-    }
-    return near;
-}
-
 bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message)
 {
     const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
-    const char *meant = gm_scheme_meant(scene, word);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+    const size_t count = scene ? gm_fitting_elsewhere(scene, fitting) : 0;
+    const char *meant = gm_scheme_near(word, scene ? fitting : NULL, count);
     char words[256] = "schemes";
     if (row && meant == row->meant) {
         return gm_refuse(message, "%.40s is not here; %s", word, row->why);
@@ -234,7 +195,7 @@ static void add_name(struct names *names, const char *name, const char *title)
 {
     /* one that memory was too short for is not proposed */
     gm_arguments_add(&names->list, name);
-    if (contains(name, names->word) || contains(title, names->word)) {
+    if (gm_word_is_part(names->word, name) || gm_word_is_part(names->word, title)) {
         gm_arguments_add(&names->containing, name);
     }
 }

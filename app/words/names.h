@@ -37,7 +37,7 @@ struct gm_chosen {
 /* Opens the observables with these keys, "KEY,KEY"; NULL: the scene's default ones. Returns false with a
    sentence. The caller closes it in both cases. */
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message);
-void gm_chosen_close(struct gm_chosen *chosen);
+void gm_chosen_close(void *chosen);
 /* Returns true if an observable on request is among them. Such observables follow the steps of a run, which must
    all have the same size. */
 bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_scene *scene);
@@ -50,9 +50,6 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
 /* The own name of the scheme that a word means for a scene; the word itself if it is a file or unknown. */
 const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word);
 
-/* The name of the scheme that an unknown word probably means, among those that fit the scene (NULL: among all),
-   or NULL. */
-const char *gm_scheme_meant(const struct gm_scene *scene, const char *word);
 /* Refuses an unknown scheme, with what the word probably means. Returns false. */
 bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message);
 

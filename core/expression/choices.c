@@ -3,17 +3,13 @@
 #include "core/expression/choices.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/nearest.h"
 
 static const char *const own_words[] = {"choice", "when", NULL};
 enum { CHOICE, WHEN };
-
-static bool is_same(const char *text, struct gm_span a, struct gm_span b)
-{
-    return a.end - a.begin == b.end - b.begin && memcmp(text + a.begin, text + b.begin, a.end - a.begin) == 0;
-}
 
 /* False if the word is empty, too long or not one word. */
 static bool copy(const char *text, struct gm_span span, char word[GM_CHOICE_SIZE])
@@ -50,6 +46,9 @@ static bool seek(const char *text, struct gm_span span, size_t count,
                  struct gm_fault *fault)
 {
     char word[GM_CHOICE_SIZE];
+    if (span.begin == span.end) {
+        return gm_fail(fault, span.begin, "a %s was expected", at == name_at ? "choice" : "word");
+    }
     *found = copy(text, span, word) ? find(word, count, at, data) : count;
     const char *near = *found < count ? NULL : gm_nearest(word, count, at, data);
     return *found < count ||
@@ -73,12 +72,35 @@ bool gm_choices_take(struct gm_written_choices *choices, const char *name, const
     return choice && found < choice->count;
 }
 
+/* Reads WORD, WORD. */
+static bool read_words(struct gm_written_choice *choice, const char *text, struct gm_span list,
+                       struct gm_fault *fault)
+{
+    struct gm_span word;
+    while (gm_span_take(text, &list, ",", &word)) {
+        if (choice->count == GM_MOST_CHOICE_WORDS) {
+            return gm_fail(fault, word.begin, "a choice has at most %d words", GM_MOST_CHOICE_WORDS);
+        }
+        char *copied = choice->words[choice->count];
+        if (!copy(text, word, copied)) {
+            return gm_fail(
+                fault, word.begin,
+                "a word of a choice has 1 to %d bytes without blanks, quotes, # and =", GM_CHOICE_SIZE - 1);
+        }
+        if (find(copied, choice->count, word_at, choice) < choice->count) {
+            return gm_fail(fault, word.begin, "%s is named twice", copied);
+        }
+        choice->count++;
+    }
+    return choice->count > 1 || gm_fail(fault, choice->place, "a choice has at least two words");
+}
+
 /* NAME = WORD of WORD, WORD; meaning */
 static bool read_choice(struct gm_written_choices *choices, const char *text, struct gm_span rest,
                         struct gm_fault *fault)
 {
     struct gm_written_choice *choice = &choices->list[choices->count];
-    struct gm_span head, word;
+    struct gm_span head;
     if (choices->count == GM_MOST_CHOICES) {
         return gm_fail(fault, rest.begin, "a file has at most %d choices", GM_MOST_CHOICES);
     }
@@ -87,24 +109,21 @@ static bool read_choice(struct gm_written_choices *choices, const char *text, st
     const struct gm_span name = gm_span_trimmed(text, (struct gm_span){head.begin, equals}),
                          standard = gm_span_trimmed(text, (struct gm_span){equals + 1, of});
     *choice = (struct gm_written_choice){.meaning = gm_span_trimmed(text, rest), .place = name.begin};
-    bool good = copy(text, name, choice->name) &&
-                strlen(choice->name) == gm_name_length(choice->name, strlen(choice->name));
-    for (struct gm_span list = {of + 4, head.end}; good && gm_span_take(text, &list, ",", &word);) {
-        good = choice->count < GM_MOST_CHOICE_WORDS && copy(text, word, choice->words[choice->count]);
-        if (good && find(choice->words[choice->count], choice->count, word_at, choice) < choice->count) {
-            return gm_fail(fault, word.begin, "%s is named twice", choice->words[choice->count]);
-        }
-        choice->count += good;
+    if (of == head.end || equals > of) {
+        return gm_fail(fault, head.begin,
+                       "a choice has a name, a default and words: system = harmonic of harmonic, pendulum");
     }
-    if (!good || choice->count < 2) {
-        return gm_fail(fault, name.begin,
-                       "a choice has a name and 2 to 16 words: system = harmonic of harmonic, pendulum");
+    if (!copy(text, name, choice->name) ||
+        strlen(choice->name) != gm_name_length(choice->name, strlen(choice->name))) {
+        return gm_fail(fault, name.begin, "the name of a choice has 1 to %d letters, digits and _",
+                       GM_CHOICE_SIZE - 1);
     }
     if (gm_choice_named(choices, choice->name)) {
         return gm_fail(fault, name.begin, "%s is defined twice", choice->name);
     }
     choices->count++;
-    return seek(text, standard, choice->count, word_at, choice, &choice->standard, fault) &&
+    return read_words(choice, text, (struct gm_span){of + 4, head.end}, fault) &&
+           seek(text, standard, choice->count, word_at, choice, &choice->standard, fault) &&
            gm_choices_take(choices, choice->name, choice->words[choice->standard]);
 }
 
@@ -195,68 +214,99 @@ static struct gm_span assignments(const char *text, struct gm_span rest)
     return piece;
 }
 
-/* The text before the = of an assignment; empty without an =. */
-static struct gm_span name_of(const char *text, struct gm_span piece)
-{
-    const size_t equals = gm_span_until(text, piece, "=");
-    return gm_span_trimmed(text, (struct gm_span){piece.begin, equals < piece.end ? equals : piece.begin});
-}
-
-/* True if two lines assign to one name. */
-static bool share_name(const char *text, struct gm_span a, struct gm_span b)
-{
-    struct gm_span one, other;
-    for (a = assignments(text, a); gm_span_take(text, &a, ",", &one);) {
-        const struct gm_span name = name_of(text, one);
-        for (struct gm_span rest = assignments(text, b); gm_span_take(text, &rest, ",", &other);) {
-            if (name.begin < name.end && is_same(text, name, name_of(text, other))) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-/* True if a line of a block replaces this line outside of blocks. */
-static bool is_replaced(const struct gm_written_choices *choices, const char *text, size_t length,
-                        const struct gm_text_line *outside, bool named)
-{
-    struct blocks blocks = {.choices = choices, .text = text};
+/* A line with one of the names to which it assigns, or without a name. Lines in blocks replace the lines
+   outside of them with the same word and name. */
+struct heading {
+    const char *text;
     struct gm_text_line line;
-    struct gm_fault fault;
-    for (size_t at = 0; gm_lines_next(text, length, &at, &line, &fault) && pass(&blocks, &line, &fault);) {
-        if (blocks.open && blocks.holds && is_same(text, line.word, outside->word) &&
-            (!named || share_name(text, line.value, outside->value))) {
-            return true;
+    struct gm_span name;
+    bool inside, goes;
+};
+
+static int compare_spans(const char *text, struct gm_span a, struct gm_span b)
+{
+    const size_t one = a.end - a.begin, other = b.end - b.begin;
+    return one != other ? (one > other) - (one < other) : memcmp(text + a.begin, text + b.begin, one);
+}
+
+static int compare_headings(const struct heading *a, const struct heading *b)
+{
+    const int words = compare_spans(a->text, a->line.word, b->line.word);
+    return words != 0 ? words : compare_spans(a->text, a->name, b->name);
+}
+
+/* Equal headings are in the order: inside of blocks, outside. */
+static int compare(const void *a, const void *b)
+{
+    const struct heading *one = a, *other = b;
+    const int headings = compare_headings(one, other);
+    return headings != 0 ? headings : other->inside - one->inside;
+}
+
+/* Adds a line once, or with each of its names. Returns the new number of headings. */
+static size_t add_line(struct heading *list, size_t count, struct heading heading, bool named)
+{
+    const char *text = heading.text;
+    struct gm_span rest = assignments(text, heading.line.value), piece;
+    list[count] = heading;
+    while (named && gm_span_take(text, &rest, ",", &piece)) {
+        const size_t equals = gm_span_until(text, piece, "=");
+        list[count].name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals});
+        count += equals < piece.end && list[count].name.begin < list[count].name.end;
+        list[count] = heading;
+    }
+    return count + !named;
+}
+
+/* Makes a comment of a line. */
+static void remove_line(char *text, const struct gm_text_line *line)
+{
+    for (size_t i = line->word.begin; i < line->value.end; i++) {
+        text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
+    }
+}
+
+/* Removes the lines outside of blocks that a line in a block replaces. */
+static void replace(char *text, struct heading *list, size_t count)
+{
+    qsort(list, count, sizeof *list, compare);
+    for (size_t i = 0, first = 0; i < count; i++) {
+        first = compare_headings(&list[first], &list[i]) == 0 ? first : i;
+        list[i].goes = list[first].inside && !list[i].inside;
+    }
+    for (size_t i = 0; i < count; i++) { /* all were compared while the text was whole */
+        if (list[i].goes) {
+            remove_line(text, &list[i].line);
         }
     }
-    return false;
 }
 
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
                       enum gm_line_identity (*identity)(const char *text, struct gm_span word),
                       struct gm_fault *fault)
 {
-    struct blocks blocks;
+    struct blocks blocks = {.choices = choices, .text = text};
     struct gm_text_line line;
-    for (int last = 0; last < 2; last++) { /* replaced lines go while all blocks still exist */
-        blocks = (struct blocks){.choices = choices, .text = text};
-        for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
-            if (!pass(&blocks, &line, fault)) {
-                return false;
-            }
-            const enum gm_line_identity own = identity(text, line.word);
-            const bool replaced = choices->count > 0 && !blocks.open && own != GM_LINE_ADDED &&
-                                  is_replaced(choices, text, length, &line, own == GM_LINE_NAMED);
-            const bool passed =
-                gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds);
-            for (size_t i = line.word.begin; (last ? passed : replaced) && i < line.value.end; i++) {
-                text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
-            }
-        }
-        if (!end_block(&blocks, fault)) {
-            return false;
+    size_t count = 0, most = 1;
+    for (size_t i = 0; i < length && choices->count > 0; i++) {
+        most += text[i] == '\n' || text[i] == '=';
+    }
+    struct heading *list = malloc((most + 1) * sizeof *list);
+    bool good = list != NULL;
+    for (size_t at = 0; good && gm_lines_next(text, length, &at, &line, fault);) {
+        good = pass(&blocks, &line, fault);
+        const enum gm_line_identity kind = identity(text, line.word);
+        if (gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds)) {
+            remove_line(text, &line);
+        } else if (choices->count > 0 && kind != GM_LINE_ADDED) {
+            const struct heading heading = {.text = text, .line = line, .inside = blocks.open};
+            count = add_line(list, count, heading, kind == GM_LINE_NAMED);
         }
     }
-    return true;
+    good = good && end_block(&blocks, fault);
+    if (good) {
+        replace(text, list, count);
+    }
+    free(list);
+    return good;
 }

@@ -90,7 +90,7 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
             const struct gm_node *node = &graph->nodes[parts[k]];
             adjoint[parts[k]] = GM_NO_NODE;
             active[parts[k]] = node->operation == GM_VARIABLE
-                                   ? node->a < variables && marked[node->a]
+                                   ? node->a < variables && (!marked || marked[node->a])
                                    : node->operation > GM_VARIABLE &&
                                          (active[node->a] ||
                                           (gm_operation_rows[node->operation].arity == 2 && active[node->b]));

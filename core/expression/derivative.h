@@ -13,8 +13,8 @@
    variables; other variables rest. */
 gm_node_id gm_derivative_along(struct gm_formula *graph, gm_node_id node, const gm_node_id *direction,
                                size_t variables);
-/* Computes the derivatives of a node over all marked variables, in one pass downwards: gradient[i] is that
-   over variable i, a constant 0 for the others. */
+/* Computes the derivatives of a node over all marked variables, or over all if `marked` is NULL, in one pass
+   downwards: gradient[i] is that over variable i, a constant 0 for the others. */
 bool gm_gradient(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables,
                  gm_node_id *gradient);
 

@@ -516,33 +516,47 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
     return parts;
 }
 
-bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
+gm_node_id gm_formula_first(struct gm_formula *graph, gm_node_id node,
+                            bool (*suits)(struct gm_formula *graph, gm_node_id part, const void *data),
+                            const void *data)
 {
     size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    bool found = false;
-    for (size_t i = 0; i < count && parts && !found; i++) {
-        const struct gm_node *part = &graph->nodes[parts[i]];
-        found = part->operation == GM_VARIABLE && part->a < variables && marked[part->a];
+    gm_node_id *parts = gm_formula_parts(graph, node, &count), found = GM_NO_NODE;
+    for (size_t i = 0; parts && i < count && found == GM_NO_NODE; i++) {
+        found = suits(graph, parts[i], data) ? parts[i] : GM_NO_NODE;
     }
     graph->failed |= !parts;
     free(parts);
     return found;
 }
 
+struct marked_variables {
+    const bool *marked;
+    size_t variables;
+};
+
+static bool is_marked(struct gm_formula *graph, gm_node_id part, const void *data)
+{
+    const struct marked_variables *set = data;
+    const struct gm_node *node = &graph->nodes[part];
+    return node->operation == GM_VARIABLE && node->a < set->variables && set->marked[node->a];
+}
+
+bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
+{
+    return gm_formula_first(graph, node, is_marked, &(struct marked_variables){marked, variables}) !=
+           GM_NO_NODE;
+}
+
+static bool is_kink(struct gm_formula *graph, gm_node_id part, const void *data)
+{
+    const struct gm_operation_row *row = &gm_operation_rows[graph->nodes[part].operation];
+    return row->name && !row->smooth && gm_formula_first(graph, part, is_marked, data) != GM_NO_NODE;
+}
+
 gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const bool *marked, size_t variables)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(graph, formula, &count), kink = GM_NO_NODE;
-    for (size_t i = 0; parts && i < count && kink == GM_NO_NODE; i++) {
-        const struct gm_operation_row *row = &gm_operation_rows[graph->nodes[parts[i]].operation];
-        if (row->name && !row->smooth && gm_formula_holds(graph, parts[i], marked, variables)) {
-            kink = parts[i];
-        }
-    }
-    graph->failed |= !parts;
-    free(parts);
-    return kink;
+    return gm_formula_first(graph, formula, is_kink, &(struct marked_variables){marked, variables});
 }
 
 gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count)

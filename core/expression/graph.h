@@ -114,6 +114,10 @@ gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, si
 /* The parts of several nodes together. */
 gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *nodes, size_t node_count,
                                 size_t *count);
+/* The first part of a node that suits, or GM_NO_NODE. Out of memory sets graph->failed. */
+gm_node_id gm_formula_first(struct gm_formula *graph, gm_node_id node,
+                            bool (*suits)(struct gm_formula *graph, gm_node_id part, const void *data),
+                            const void *data);
 /* True if a node depends on a marked variable; `marked` has `variables` entries. Out of memory sets
    graph->failed. */
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
@@ -124,6 +128,24 @@ gm_node_id gm_formula_kink(struct gm_formula *graph, gm_node_id formula, const b
 /* A flag for each node, true if it depends on a marked variable; `marked` has `variables` entries. The caller
    frees; NULL when out of memory. */
 bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables);
+
+/* Derived formulas. */
+static inline gm_node_id gm_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b)
+{
+    return gm_simplified(graph, GM_OPERATION_ADD, a, b);
+}
+static inline gm_node_id gm_difference(struct gm_formula *graph, gm_node_id a, gm_node_id b)
+{
+    return gm_simplified(graph, GM_OPERATION_SUBTRACT, a, b);
+}
+static inline gm_node_id gm_product(struct gm_formula *graph, gm_node_id a, gm_node_id b)
+{
+    return gm_simplified(graph, GM_OPERATION_MULTIPLY, a, b);
+}
+static inline gm_node_id gm_negative(struct gm_formula *graph, gm_node_id a)
+{
+    return gm_simplified(graph, GM_OPERATION_NEGATE, a, a);
+}
 
 static inline bool gm_is_constant(const struct gm_formula *graph, gm_node_id node, double value)
 {

@@ -2,7 +2,6 @@
 /* The known word nearest to an unknown one. */
 #include "core/expression/nearest.h"
 
-#include <stdbool.h>
 #include <string.h>
 #include <strings.h>
 
@@ -74,4 +73,9 @@ const char *gm_nearest(const char *word, size_t count, const char *(*candidate)(
     }
     const bool close = smallest == 1 && length > SHORT; /* "verlett" */
     return same ? same : begun ? begun : close ? slipped : shortened ? shortened : slipped;
+}
+
+bool gm_word_is_part(const char *word, const char *text)
+{
+    return strlen(word) > 2 && strcasestr(text, word);
 }

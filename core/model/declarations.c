@@ -27,16 +27,13 @@ static struct gm_system_variable *add_variable(struct gm_reading *reading, const
     }
     struct gm_system_variable *variable = &system->variables[system->variable_count];
     *variable = unsaid;
-    const int made =
-        entry->indexed ? asprintf(&variable->name, "%.*s[%ld]", (int)entry->length, entry->name, entry->index)
-                       : asprintf(&variable->name, "%.*s", (int)entry->length, entry->name);
-    if (made < 0) {
-        variable->name = NULL;
-        gm_fail_memory(&reading->fault);
-        return NULL;
+    char index[32] = "";
+    if (entry->indexed) {
+        snprintf(index, sizeof index, "[%ld]", entry->index);
     }
-    system->variable_count++;
-    return variable;
+    variable->name = gm_arena_print(system->arena, "%.*s%s", (int)entry->length, entry->name, index);
+    system->variable_count += variable->name != NULL;
+    return variable->name || gm_fail_memory(&reading->fault) ? variable : NULL;
 }
 
 /* Adds a name, or all elements of a list, in a role, numbered from *count. */
@@ -89,18 +86,16 @@ static bool add_derived(struct gm_reading *reading, const char *before, const ch
         if (entry.role != GM_ENTRY_COMPONENT) {
             continue;
         }
-        char *name = NULL;
-        if (asprintf(&name, "%s%s%s", before, entry.name, behind) < 0) {
+        entry.name = gm_arena_print(reading->system->arena, "%s%s%s", before, entry.name, behind);
+        if (!entry.name) {
             return gm_fail_memory(&reading->fault);
         }
-        entry.name = name;
-        entry.length = strlen(name);
+        entry.length = strlen(entry.name);
         entry.role = role;
         entry.number = (*count)++;
         if (gm_reading_add(reading, entry)) {
             add_variable(reading, &entry);
         }
-        free(name);
         made++;
     }
     return !reading->fault.failed;
@@ -205,7 +200,7 @@ static bool add_ring(struct gm_reading *reading)
         }
         variable->derived = rows[i].word == GM_WORD_POINTS; /* a whole number: a row of the scene */
         variable->text = line ? gm_reading_text(reading, line->value) : NULL;
-        variable->meaning = strdup(rows[i].meaning);
+        variable->meaning = gm_arena_print(reading->system->arena, "%s", rows[i].meaning);
         variable->unit = gm_reading_text(reading, (struct gm_span){0, 0});
         if (!variable->meaning) {
             return gm_fail_memory(&reading->fault);
@@ -355,12 +350,10 @@ static bool arrange(struct gm_reading *reading)
     struct gm_user_system *system = reading->system;
     const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
     const size_t solutions = gm_system_is_field(system) ? 0 : n;
-    struct gm_system_variable *all = calloc(2 * n + 1 + p + v + solutions, sizeof *all),
+    struct gm_system_variable *all = gm_arena_take(system->arena, 2 * n + 1 + p + v + solutions, sizeof *all),
                               *met = system->variables;
-    char *t = strdup("t");
+    char *t = gm_arena_print(system->arena, "t");
     if (!all || !t) {
-        free(all);
-        free(t);
         return gm_fail_memory(&reading->fault);
     }
     all[n] = unsaid;
@@ -370,7 +363,6 @@ static bool arrange(struct gm_reading *reading)
         memcpy(all, met + p, n * sizeof *all);
         memcpy(all + n + 1, met, p * sizeof *all);
         memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
-        free(met);
     }
     system->variables = all;
     system->n = n;
@@ -382,8 +374,8 @@ static bool arrange(struct gm_reading *reading)
     for (size_t i = 0; i < n + solutions; i++) {
         struct gm_system_variable *other = &all[system->initial + i];
         *other = all[n];
-        if (asprintf(&other->name, i < n ? "%s(0)" : "exact(%s)", all[i % n].name) < 0) {
-            other->name = NULL;
+        other->name = gm_arena_print(system->arena, i < n ? "%s(0)" : "exact(%s)", all[i % n].name);
+        if (!other->name) {
             return gm_fail_memory(&reading->fault);
         }
         system->variable_count++;
@@ -403,21 +395,27 @@ static bool add_place(struct gm_reading *reading, const struct gm_system_line *l
     return gm_reading_add(reading, place) && add_variable(reading, &place);
 }
 
+/* Adds names, and reports it if there are not `least` to `most`. */
+static bool add_counted(struct gm_reading *reading, struct gm_span names, size_t least, size_t most,
+                        const char *sentence)
+{
+    if (!add_all_names(reading, names, GM_ENTRY_COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    const size_t n = reading->component_count;
+    return (n >= least && n <= most) ||
+           gm_fail_first(&reading->fault, names.begin, "there are %zu to %zu %s", least, most, sentence);
+}
+
 /* Adds fields, x, and their derivatives over x. */
 static bool add_fields(struct gm_reading *reading, const struct gm_system_line *field)
 {
     static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
-    if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
+    if (!add_counted(reading, field->value, 1, GM_MOST_FIELDS, "fields, as in field: u v") ||
+        !add_place(reading, field)) {
         return false;
     }
     const size_t n = reading->component_count;
-    if (n == 0 || n > GM_MOST_FIELDS) {
-        return gm_fail_first(&reading->fault, field->value.begin,
-                             "there are 1 to %d fields, as in field: u v", GM_MOST_FIELDS);
-    }
-    if (!add_place(reading, field)) {
-        return false;
-    }
     for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
         if (!add_derived(reading, "", derivatives[k], GM_ENTRY_VELOCITY, &reading->velocity_count, n)) {
             return false;
@@ -429,15 +427,9 @@ static bool add_fields(struct gm_reading *reading, const struct gm_system_line *
 /* Adds the components of a system of matrices, and x. */
 static bool add_components(struct gm_reading *reading, const struct gm_system_line *components)
 {
-    if (!add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
-        return false;
-    }
-    const size_t n = reading->component_count;
-    if (n < 2 || n > GM_MOST_OF_MATRICES) {
-        return gm_fail_first(&reading->fault, components->value.begin,
-                             "there are 2 to %d components, as in components: u v w", GM_MOST_OF_MATRICES);
-    }
-    return add_place(reading, components);
+    return add_counted(reading, components->value, 2, GM_MOST_OF_MATRICES,
+                       "components, as in components: u v w") &&
+           add_place(reading, components);
 }
 
 /* Adds u and u_t, and the variables of densities: x and u_x. */

@@ -14,21 +14,17 @@
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
 {
-    return force == GM_NO_NODE ? rate : gm_simplified(&system->graph, GM_OPERATION_ADD, rate, force);
+    return force == GM_NO_NODE ? rate : gm_sum(&system->graph, rate, force);
 }
 
-/* gradient of a node over all variables, freed by the caller */
-static gm_node_id *gradient_of(struct gm_user_system *system, gm_node_id node)
+gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node, const bool *marked)
 {
-    bool *all = malloc(system->variable_count);
-    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
-    if (all && gradient) {
-        memset(all, true, system->variable_count);
-        gm_gradient(&system->graph, node, all, system->variable_count, gradient);
-    } else {
+    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
+    if (!gradient || !gm_gradient(&system->graph, node, marked, system->variable_count, gradient)) {
         system->graph.failed = true;
+        free(gradient);
+        return NULL;
     }
-    free(all);
     return gradient;
 }
 
@@ -40,9 +36,9 @@ static void derive_poisson(struct gm_user_system *system, const gm_node_id *grad
         for (size_t k = 0; k < n; k++) {
             const gm_node_id entry = system->bracket[i * n + k];
             system->graph.origin = gm_formula_origin(&system->graph, entry);
-            const gm_node_id term = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, entry, gradient[k]);
+            const gm_node_id term = gm_product(&system->graph, entry, gradient[k]);
             system->graph.origin = GM_NO_PLACE;
-            system->rates[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, system->rates[i], term);
+            system->rates[i] = gm_sum(&system->graph, system->rates[i], term);
         }
     }
 }
@@ -52,7 +48,7 @@ static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *g
 {
     const size_t half = system->n / 2;
     bool *marked = calloc(system->variable_count, sizeof *marked);
-    system->momenta = malloc((half + 1) * sizeof *system->momenta);
+    system->momenta = gm_arena_take(system->arena, half + 1, sizeof *system->momenta);
     for (size_t i = 0; i < half && marked && system->momenta; i++) {
         system->momenta[i] = gradient[system->velocities + i];
         system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
@@ -73,13 +69,12 @@ static bool derive(struct gm_user_system *system)
 {
     const size_t half = system->n / 2;
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
-    gm_node_id *gradient = rates ? NULL : gradient_of(system, system->energy);
+    gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
     if (system->kind == GM_CANONICAL && !system->graph.failed) {
         for (size_t i = 0; i < half; i++) {
             system->rates[i] = gradient[half + i];
             system->rates[half + i] =
-                add_force(system, gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0),
-                          system->variables[i].force);
+                add_force(system, gm_negative(&system->graph, gradient[i]), system->variables[i].force);
         }
     } else if (system->kind == GM_LAGRANGIAN && !system->graph.failed) {
         derive_lagrangian(system, gradient);
@@ -89,7 +84,7 @@ static bool derive(struct gm_user_system *system)
         memcpy(system->rates, gradient, system->n * sizeof *gradient);
     } else if (system->kind == GM_FIELD && !system->graph.failed) {
         system->rates[0] = gm_formula_variable(&system->graph, 1);
-        system->rates[1] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[0], 0);
+        system->rates[1] = gm_negative(&system->graph, gradient[0]);
     }
     free(gradient);
     bool *marked = calloc(system->variable_count, sizeof *marked);
@@ -108,47 +103,28 @@ static bool derive(struct gm_user_system *system)
     return good;
 }
 
-static bool has(const struct gm_user_system *system, enum gm_system_word word)
-{
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == word) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
 {
     return gm_derivative_along(&system->graph, node, direction, system->n + 1);
 }
 
-/* true if a node depends on a velocity of a Lagrangian */
-static bool holds_velocities(struct gm_user_system *system, gm_node_id node)
+/* True for a velocity of a Lagrangian. */
+static bool is_velocity(struct gm_formula *graph, gm_node_id part, const void *data)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    bool found = false;
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_node *part = &system->graph.nodes[parts[i]];
-        found |= part->operation == GM_VARIABLE && part->a >= system->velocities && part->a < system->initial;
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return found;
+    const struct gm_user_system *system = data;
+    const struct gm_node *node = &graph->nodes[part];
+    return node->operation == GM_VARIABLE && node->a >= system->velocities && node->a < system->initial;
 }
 
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count)
 {
     const size_t half = system->n / 2;
-    gm_node_id *others = malloc(system->n * sizeof *others);
-    for (size_t i = 0; others && i < half; i++) {
-        others[i] = GM_NO_NODE;
-        others[half + i] = system->momenta[i];
+    gm_node_id *others = gm_system_no_nodes(system, system->n);
+    if (others) {
+        memcpy(others + half, system->momenta, half * sizeof *others);
     }
     system->graph.failed |=
         !others || !gm_formula_substitute(&system->graph, nodes, count, others, system->n);
-    free(others);
     return !system->graph.failed;
 }
 
@@ -157,7 +133,7 @@ bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes
 static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id node, gm_node_id *direction)
 {
     const size_t half = system->n / 2;
-    if (holds_velocities(system, node)) {
+    if (gm_formula_first(&system->graph, node, is_velocity, system) != GM_NO_NODE) {
         return GM_NO_NODE;
     }
     for (size_t i = 0; i < half; i++) {
@@ -172,7 +148,7 @@ static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id n
 static gm_node_id rate_of(struct gm_user_system *system, gm_node_id node)
 {
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
-    if (direction && !has(system, GM_WORD_CONSTRAINT)) {
+    if (direction && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
         memcpy(direction, system->rates, system->n * sizeof *direction);
         direction[system->n] = gm_formula_constant(&system->graph, 1);
         rate = system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
@@ -211,8 +187,7 @@ static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[
         memcpy(direction, &system->bracket[a * n], n * sizeof *direction);
         direction[n] = gm_formula_constant(&system->graph, 0);
         if (varies(system, b, c)) {
-            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum,
-                                along(system, system->bracket[b * n + c], direction));
+            sum = gm_sum(&system->graph, sum, along(system, system->bracket[b * n + c], direction));
         }
     }
     return sum;
@@ -282,12 +257,10 @@ static bool keeps_constraints(struct gm_user_system *system, const struct gm_sys
     for (size_t i = 0; direction && i <= system->n; i++) {
         direction[i] = i < system->n / 2 ? symmetry->nodes[i] : gm_formula_constant(&system->graph, 0);
     }
-    for (size_t i = 0; direction && i < system->item_count && kept && !system->graph.failed; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_CONSTRAINT) {
-            *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
-            kept = gm_equations_vanishes(system, broken->node) != GM_NOT_ZERO;
-        }
+    const struct gm_system_item *item;
+    for (size_t i = 0; direction && kept && (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, i)); i++) {
+        *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
+        kept = gm_equations_vanishes(system, broken->node) != GM_NOT_ZERO;
     }
     system->graph.failed |= !direction;
     free(direction);
@@ -301,9 +274,7 @@ static enum gm_identity check_work(struct gm_user_system *system, const struct g
     for (size_t i = 0; i < system->n / 2 && !system->graph.failed; i++) {
         const gm_node_id force = system->variables[i].force;
         if (force != GM_NO_NODE) {
-            work = gm_simplified(
-                &system->graph, GM_OPERATION_ADD, work,
-                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force, symmetry->nodes[i]));
+            work = gm_sum(&system->graph, work, gm_product(&system->graph, force, symmetry->nodes[i]));
         }
     }
     return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
@@ -326,8 +297,7 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
             memcpy(direction, system->rates, n * sizeof *direction);
             direction[n] = gm_formula_constant(&system->graph, 1);
             const gm_node_id other = along(system, item->nodes[i], direction);
-            *broken = (struct broken){"the motion",
-                                      gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, one, other)};
+            *broken = (struct broken){"the motion", gm_difference(&system->graph, one, other)};
             const enum gm_identity found = gm_equations_vanishes(system, broken->node);
             all = found == GM_ZERO_PROVED ? all : found;
         }
@@ -335,30 +305,25 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
         return direction ? all : GM_UNTESTED;
     }
     gm_node_id map = zero, change = zero;
-    gm_node_id *gradient = gradient_of(system, system->energy);
+    gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
         const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
-        map = gm_simplified(&system->graph, GM_OPERATION_ADD, map,
-                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, momentum, item->nodes[i]));
-        change =
-            gm_simplified(&system->graph, GM_OPERATION_ADD, change,
-                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[i], item->nodes[i]));
+        map = gm_sum(&system->graph, map, gm_product(&system->graph, momentum, item->nodes[i]));
+        change = gm_sum(&system->graph, change, gm_product(&system->graph, gradient[i], item->nodes[i]));
     }
     /* H: lift to momenta, -p dX/dq; L: lift to velocities, dX/dq v */
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
-        gm_node_id *slopes = gradient_of(system, system->kind == GM_CANONICAL ? map : item->nodes[i]);
+        gm_node_id *slopes =
+            gm_equations_gradient(system, system->kind == GM_CANONICAL ? map : item->nodes[i], NULL);
         for (size_t k = 0; k < half && !system->graph.failed; k++) {
             if (system->kind == GM_CANONICAL && i == 0) {
-                change = gm_simplified(
-                    &system->graph, GM_OPERATION_SUBTRACT, change,
-                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, gradient[half + k], slopes[k]));
+                change = gm_difference(&system->graph, change,
+                                       gm_product(&system->graph, gradient[half + k], slopes[k]));
             } else if (system->kind == GM_LAGRANGIAN) {
-                const gm_node_id moved =
-                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, slopes[k],
-                                  gm_formula_variable(&system->graph, system->velocities + k));
-                change = gm_simplified(&system->graph, GM_OPERATION_ADD, change,
-                                       gm_simplified(&system->graph, GM_OPERATION_MULTIPLY,
-                                                     gradient[system->velocities + i], moved));
+                const gm_node_id moved = gm_product(
+                    &system->graph, slopes[k], gm_formula_variable(&system->graph, system->velocities + k));
+                change = gm_sum(&system->graph, change,
+                                gm_product(&system->graph, gradient[system->velocities + i], moved));
             }
         }
         free(slopes);
@@ -368,7 +333,7 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
         return GM_NOT_ZERO;
     }
     *broken = (struct broken){system->kind == GM_CANONICAL ? "H" : "L", change};
-    gm_node_id *nodes = realloc(item->nodes, (half + 1) * sizeof *nodes);
+    gm_node_id *nodes = gm_arena_resize(system->arena, item->nodes, half + 1, sizeof *nodes);
     if (!nodes || system->graph.failed) {
         system->graph.failed = true;
         return GM_UNTESTED;
@@ -417,20 +382,34 @@ static bool refuse_symmetry(struct gm_user_system *system, const struct gm_syste
     return gm_fail(fault, item->place, "this is not a symmetry: it changes %s%s%s", broken.what, rate, point);
 }
 
+/* The variables that a formula may contain beside parameters: the first `below` ones, and those in a list. */
+struct allowed {
+    const struct gm_user_system *system;
+    size_t below;
+    const size_t *numbers;
+    size_t count;
+};
+
+static bool is_foreign(struct gm_formula *graph, gm_node_id part, const void *data)
+{
+    const struct allowed *allowed = data;
+    const struct gm_node *node = &graph->nodes[part];
+    size_t k = 0;
+    if (node->operation != GM_VARIABLE || node->a < allowed->below ||
+        (node->a >= allowed->system->parameters && node->a < allowed->system->velocities)) {
+        return false;
+    }
+    while (k < allowed->count && allowed->numbers[k] != node->a) {
+        k++;
+    }
+    return k == allowed->count;
+}
+
 /* True if a node depends only on parameters and the first `components` components. */
 static bool is_of_components(struct gm_user_system *system, gm_node_id node, size_t components)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    bool good = true;
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_node *part = &system->graph.nodes[parts[i]];
-        const bool parameter = part->a >= system->parameters && part->a < system->velocities;
-        good = good && (part->operation != GM_VARIABLE || part->a < components || parameter);
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return good;
+    const struct allowed allowed = {system, components, NULL, 0};
+    return gm_formula_first(&system->graph, node, is_foreign, &allowed) == GM_NO_NODE;
 }
 
 /* A surface is fixed: its size depends only on parameters and conserved quantities. */
@@ -452,7 +431,7 @@ static bool check_surface(struct gm_user_system *system, const struct gm_system_
 
 static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
 {
-    bool forced = has(system, GM_WORD_CONSTRAINT);
+    bool forced = gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) != NULL;
     for (size_t i = 0; i < system->n; i++) {
         forced |= system->variables[i].force != GM_NO_NODE;
     }
@@ -496,8 +475,7 @@ static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
     return true;
 }
 
-/* values of all nodes, freed by the caller */
-static double *values_for(const struct gm_user_system *system, const double *variables)
+double *gm_equations_values(const struct gm_user_system *system, const double *variables)
 {
     double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
     if (values) {
@@ -722,57 +700,51 @@ bool gm_equations_check_legendre(const struct gm_user_system *system, double *st
         where);
 }
 
+static bool is_not_finite(struct gm_formula *graph, gm_node_id part, const void *values)
+{
+    return graph->places[part] != GM_NO_PLACE && !isfinite(((const double *)values)[part]);
+}
+
 /* The offset of the first written part of a node that is not finite; 0: no such part. */
 static size_t first_not_finite(struct gm_user_system *system, gm_node_id node, const double *values)
 {
-    size_t place = 0, count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    for (size_t k = 0; parts && k < count && place == 0; k++) {
-        const bool written = system->graph.places[parts[k]] != GM_NO_PLACE;
-        place = written && !isfinite(values[parts[k]]) ? system->graph.places[parts[k]] : 0;
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return place;
+    const gm_node_id part = gm_formula_first(&system->graph, node, is_not_finite, values);
+    return part == GM_NO_NODE ? 0 : system->graph.places[part];
 }
 
-/* The rank of a matrix (rows * columns), which is overwritten, by elimination with complete pivoting. */
-static size_t rank_of(double *a, size_t rows, size_t columns)
+/* The rank of a matrix, which is overwritten, and the first column that depends on those before it; `columns`
+   without one. */
+static size_t rank_of(double *matrix, size_t rows, size_t columns, size_t *dependent)
 {
-    const double least = 1e-10;
     double largest = 0;
-    for (size_t rank = 0; rank < rows && rank < columns; rank++) {
-        size_t row = rank, column = rank;
+    size_t rank = 0;
+    *dependent = columns;
+    for (size_t i = 0; i < rows * columns; i++) {
+        largest = fmax(largest, fabs(matrix[i]));
+    }
+    for (size_t column = 0; column < columns; column++) {
+        size_t pivot = rank;
         for (size_t i = rank; i < rows; i++) {
-            for (size_t j = rank; j < columns; j++) {
-                if (fabs(a[i * columns + j]) > fabs(a[row * columns + column])) {
-                    row = i;
-                    column = j;
-                }
-            }
+            pivot = fabs(matrix[i * columns + column]) > fabs(matrix[pivot * columns + column]) ? i : pivot;
         }
-        largest = rank == 0 ? fabs(a[row * columns + column]) : largest;
-        if (!(fabs(a[row * columns + column]) > least * largest)) {
-            return rank;
+        if (rank == rows || !(fabs(matrix[pivot * columns + column]) > 1e-10 * largest)) {
+            *dependent = *dependent < columns ? *dependent : column;
+            continue;
         }
-        for (size_t j = 0; j < columns; j++) {
-            const double kept = a[row * columns + j];
-            a[row * columns + j] = a[rank * columns + j];
-            a[rank * columns + j] = kept;
-        }
-        for (size_t i = 0; i < rows; i++) {
-            const double kept = a[i * columns + column];
-            a[i * columns + column] = a[i * columns + rank];
-            a[i * columns + rank] = kept;
+        for (size_t j = column; j < columns; j++) {
+            const double kept = matrix[pivot * columns + j];
+            matrix[pivot * columns + j] = matrix[rank * columns + j];
+            matrix[rank * columns + j] = kept;
         }
         for (size_t i = rank + 1; i < rows; i++) {
-            const double factor = a[i * columns + rank] / a[rank * columns + rank];
-            for (size_t j = rank; j < columns; j++) {
-                a[i * columns + j] -= factor * a[rank * columns + j];
+            const double factor = matrix[i * columns + column] / matrix[rank * columns + column];
+            for (size_t j = column; j < columns; j++) {
+                matrix[i * columns + j] -= factor * matrix[rank * columns + j];
             }
         }
+        rank++;
     }
-    return rows < columns ? rows : columns;
+    return rank;
 }
 
 /* The start must satisfy the constraints, with rates 0; and constraints must be independent. */
@@ -780,12 +752,11 @@ static bool check_constraints(struct gm_user_system *system, const double *start
 {
     const size_t half = system->n / 2;
     size_t count = 0, last = 0;
+    const struct gm_system_item *item;
     gm_node_id *nodes = malloc((system->item_count + 1) * sizeof *nodes);
-    for (size_t i = 0; nodes && i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            nodes[count++] = system->items[i].nodes[0];
-            last = i;
-        }
+    for (; nodes && (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, count)); count++) {
+        nodes[count] = item->nodes[0];
+        last = item->place;
     }
     bool *marked = calloc(system->variable_count, sizeof *marked);
     struct gm_sparse slopes = {0};
@@ -795,12 +766,12 @@ static bool check_constraints(struct gm_user_system *system, const double *start
     double *matrix = calloc(count * half + count + 1, sizeof *matrix), *values = NULL;
     if (nodes && marked && matrix &&
         gm_sparse_jacobian(&system->graph, nodes, count, marked, system->variable_count, &slopes)) {
-        values = values_for(system, start);
+        values = gm_equations_values(system, start);
     }
     bool good = true;
-    for (size_t i = 0; i < system->item_count && good && !system->graph.failed; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        good = item->word != GM_WORD_CONSTRAINT || is_of_components(system, item->nodes[0], system->n / 2) ||
+    for (size_t k = 0; good && k < count && !system->graph.failed; k++) {
+        item = gm_system_item_of(system, GM_WORD_CONSTRAINT, k);
+        good = is_of_components(system, item->nodes[0], half) ||
                gm_fail(fault, item->place, "a constraint holds coordinates and parameters alone");
     }
     if (values && good) {
@@ -812,11 +783,8 @@ static bool check_constraints(struct gm_user_system *system, const double *start
             matrix[slope->row * half + slope->column] = values[slope->node];
             rates[slope->row] += values[slope->node] * velocity;
         }
-        for (size_t i = 0, k = 0; i < system->item_count && good; i++) {
-            const struct gm_system_item *item = &system->items[i];
-            if (item->word != GM_WORD_CONSTRAINT) {
-                continue;
-            }
+        for (size_t k = 0; k < count && good; k++) {
+            item = gm_system_item_of(system, GM_WORD_CONSTRAINT, k);
             good = fabs(values[item->nodes[0]]) <= 1e-10 ||
                    gm_fail(fault, item->place, "the start breaks this constraint: it is %g, not 0",
                            values[item->nodes[0]]);
@@ -824,10 +792,10 @@ static bool check_constraints(struct gm_user_system *system, const double *start
                    (fabs(rates[k]) <= 1e-10 ||
                     gm_fail(fault, item->place,
                             "the start breaks this constraint: its rate of change is %g, not 0", rates[k]));
-            k++;
         }
-        const size_t rank = good ? rank_of(matrix, count, half) : count;
-        good = good && (rank == count || gm_fail(fault, system->items[last].place,
+        size_t dependent;
+        const size_t rank = good ? rank_of(matrix, count, half, &dependent) : count;
+        good = good && (rank == count || gm_fail(fault, last,
                                                  "the constraints depend on each other at the start: the "
                                                  "derivatives of %zu have the rank %zu",
                                                  count, rank));
@@ -844,30 +812,23 @@ static bool check_constraints(struct gm_user_system *system, const double *start
 /* A density of steps must be positive and depend on the state alone. */
 static bool check_monitor(struct gm_user_system *system, const double *values, struct gm_fault *fault)
 {
-    bool good = true;
-    for (size_t i = 0; i < system->item_count && good; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word != GM_WORD_MONITOR) {
-            continue;
-        }
-        const double density = values[item->nodes[0]];
-        good = is_of_components(system, item->nodes[0], system->n) ||
-               gm_fail(fault, item->place, "a monitor holds %s and parameters alone",
+    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_MONITOR, 0);
+    if (item && !is_of_components(system, item->nodes[0], system->n)) {
+        return gm_fail(fault, item->place, "a monitor holds %s and parameters alone",
                        system->kind <= GM_LAGRANGIAN ? "coordinates, momenta" : "components");
-        good = good &&
-               ((density > 0 && isfinite(density)) ||
-                gm_fail(fault, item->place,
-                        "the monitor is %g at the start: how dense steps are is a number above 0", density));
     }
-    return good;
+    const double density = item ? values[item->nodes[0]] : 1;
+    return (density > 0 && isfinite(density)) ||
+           gm_fail(fault, item->place,
+                   "the monitor is %g at the start: how dense steps are is a number above 0", density);
 }
 
 /* Half axes must be positive. */
 static bool check_sizes(struct gm_user_system *system, const double *values, struct gm_fault *fault)
 {
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        for (size_t k = 0; k < item->count && item->word == GM_WORD_SURFACE; k++) {
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_SURFACE, i)); i++) {
+        for (size_t k = 0; k < item->count; k++) {
             const double size = values[item->nodes[k]];
             if (!(size > 0 && isfinite(size))) {
                 return gm_fail(fault, item->place, "the size of a surface is %g, and has to be above 0",
@@ -878,18 +839,10 @@ static bool check_sizes(struct gm_user_system *system, const double *values, str
     return true;
 }
 
-/* The first variable in a formula without a start value; variable_count: no such variable. */
-static size_t unknown_at_start(struct gm_user_system *system, gm_node_id node, const double *start)
+static bool is_unknown(struct gm_formula *graph, gm_node_id part, const void *start)
 {
-    size_t count = 0, unknown = system->variable_count;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    for (size_t k = 0; parts && k < count && unknown == system->variable_count; k++) {
-        const struct gm_node *part = &system->graph.nodes[parts[k]];
-        unknown = part->operation == GM_VARIABLE && !isfinite(start[part->a]) ? part->a : unknown;
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return unknown;
+    const struct gm_node *node = &graph->nodes[part];
+    return node->operation == GM_VARIABLE && !isfinite(((const double *)start)[node->a]);
 }
 
 /* Reports a start that is not finite, whose variables all are; if every start waits for another, they form a
@@ -903,14 +856,15 @@ static bool check_values(struct gm_user_system *system, const double *start, con
         if (isfinite(start[i])) {
             continue;
         }
-        const size_t other = variable->start == GM_NO_NODE ? system->variable_count
-                                                           : unknown_at_start(system, variable->start, start);
-        if (other == system->variable_count) {
+        const gm_node_id other = variable->start == GM_NO_NODE
+                                     ? GM_NO_NODE
+                                     : gm_formula_first(&system->graph, variable->start, is_unknown, start);
+        if (other == GM_NO_NODE) {
             return gm_fail(
                 fault, variable->start == GM_NO_NODE ? 0 : first_not_finite(system, variable->start, values),
                 "%.60s is not finite at the start", variable->name);
         }
-        waits_for = waiting == system->n ? other : waits_for;
+        waits_for = waiting == system->n ? system->graph.nodes[other].a : waits_for;
         waiting = waiting == system->n ? i : waiting;
     }
     if (waiting == system->n) {
@@ -938,10 +892,11 @@ static bool check_looked_at(struct gm_user_system *system, const double *values,
 
 static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
 {
-    double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
+    double *start = gm_equations_start(system, NULL),
+           *values = start ? gm_equations_values(system, start) : NULL;
     bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
     good = good && (!values || check_values(system, start, values, fault));
-    if (values && good && has(system, GM_WORD_CONSTRAINT)) {
+    if (values && good && gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
         good = check_constraints(system, start, fault);
     }
     for (size_t i = 0; values && good && i < system->n; i++) {
@@ -977,26 +932,14 @@ static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
 static bool holds_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
                        const char *what, struct gm_fault *fault)
 {
-    size_t part_count = 0;
-    bool good = true;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &part_count);
-    for (size_t i = 0; parts && i < part_count && good; i++) {
-        const struct gm_node *part = &system->graph.nodes[parts[i]];
-        const bool moves =
-            part->operation == GM_VARIABLE && (part->a < system->parameters || part->a >= system->velocities);
-        size_t k = 0;
-        while (moves && k < count && numbers[k] != part->a) {
-            k++;
-        }
-        if (moves && k == count) {
-            const uint32_t place = system->graph.places[node];
-            good = gm_fail(fault, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
-                           system->variables[part->a].name);
-        }
+    const struct allowed allowed = {system, 0, numbers, count};
+    const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
+    if (part == GM_NO_NODE) {
+        return true;
     }
-    system->graph.failed |= !parts;
-    free(parts);
-    return good;
+    const uint32_t place = system->graph.places[node];
+    return gm_fail(fault, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
+                   system->variables[system->graph.nodes[part].a].name);
 }
 
 /* V and S may have corners in parameters only, which are constant. */
@@ -1076,11 +1019,8 @@ bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_no
 static bool check_masses(struct gm_user_system *system, struct gm_fault *fault)
 {
     bool known[GM_MOST_FIELDS] = {false};
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word != GM_WORD_MASS) {
-            continue;
-        }
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_MASS, i)); i++) {
         const size_t field = gm_system_mass_field(system, item->nodes[0]);
         if (field == system->n) {
             return gm_fail(fault, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
@@ -1151,8 +1091,7 @@ static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault
                     return gm_fail(fault, places[at], "an entry of %s is not a finite number", names[which]);
                 }
             }
-            const gm_node_id sum =
-                gm_simplified(&system->graph, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
+            const gm_node_id sum = gm_sum(&system->graph, entries[i * n + j], entries[j * n + i]);
             if (system->graph.failed) {
                 return false;
             }
@@ -1167,35 +1106,6 @@ static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault
         }
     }
     return true;
-}
-
-/* The number of a component that a singular matrix leaves free; n: it is regular. Overwrites the matrix. */
-static size_t free_component(double *matrix, size_t n)
-{
-    double largest = 0;
-    bool used[GM_MOST_OF_MATRICES] = {false};
-    for (size_t i = 0; i < n * n; i++) {
-        largest = fmax(largest, fabs(matrix[i]));
-    }
-    for (size_t column = 0; column < n; column++) {
-        size_t pivot = n;
-        for (size_t i = 0; i < n; i++) {
-            if (!used[i] && (pivot == n || fabs(matrix[i * n + column]) > fabs(matrix[pivot * n + column]))) {
-                pivot = i;
-            }
-        }
-        if (!(fabs(matrix[pivot * n + column]) > 1e-10 * largest)) {
-            return column;
-        }
-        used[pivot] = true;
-        for (size_t i = 0; i < n; i++) {
-            const double factor = used[i] ? 0 : matrix[i * n + column] / matrix[pivot * n + column];
-            for (size_t j = column; j < n && factor != 0; j++) {
-                matrix[i * n + j] -= factor * matrix[pivot * n + j];
-            }
-        }
-    }
-    return n;
 }
 
 /* True if a K + b L - S'' is regular for some a and b at some point: else a component lacks an equation. */
@@ -1227,7 +1137,7 @@ static bool is_determined(struct gm_user_system *system, struct gm_fault *fault)
         for (size_t i = 0; i < hessian.count; i++) {
             matrix[hessian.entries[i].row * n + hessian.entries[i].column] -= all[hessian.entries[i].node];
         }
-        free_one = free_component(matrix, n);
+        rank_of(matrix, n, n, &free_one);
     }
     good =
         all && (free_one == n ||
@@ -1276,12 +1186,15 @@ bool gm_equations_open(struct gm_user_system *system, const char *text, size_t l
 {
     const bool good =
         gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
+    bool named = false;
     for (size_t i = system->choices.count; i > 0 && !good && fault->sentence[0]; i--) {
         const struct gm_written_choice *choice = &system->choices.list[i - 1];
         const struct gm_fault plain = *fault;
         if (choice->chosen != choice->standard) {
-            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s: %.240s", choice->name,
-                     choice->words[choice->chosen], plain.sentence);
+            snprintf(fault->sentence, sizeof fault->sentence, "with %s=%s%s%.240s", choice->name,
+                     choice->words[choice->chosen], named ? ", " : ": ",
+                     plain.sentence + (named ? strlen("with ") : 0));
+            named = true;
         }
     }
     return good;

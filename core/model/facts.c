@@ -46,23 +46,24 @@ static bool depends(struct gm_user_system *system, gm_node_id node, const bool *
     return gm_formula_holds(&system->graph, node, marked, system->variable_count);
 }
 
-/* True if the node has a kink, or a root that may be one, that depends on each of the sets: derivatives
-   vanish on both sides of it, and prove nothing. */
-static bool has_kink(struct gm_user_system *system, gm_node_id node, const bool *const *sets, size_t depth)
+/* Sets of marked variables. */
+struct sets {
+    struct gm_user_system *system;
+    const bool *const *sets;
+    size_t depth;
+};
+
+/* True for a kink, or a root that may be one, that depends on each of the sets: derivatives vanish on both
+   sides of it, and prove nothing. */
+static bool is_kink(struct gm_formula *graph, gm_node_id part, const void *data)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    bool found = false;
-    for (size_t i = 0; i < count && !found; i++) {
-        const enum gm_operation operation = system->graph.nodes[parts[i]].operation;
-        found = operation > GM_VARIABLE &&
-                (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
-        for (size_t k = 0; k < depth && found; k++) {
-            found = depends(system, parts[i], sets[k]);
-        }
+    const struct sets *sets = data;
+    const enum gm_operation operation = graph->nodes[part].operation;
+    bool found =
+        operation > GM_VARIABLE && (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
+    for (size_t k = 0; k < sets->depth && found; k++) {
+        found = depends(sets->system, part, sets->sets[k]);
     }
-    system->graph.failed |= !parts;
-    free(parts);
     return found;
 }
 
@@ -77,11 +78,7 @@ static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node,
         return GM_ZERO_PROVED;
     }
     enum gm_identity all = GM_ZERO_PROVED;
-    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
-    if (!gradient || !gm_gradient(&system->graph, node, sets[0], system->variable_count, gradient)) {
-        system->graph.failed = true;
-        all = GM_UNTESTED;
-    }
+    gm_node_id *gradient = gm_equations_gradient(system, node, sets[0]);
     for (size_t i = 0; i < system->variable_count && all != GM_NOT_ZERO && !system->graph.failed; i++) {
         const bool is_zero = !sets[0][i] || gm_is_constant(&system->graph, gradient[i], 0);
         const enum gm_identity found =
@@ -89,7 +86,11 @@ static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node,
         all = found == GM_ZERO_PROVED ? all : found;
     }
     free(gradient);
-    return all != GM_NOT_ZERO && has_kink(system, node, sets, depth) ? GM_NOT_ZERO : all;
+    all = system->graph.failed ? GM_UNTESTED : all;
+    const struct sets of = {system, sets, depth};
+    const bool kinked =
+        all != GM_NOT_ZERO && gm_formula_first(&system->graph, node, is_kink, &of) != GM_NO_NODE;
+    return kinked ? GM_NOT_ZERO : all;
 }
 
 /* A term of a sum: coefficient * node; the coefficient is free of components. */
@@ -97,17 +98,17 @@ struct term {
     gm_node_id node, coefficient;
 };
 
-/* The terms of a node as a sum, at most MOST_TERMS. The caller frees; NULL when out of memory. */
+/* The terms of a node as a sum, at most MOST_TERMS; none when out of memory. */
 static struct term *terms_of(struct gm_user_system *system, gm_node_id root, const bool *components,
                              size_t *count)
 {
     struct gm_formula *graph = &system->graph;
     bool *dependent = gm_formula_dependent(graph, components, system->variable_count);
-    struct term *terms = malloc((MOST_TERMS + 1) * sizeof *terms);
-    struct term *stack = malloc((MOST_TERMS + 1) * sizeof *stack);
+    struct term *terms = gm_arena_take(system->arena, 2 * (MOST_TERMS + 1), sizeof *terms),
+                *stack = terms ? terms + MOST_TERMS + 1 : NULL;
     size_t depth = 0;
     *count = 0;
-    if (dependent && terms && stack) {
+    if (dependent && terms) {
         stack[depth++] = (struct term){root, gm_formula_constant(graph, 1)};
     }
     while (depth > 0 && !graph->failed) {
@@ -117,15 +118,13 @@ static struct term *terms_of(struct gm_user_system *system, gm_node_id root, con
         switch (is_last ? GM_CONSTANT : here.operation) {
         case GM_OPERATION_ADD:
         case GM_OPERATION_SUBTRACT:
-            stack[depth++] = (struct term){
-                here.b, here.operation == GM_OPERATION_ADD
-                            ? top.coefficient
-                            : gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] = (struct term){here.b, here.operation == GM_OPERATION_ADD
+                                                       ? top.coefficient
+                                                       : gm_negative(&system->graph, top.coefficient)};
             stack[depth++] = (struct term){here.a, top.coefficient};
             continue;
         case GM_OPERATION_NEGATE:
-            stack[depth++] =
-                (struct term){here.a, gm_simplified(&system->graph, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] = (struct term){here.a, gm_negative(&system->graph, top.coefficient)};
             continue;
         case GM_OPERATION_MULTIPLY:
         case GM_OPERATION_DIVIDE:
@@ -135,8 +134,7 @@ static struct term *terms_of(struct gm_user_system *system, gm_node_id root, con
                 continue;
             }
             if (here.operation == GM_OPERATION_MULTIPLY && !dependent[here.a]) {
-                stack[depth++] = (struct term){
-                    here.b, gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, top.coefficient, here.a)};
+                stack[depth++] = (struct term){here.b, gm_product(&system->graph, top.coefficient, here.a)};
                 continue;
             }
             break;
@@ -145,14 +143,9 @@ static struct term *terms_of(struct gm_user_system *system, gm_node_id root, con
         }
         terms[(*count)++] = top;
     }
-    graph->failed |= !dependent || !terms || !stack;
+    graph->failed |= !dependent || !terms;
     free(dependent);
-    free(stack);
-    if (graph->failed) {
-        free(terms);
-        terms = NULL;
-        *count = 0;
-    }
+    *count = graph->failed ? 0 : *count;
     return terms;
 }
 
@@ -168,7 +161,6 @@ static gm_node_id culprit(struct gm_user_system *system, gm_node_id node, const 
          i++) {
         found = vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO ? terms[i].node : GM_NO_NODE;
     }
-    free(terms);
     return found == GM_NO_NODE ? node : found;
 }
 
@@ -208,25 +200,24 @@ static void find_split(struct gm_user_system *system, struct gm_finding *finding
     }
 }
 
-/* derivative over variable i, the only marked one; any node when out of memory */
-static gm_node_id slope_of(struct gm_user_system *system, gm_node_id node, const bool *own, size_t i)
+/* Derivative over variable i; any node when out of memory. `own` marks no variable. */
+static gm_node_id slope_of(struct gm_user_system *system, gm_node_id node, bool *own, size_t i)
 {
-    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient), slope = 0;
-    if (gradient && gm_gradient(&system->graph, node, own, system->variable_count, gradient)) {
-        slope = gradient[i];
-    }
-    system->graph.failed |= !gradient;
+    own[i] = true;
+    gm_node_id *gradient = gm_equations_gradient(system, node, own);
+    own[i] = false;
+    const gm_node_id slope = gradient ? gradient[i] : 0;
     free(gradient);
     return slope;
 }
 
-static bool is_held(const struct gm_user_system *system)
+/* True if a node depends on variable i. `own` marks no variable. */
+static bool depends_on(struct gm_user_system *system, gm_node_id node, bool *own, size_t i)
 {
-    bool held = false;
-    for (size_t i = 0; i < system->item_count; i++) {
-        held |= system->items[i].word == GM_WORD_CONSTRAINT;
-    }
-    return held;
+    own[i] = true;
+    const bool depending = depends(system, node, own);
+    own[i] = false;
+    return depending;
 }
 
 /* True if the system has unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and no forces. Else the
@@ -237,7 +228,7 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
     const size_t half = system->n / 2;
     const bool lagrangian = system->kind == GM_LAGRANGIAN;
     const size_t first = lagrangian ? system->velocities : half;
-    if (is_held(system)) {
+    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
         deny(finding, GM_NO_NODE, "it has constraints");
         return false;
     }
@@ -254,24 +245,19 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
     for (size_t i = 0; i < half && finding->holds && !system->graph.failed; i++) {
         const gm_node_id p = gm_formula_variable(&system->graph, first + i);
         const gm_node_id slope = lagrangian ? system->momenta[i] : system->rates[i];
-        conclude(finding, gm_equations_vanishes(
-                              system, gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, slope, p)));
+        conclude(finding, gm_equations_vanishes(system, gm_difference(&system->graph, slope, p)));
         size_t count = 0;
         struct term *terms = finding->holds ? NULL : terms_of(system, system->energy, all, &count);
-        own[first + i] = true;
         finding->why = lagrangian ? "is not of |v|^2/2" : "is not of |p|^2/2";
         for (size_t k = 0; k < count && k < MOST_TRIED && finding->term == GM_NO_NODE; k++) {
-            if (depends(system, terms[k].node, own)) {
-                const gm_node_id part =
-                    gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
-                                  slope_of(system, terms[k].node, own, first + i));
-                const gm_node_id rest = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, part, p);
+            if (depends_on(system, terms[k].node, own, first + i)) {
+                const gm_node_id part = gm_product(&system->graph, terms[k].coefficient,
+                                                   slope_of(system, terms[k].node, own, first + i));
+                const gm_node_id rest = gm_difference(&system->graph, part, p);
                 finding->term =
                     gm_equations_vanishes(system, rest) == GM_NOT_ZERO ? terms[k].node : GM_NO_NODE;
             }
         }
-        own[first + i] = false;
-        free(terms);
     }
     if (!finding->holds && finding->term == GM_NO_NODE) {
         finding->why = lagrangian ? "the kinetic energy is not |v|^2/2" : "the kinetic energy is not |p|^2/2";
@@ -282,14 +268,13 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
 /* a node with `count` variables from `first` on set to 0 */
 static gm_node_id at_zero(struct gm_user_system *system, gm_node_id node, size_t first, size_t count)
 {
-    gm_node_id *replacement = malloc(system->variable_count * sizeof *replacement);
+    gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count);
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; replacement && i < system->variable_count; i++) {
-        replacement[i] = i >= first && i < first + count ? zero : GM_NO_NODE;
+    for (size_t i = first; replacement && i < first + count; i++) {
+        replacement[i] = zero;
     }
     system->graph.failed |=
         !replacement || !gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
-    free(replacement);
     return node;
 }
 
@@ -297,21 +282,17 @@ static gm_node_id at_zero(struct gm_user_system *system, gm_node_id node, size_t
 static gm_node_id potential_of(struct gm_user_system *system)
 {
     return system->kind == GM_LAGRANGIAN
-               ? gm_simplified(&system->graph, GM_OPERATION_NEGATE,
-                               at_zero(system, system->energy, system->velocities, system->n / 2), 0)
+               ? gm_negative(&system->graph,
+                             at_zero(system, system->energy, system->velocities, system->n / 2))
                : at_zero(system, system->energy, system->n / 2, system->n / 2);
 }
 
-/* values of all nodes at the start, freed by the caller */
+/* values of all nodes at the start */
 static double *values_at_start(struct gm_user_system *system)
 {
-    double *start = gm_equations_start(system, NULL);
-    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
-    if (start && values) {
-        gm_formula_evaluate(&system->graph, system->graph.count, start, values);
-    } else {
-        system->graph.failed = true;
-    }
+    double *start = gm_equations_start(system, NULL),
+           *values = start ? gm_arena_keep(system->arena, gm_equations_values(system, start), free) : NULL;
+    system->graph.failed |= !values;
     free(start);
     return values;
 }
@@ -319,13 +300,10 @@ static double *values_at_start(struct gm_user_system *system)
 /* forces[i] = -d node / d q_i */
 static void forces_of(struct gm_user_system *system, gm_node_id node, const bool *q, gm_node_id *forces)
 {
-    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
-    if (gradient && gm_gradient(&system->graph, node, q, system->variable_count, gradient)) {
-        for (size_t i = 0; i < system->n / 2; i++) {
-            forces[i] = gm_simplified(&system->graph, GM_OPERATION_NEGATE, gradient[i], 0);
-        }
+    gm_node_id *gradient = gm_equations_gradient(system, node, q);
+    for (size_t i = 0; gradient && i < system->n / 2; i++) {
+        forces[i] = gm_negative(&system->graph, gradient[i]);
     }
-    system->graph.failed |= !gradient;
     free(gradient);
 }
 
@@ -335,11 +313,11 @@ struct well {
     gm_node_id slope, stiffness;
 };
 
-/* The wells of all terms, freed by the caller. A stiffness that depends on the state makes none. */
+/* The wells of all terms. A stiffness that depends on the state makes none. */
 static struct well *wells_of(struct gm_user_system *system, const struct term *terms, size_t count,
                              const bool *q, const bool *all, bool *own)
 {
-    struct well *wells = malloc((count + 1) * sizeof *wells);
+    struct well *wells = gm_arena_take(system->arena, count + 1, sizeof *wells);
     const size_t most = system->graph.count + MOST_GROWN;
     system->graph.failed |= !wells;
     for (size_t k = 0; k < count && !system->graph.failed; k++) {
@@ -360,11 +338,9 @@ static struct well *wells_of(struct gm_user_system *system, const struct term *t
             continue;
         }
         const size_t i = well->coordinate;
-        own[i] = true;
-        well->slope = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient,
-                                    slope_of(system, terms[k].node, own, i));
+        well->slope =
+            gm_product(&system->graph, terms[k].coefficient, slope_of(system, terms[k].node, own, i));
         well->stiffness = slope_of(system, well->slope, own, i);
-        own[i] = false;
         well->coordinate = depends(system, well->stiffness, all) ? SIZE_MAX : i;
     }
     return wells;
@@ -381,7 +357,7 @@ static void find_fast_linear(struct gm_user_system *system, struct gm_finding *f
     struct term *terms = terms_of(system, potential, all, &count);
     struct well *wells = wells_of(system, terms, count, q, all, own);
     double *values = graph->failed ? NULL : values_at_start(system);
-    gm_node_id slow = zero, *squares = malloc((2 * half + 1) * sizeof *squares),
+    gm_node_id slow = zero, *squares = gm_arena_take(system->arena, 2 * half + 1, sizeof *squares),
                *rest = squares ? squares + half : NULL;
     graph->failed |= !squares;
     for (size_t i = 0; i < half && !graph->failed; i++) {
@@ -390,14 +366,12 @@ static void find_fast_linear(struct gm_user_system *system, struct gm_finding *f
     for (size_t k = 0; k < count && !graph->failed; k++) {
         const size_t i = wells[k].coordinate;
         if (i == SIZE_MAX || !(values[wells[k].stiffness] > 0)) {
-            slow = gm_simplified(
-                &system->graph, GM_OPERATION_ADD, slow,
-                gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node));
+            slow =
+                gm_sum(&system->graph, slow, gm_product(&system->graph, terms[k].coefficient, terms[k].node));
             continue;
         }
-        squares[i] = gm_simplified(&system->graph, GM_OPERATION_ADD, squares[i], wells[k].stiffness);
-        rest[i] =
-            gm_simplified(&system->graph, GM_OPERATION_ADD, rest[i], at_zero(system, wells[k].slope, i, 1));
+        squares[i] = gm_sum(&system->graph, squares[i], wells[k].stiffness);
+        rest[i] = gm_sum(&system->graph, rest[i], at_zero(system, wells[k].slope, i, 1));
         frequencies++;
     }
     if (frequencies == 0 && !graph->failed) {
@@ -411,14 +385,10 @@ static void find_fast_linear(struct gm_user_system *system, struct gm_finding *f
         for (size_t i = 0; i < half; i++) {
             nodes[i] =
                 squares[i] == zero ? zero : gm_simplified(&system->graph, GM_OPERATION_SQRT, squares[i], 0);
-            nodes[half + i] = gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, nodes[half + i], rest[i]);
+            nodes[half + i] = gm_difference(&system->graph, nodes[half + i], rest[i]);
         }
         finding->nodes = nodes;
     }
-    free(terms);
-    free(wells);
-    free(values);
-    free(squares);
 }
 
 /* Finds the term -1/|q|; the others are the perturbation. */
@@ -428,28 +398,25 @@ static void find_kepler_split(struct gm_user_system *system, struct gm_finding *
     size_t count = 0;
     struct term *terms = terms_of(system, potential, all, &count);
     const gm_node_id x = gm_formula_variable(&system->graph, 0), y = gm_formula_variable(&system->graph, 1);
-    const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_ADD,
-                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, x, x),
-                                            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, y, y));
+    const gm_node_id square =
+        gm_sum(&system->graph, gm_product(&system->graph, x, x), gm_product(&system->graph, y, y));
     const gm_node_id inverse =
         gm_simplified(&system->graph, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
                       gm_simplified(&system->graph, GM_OPERATION_SQRT, square, 0));
     gm_node_id perturbation = gm_formula_constant(&system->graph, 0), other = GM_NO_NODE;
     bool found = false;
     for (size_t k = 0; k < count && !system->graph.failed; k++) {
-        const gm_node_id term =
-            gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node);
+        const gm_node_id term = gm_product(&system->graph, terms[k].coefficient, terms[k].node);
         const bool held = depends(system, terms[k].node, q);
         const enum gm_identity is_kepler =
             found || !held || k >= MOST_TRIED
                 ? GM_NOT_ZERO
-                : gm_equations_vanishes(system,
-                                        gm_simplified(&system->graph, GM_OPERATION_ADD, term, inverse));
+                : gm_equations_vanishes(system, gm_sum(&system->graph, term, inverse));
         if (is_kepler == GM_ZERO_PROVED || is_kepler == GM_ZERO_TESTED) {
             conclude(finding, is_kepler);
             found = true;
         } else {
-            perturbation = gm_simplified(&system->graph, GM_OPERATION_ADD, perturbation, term);
+            perturbation = gm_sum(&system->graph, perturbation, term);
             other = held && other == GM_NO_NODE ? terms[k].node : other;
         }
     }
@@ -462,17 +429,15 @@ static void find_kepler_split(struct gm_user_system *system, struct gm_finding *
         deny(finding, GM_NO_NODE, "the potential is not negative at the start");
     }
     finding->nodes = nodes;
-    free(values);
-    free(terms);
 }
 
 /* V, V', V'' */
 static void find_one_degree(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
-                            gm_node_id *nodes, const bool *q)
+                            gm_node_id *nodes, bool *own)
 {
     nodes[0] = potential;
-    nodes[1] = slope_of(system, nodes[0], q, 0);
-    nodes[2] = slope_of(system, nodes[1], q, 0);
+    nodes[1] = slope_of(system, nodes[0], own, 0);
+    nodes[2] = slope_of(system, nodes[1], own, 0);
     finding->nodes = nodes;
 }
 
@@ -500,21 +465,13 @@ static void find_conformal(struct gm_user_system *system, struct gm_finding *fin
             gm_equations_in_velocities(system, &force, 1);
         }
         if (i == 0) {
-            own[first] = true;
-            nodes[0] = gm_simplified(&system->graph, GM_OPERATION_NEGATE,
-                                     gm_simplified(&system->graph, GM_OPERATION_DIVIDE,
-                                                   slope_of(system, force, own, first),
-                                                   slope_of(system, p, own, first)),
-                                     0);
-            own[first] = false;
+            nodes[0] = gm_negative(&system->graph, gm_simplified(&system->graph, GM_OPERATION_DIVIDE,
+                                                                 slope_of(system, force, own, first),
+                                                                 slope_of(system, p, own, first)));
         }
-        const gm_node_id rest =
-            gm_simplified(&system->graph, GM_OPERATION_ADD, force,
-                          gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, nodes[0], p));
+        const gm_node_id rest = gm_sum(&system->graph, force, gm_product(&system->graph, nodes[0], p));
         conclude(finding, gm_equations_vanishes(system, rest));
-        own[system->n] = true;
-        const bool varies = depends(system, nodes[0], all) || depends(system, nodes[0], own);
-        own[system->n] = false;
+        const bool varies = depends(system, nodes[0], all) || depends_on(system, nodes[0], own, system->n);
         if (!finding->holds || varies) {
             deny(finding, written, i == 0 ? changes : NULL);
         }
@@ -545,7 +502,7 @@ static void find_mechanical(struct gm_user_system *system, struct gm_finding *fi
         find_kepler_split(system, &findings[GM_FACT_KEPLER_SPLIT], potential, nodes + n, q, all);
     }
     if (holds && n == 2) {
-        find_one_degree(system, &findings[GM_FACT_LAGRANGIAN], potential, nodes + n + 3, q);
+        find_one_degree(system, &findings[GM_FACT_LAGRANGIAN], potential, nodes + n + 3, own);
     }
     double *values = holds && !system->graph.failed ? values_at_start(system) : NULL;
     for (size_t i = 0; i < sizeof facts / sizeof *facts && values && !system->graph.failed; i++) {
@@ -557,7 +514,6 @@ static void find_mechanical(struct gm_user_system *system, struct gm_finding *fi
             }
         }
     }
-    free(values);
 }
 
 static void find_of_rates(struct gm_user_system *system, struct gm_finding *findings, const bool *components,
@@ -566,10 +522,9 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
     struct gm_finding *volume = &findings[GM_FACT_VOLUME], *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
     const bool *const thrice[] = {components, components, components}, *const once[] = {own};
     gm_node_id sum = gm_formula_constant(&system->graph, 0);
-    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
     findings[GM_FACT_LINEAR].asked = findings[GM_FACT_QUADRATIC].asked = true;
     volume->asked = divergence->asked = true;
-    for (size_t i = 0; gradient && i < system->n && !system->graph.failed; i++) {
+    for (size_t i = 0; i < system->n && !system->graph.failed; i++) {
         const gm_node_id rate = system->rates[i];
         for (size_t degree = 1; degree <= 2; degree++) {
             struct gm_finding *polynomial = &findings[degree == 1 ? GM_FACT_LINEAR : GM_FACT_QUADRATIC];
@@ -580,93 +535,84 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
                     polynomial->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, degree + 1);
             }
         }
-        own[i] = true;
-        if (!depends(system, rate, own)) { /* excludes most rates before a longer test */
-            own[i] = false;
+        if (!depends_on(system, rate, own, i)) { /* excludes most rates before a longer test */
             continue;
         }
+        own[i] = true;
         if (volume->holds) {
             conclude(volume, vanishes(system, rate, once, 1));
             volume->component = i;
             volume->term = volume->holds ? GM_NO_NODE : culprit(system, rate, components, once, 1);
         }
-        if (gm_gradient(&system->graph, rate, own, system->variable_count, gradient)) {
-            sum = gm_simplified(&system->graph, GM_OPERATION_ADD, sum, gradient[i]);
-        }
         own[i] = false;
+        sum = gm_sum(&system->graph, sum, slope_of(system, rate, own, i));
     }
-    system->graph.failed |= !gradient;
-    free(gradient);
     conclude(divergence, gm_equations_vanishes(system, sum));
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
-/* True if equations depend on the time, or have an operation that is not smooth: one pass for all. */
-static bool has_remarkable(struct gm_user_system *system)
+static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
 {
-    gm_node_id *roots = malloc((system->n + 1) * sizeof *roots);
+    (void)graph;
+    return part == *(const gm_node_id *)node;
+}
+
+/* Denies a finding that a node breaks, with the first of the roots that depends on it. */
+static void deny_by(struct gm_user_system *system, struct gm_finding *finding, gm_node_id node,
+                    const gm_node_id *roots)
+{
+    size_t i = 0;
+    finding->asked = true;
+    while (i < system->n && node != GM_NO_NODE &&
+           (roots[i] == GM_NO_NODE ||
+            gm_formula_first(&system->graph, roots[i], is_node, &node) == GM_NO_NODE)) {
+        i++;
+    }
+    if (node != GM_NO_NODE) {
+        *finding = (struct gm_finding){true, false, GM_NOT_ZERO, node, i, NULL, NULL};
+    }
+}
+
+/* Finds the first operation of all equations that is not smooth, and the time; written nodes precede derived
+   ones. */
+static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
+{
     size_t count = 0, part_count = 0;
+    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, *roots = malloc((system->n + 1) * sizeof *roots);
     for (size_t i = 0; roots && i < system->n; i++) {
-        if (system->rates[i] != GM_NO_NODE) {
-            roots[count++] = system->rates[i];
-        }
+        roots[count] = system->rates[i];
+        count += roots[count] != GM_NO_NODE;
     }
     if (roots && system->kind != GM_RATES) {
         roots[count++] = system->energy;
     }
     gm_node_id *parts = roots ? gm_formula_parts_of(&system->graph, roots, count, &part_count) : NULL;
-    bool found = false;
-    for (size_t k = 0; parts && k < part_count && !found; k++) {
+    for (size_t k = part_count; parts && k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
-        found = node->operation > GM_VARIABLE ? !gm_operation_rows[node->operation].smooth
-                                              : node->operation == GM_VARIABLE && node->a == system->n;
+        const bool operates = node->operation > GM_VARIABLE;
+        rough = operates && !gm_operation_rows[node->operation].smooth ? parts[k] : rough;
+        time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
+    deny_by(system, &findings[GM_FACT_SMOOTH], rough, system->rates);
+    deny_by(system, &findings[GM_FACT_AUTONOMOUS], time, system->rates);
     system->graph.failed |= !parts;
     free(roots);
     free(parts);
-    return found;
-}
-
-/* Finds the first node of each kind in all equations; written nodes precede derived ones. */
-static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
-{
-    struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
-    smooth->asked = autonomous->asked = true;
-    const bool remarkable = has_remarkable(system);
-    for (size_t i = 0; i <= system->n && remarkable && !system->graph.failed; i++) {
-        const gm_node_id root = i < system->n ? system->rates[i] : system->energy;
-        if (root == GM_NO_NODE || (i == system->n && system->kind == GM_RATES)) {
-            continue;
-        }
-        size_t count = 0;
-        gm_node_id *parts = gm_formula_parts(&system->graph, root, &count);
-        for (size_t k = 0; k < count; k++) {
-            const struct gm_node *node = &system->graph.nodes[parts[k]];
-            if (node->operation > GM_VARIABLE && !gm_operation_rows[node->operation].smooth &&
-                (smooth->holds || smooth->term > parts[k])) {
-                *smooth = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
-            }
-            if (node->operation == GM_VARIABLE && node->a == system->n && autonomous->holds) {
-                *autonomous = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
-            }
-        }
-        system->graph.failed |= !parts;
-        free(parts);
-    }
 }
 
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])
 {
     const size_t half = system->n / 2, count = system->variable_count;
-    bool *marks = calloc(5 * count, sizeof *marks);
-    gm_node_id *nodes = system->facets ? system->facets : malloc((system->n + 7) * sizeof *nodes);
+    gm_node_id *nodes =
+        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 7, sizeof *nodes);
     for (size_t i = 0; i < GM_FACTS; i++) {
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
     }
     system->facets = nodes;
+    const size_t mark = gm_arena_mark(system->arena);
+    bool *marks = gm_arena_take(system->arena, 5 * count, sizeof *marks);
     if (!marks || !nodes) {
-        free(marks);
         return false;
     }
     bool *q = marks, *p = q + count, *components = p + count, *all = components + count, *own = all + count;
@@ -684,11 +630,11 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
         find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
         find_mechanical(system, findings, nodes + 1, q, all, own);
     }
-    if (system->kind != GM_LAGRANGIAN && !is_held(system)) { /* else the rates are only a part of the
-                                                                motion */
+    /* else the rates are only a part of the motion */
+    if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
         find_of_rates(system, findings, components, own);
     }
-    free(marks);
+    gm_arena_release(system->arena, mark);
     return !system->graph.failed;
 }
 

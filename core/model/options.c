@@ -131,7 +131,6 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
     }
     row = is_range ? find_row(lines, "range", 5) : row;
     if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY with its values */
-        free(item->name);
         item->name = gm_reading_text(reading, (struct gm_span){piece.begin, piece.begin + letters});
         row = GM_OPTION_VALUES;
     }
@@ -169,13 +168,13 @@ bool gm_options_read(struct gm_reading *reading, struct gm_system_item *item, st
     return !reading->fault.failed;
 }
 
-/* FORMULA or FORMULA:format, between braces */
+/* FORMULA, KEY or KEY*FORMULA, with :format or without it, between braces */
 static bool read_braces(struct gm_reading *reading, struct gm_system_item *item, struct gm_span inside)
 {
-    static const char *const formats[] = {"pi", "T", "/", "nonzero"};
+    static const char *const formats[] = {"pi", "T", "/", "nonzero", "s"};
     const size_t colon = gm_span_until(reading->text, inside, ":");
-    const struct gm_span formula = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, colon}),
-                         format = {colon < inside.end ? colon + 1 : colon, inside.end};
+    struct gm_span formula = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, colon});
+    const struct gm_span format = {colon < inside.end ? colon + 1 : colon, inside.end};
     const size_t letters = format.end - format.begin;
     bool known = letters == 0;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
@@ -184,15 +183,18 @@ static bool read_braces(struct gm_reading *reading, struct gm_system_item *item,
     }
     if (!known) {
         return gm_fail_first(&reading->fault, format.begin,
-                             "a value is written as {x}, {x:pi}, {x:T}, {x:/} or {x:nonzero}");
+                             "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     }
     const char *name = reading->text + formula.begin;
-    const size_t length = formula.end - formula.begin;
+    const size_t length = gm_name_length(name, formula.end - formula.begin);
     const bool is_key = gm_reading_reserves(name, length) && !gm_formula_reserves(name, length) &&
                         !gm_reading_entry(reading, name, length, false, 0);
+    formula.begin += is_key ? length : 0;
+    const bool alone = is_key && formula.begin == formula.end;
+    formula.begin += is_key && !alone && reading->text[formula.begin] == '*';
     gm_node_id node = GM_NO_NODE;
     reading->initial = reading->exact = true;
-    const bool good = is_key || gm_reading_formula(reading, formula, &node);
+    const bool good = alone || gm_reading_formula(reading, formula, &node);
     reading->initial = reading->exact = false;
     if (!good) {
         return false;

@@ -69,15 +69,13 @@ static void derive_start(struct gm_user_wave *wave, struct gm_user_system *syste
         const gm_node_id bend = gm_system_derivative(system, gm_system_derivative(system, at[k - 2], x), x);
         gm_node_id rate = force[F];
         if (k > 2) {
-            rate = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
+            rate = gm_product(&system->graph, force[F1], at[k - 2]);
         }
         if (k == 4) {
-            const gm_node_id square = gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, at[1], at[1]);
-            rate = gm_simplified(&system->graph, GM_OPERATION_ADD, rate,
-                                 gm_simplified(&system->graph, GM_OPERATION_MULTIPLY, force[F2], square));
+            const gm_node_id square = gm_product(&system->graph, at[1], at[1]);
+            rate = gm_sum(&system->graph, rate, gm_product(&system->graph, force[F2], square));
         }
-        at[k] = system->graph.failed ? GM_NO_NODE
-                                     : gm_simplified(&system->graph, GM_OPERATION_SUBTRACT, bend, rate);
+        at[k] = system->graph.failed ? GM_NO_NODE : gm_difference(&system->graph, bend, rate);
     }
 }
 

@@ -125,6 +125,18 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     return !reading->fault.failed;
 }
 
+/* Takes a name, or an element of a list, off the front of `rest`. NULL with a fault. */
+static const struct gm_entry *take_entry(struct gm_reading *reading, struct gm_span *rest)
+{
+    struct gm_target target;
+    long index = 0;
+    if (!gm_reading_target(reading, rest, &target) ||
+        (target.index.begin < target.index.end && !gm_reading_whole(reading, target.index, &index))) {
+        return NULL;
+    }
+    return gm_reading_sought(reading, &target, index);
+}
+
 /* x y = z */
 static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
 {
@@ -132,22 +144,14 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
     struct gm_span rest = piece;
     size_t pair[2];
     for (int i = 0; i < 2; i++) {
-        struct gm_target target;
-        long index = 0;
-        if (!gm_reading_target(reading, &rest, &target)) {
-            return false;
-        }
-        const bool indexed = target.index.begin < target.index.end;
-        if (indexed && !gm_reading_whole(reading, target.index, &index)) {
-            return false;
-        }
-        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        rest = gm_span_trimmed(reading->text, rest);
+        const size_t place = rest.begin;
+        const struct gm_entry *entry = take_entry(reading, &rest);
         if (!entry) {
             return false;
         }
         if (entry->role != GM_ENTRY_COMPONENT) {
-            return gm_fail_first(&reading->fault, target.name.begin,
-                                 "a bracket is of two components: bracket: x y = z");
+            return gm_fail_first(&reading->fault, place, "a bracket is of two components: bracket: x y = z");
         }
         pair[i] = entry->number;
     }
@@ -171,7 +175,7 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
     }
     *entry = node;
     system->bracket_place = piece.begin;
-    *opposite = gm_simplified(&system->graph, GM_OPERATION_NEGATE, node, node);
+    *opposite = gm_negative(&system->graph, node);
     return true;
 }
 
@@ -224,7 +228,6 @@ static bool read_symmetry(struct gm_reading *reading, const struct gm_system_lin
 /* Appends the index of a name as its last digits: length[2] is length2. */
 static bool number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
 {
-    char *name;
     long number = 0;
     if (!gm_reading_whole(reading, index, &number)) {
         return false;
@@ -233,12 +236,8 @@ static bool number_item(struct gm_reading *reading, struct gm_system_item *item,
         return gm_fail_first(&reading->fault, index.begin, "the index of a name is 0 or more, not %ld",
                              number);
     }
-    if (asprintf(&name, "%s%ld", item->name, number) < 0) {
-        return gm_fail_memory(&reading->fault);
-    }
-    free(item->name);
-    item->name = name;
-    return true;
+    item->name = gm_arena_print(reading->system->arena, "%s%ld", item->name, number);
+    return item->name || gm_fail_memory(&reading->fault);
 }
 
 /* NAME = formula; options */
@@ -426,20 +425,24 @@ static bool read_view(struct gm_reading *reading, const struct gm_system_line *l
 {
     struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
     struct gm_span rest = line->value, piece;
+    const size_t wanted = line->word == GM_WORD_ROD ? 2 : 1;
     size_t ends = 0, dimensions = 0;
     bool equal = true;
-    while (item && !reading->fault.failed && gm_span_take(reading->text, &rest, ";", &piece)) {
+    while (item && !reading->fault.failed && ends < wanted &&
+           gm_span_take(reading->text, &rest, ";", &piece)) {
         const size_t before = item->count;
         add_formulas(reading, item, piece);
         equal = equal && (ends == 0 || item->count - before == dimensions);
         dimensions = item->count - before;
         ends++;
     }
-    if (!reading->fault.failed &&
-        (!equal || dimensions < 2 || dimensions > 3 || ends != (line->word == GM_WORD_ROD ? 2 : 1))) {
+    if (!reading->fault.failed && (!equal || dimensions < 2 || dimensions > 3 || ends < wanted)) {
         return gm_fail_first(&reading->fault, line->value.begin,
                              line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
                                                        : "a body has two or three coordinates: x, y");
+    }
+    if (item && !reading->fault.failed) {
+        gm_options_read(reading, item, rest);
     }
     const struct gm_user_system *system = reading->system;
     for (size_t i = 0; i + 1 < system->item_count && !reading->fault.failed; i++) {
@@ -479,7 +482,7 @@ static bool read_surface(struct gm_reading *reading, const struct gm_system_line
     return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
 }
 
-/* A system in space has the keys of a camera, which are reserved; surfaces need space. */
+/* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
 static bool check_space(struct gm_reading *reading)
 {
     static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
@@ -503,9 +506,9 @@ static bool check_space(struct gm_reading *reading)
             }
         }
     }
-    for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
         const struct gm_entry *entry = gm_reading_entry(reading, keys[k], strlen(keys[k]), false, 0);
-        if (entry) {
+        if (entry && (in_space || entry->role == GM_ENTRY_CHOICE)) {
             return gm_fail_first(&reading->fault, entry->place, taken, keys[k]);
         }
     }
@@ -517,26 +520,18 @@ static bool read_angles(struct gm_reading *reading, const struct gm_system_line 
     struct gm_user_system *system = reading->system;
     for (struct gm_span rest = gm_span_trimmed(reading->text, line->value);
          rest.begin < rest.end && !reading->fault.failed; rest = gm_span_trimmed(reading->text, rest)) {
-        struct gm_target target;
-        long index = 0;
+        const size_t place = rest.begin;
         if (reading->text[rest.begin] == ',') {
             rest.begin++;
             continue;
         }
-        if (!gm_reading_target(reading, &rest, &target)) {
-            return false;
-        }
-        const bool indexed = target.index.begin < target.index.end;
-        if (indexed && !gm_reading_whole(reading, target.index, &index)) {
-            return false;
-        }
-        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        const struct gm_entry *entry = take_entry(reading, &rest);
         if (!entry) {
             return false;
         }
         if (entry->role != GM_ENTRY_COMPONENT ||
             (system->kind != GM_RATES && entry->number >= system->n / 2)) {
-            return gm_fail_first(&reading->fault, target.name.begin, "an angle is one of the coordinates");
+            return gm_fail_first(&reading->fault, place, "an angle is one of the coordinates");
         }
         system->variables[entry->number].angle = true;
     }
@@ -628,7 +623,6 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
         if (word && !gm_choices_take(&tried, entry->name, word)) {
             gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
         }
-        free(word);
         return !reading->fault.failed;
     }
     if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
@@ -723,110 +717,78 @@ static bool read_tie(struct gm_reading *reading, const struct gm_system_line *li
     return item && add_formula(reading, item, (struct gm_span){times + 1, product.end});
 }
 
-static bool read_what_is_said(struct gm_reading *reading, const struct gm_system_line *line)
+/* geomint: 1 */
+static bool read_version(struct gm_reading *reading, const struct gm_system_line *line)
 {
-    struct gm_user_system *system = reading->system;
     double number;
-    struct gm_system_item *item;
-    switch (line->word) {
-    case GM_WORD_GEOMINT:
-        return gm_reading_number(reading, line->value, &number) &&
-               (number == 1 || gm_fail_first(&reading->fault, line->value.begin,
-                                             "this program reads files of format 1, not %g", number));
-    case GM_WORD_DT:
-    case GM_WORD_UNTIL:
-    case GM_WORD_STEPS:
-        return read_timing(reading, line);
-    case GM_WORD_TIE:
-        return read_tie(reading, line);
-    case GM_WORD_TITLE:
-    case GM_WORD_SUBTITLE:
-    case GM_WORD_CAPTION:
-        system->texts[line->word] = gm_reading_text(reading, line->value);
-        item = add_item(reading, line, (struct gm_span){0, 0});
-        return item && gm_text_read(reading, item, line->value) &&
-               (line->word != GM_WORD_TITLE || item->count == 0 || gm_reading_line(reading, GM_WORD_NAME) ||
-                gm_fail_first(&reading->fault, line->place,
-                              "a title with values needs a line \"name\" for lists"));
-    case GM_WORD_NAME:
-    case GM_WORD_TIME:
-    case GM_WORD_ABOUT:
-    case GM_WORD_WATCH:
-    case GM_WORD_REFERENCE:
-    case GM_WORD_SCHEMES:
-    case GM_WORD_LANES:
-    case GM_WORD_MEMBERS:
-    case GM_WORD_HOOK:
-        system->texts[line->word] = gm_reading_text(reading, line->value);
-        return true;
-    case GM_WORD_COMPILE:
-        return read_compile(reading, line);
-    case GM_WORD_SPACE:
-        return read_choice(reading, line, "differences", "fourier");
-    case GM_WORD_BOUNDARY:
-        return read_choice(reading, line, "ring", "walls");
-    case GM_WORD_HALF_LENGTH:
-    case GM_WORD_POINTS:
-        return read_ring(reading, line);
-    case GM_WORD_JUMP:
-        return system->kind == GM_MATRICES ? read_assignments(reading, line) : read_ring(reading, line);
-    case GM_WORD_K_MATRIX:
-    case GM_WORD_L_MATRIX:
-        return read_matrix(reading, line);
-    case GM_WORD_HAMILTONIAN:
-        return read_energy(reading, line);
-    case GM_WORD_LAGRANGE:
-    case GM_WORD_POTENTIAL:
-    case GM_WORD_S_FUNCTION:
-        return gm_reading_formula(reading, line->value, &system->energy);
-    case GM_WORD_RATE:
-    case GM_WORD_START:
-    case GM_WORD_FORCE:
-    case GM_WORD_EXACT:
-        return read_assignments(reading, line);
-    case GM_WORD_BRACKET:
-        return read_brackets(reading, line);
-    case GM_WORD_ANGLE:
-        return read_angles(reading, line);
-    case GM_WORD_INVARIANT:
-    case GM_WORD_CASIMIR:
-    case GM_WORD_OBSERVE:
-        return read_named(reading, line);
-    case GM_WORD_REQUIRE:
-    case GM_WORD_EXACT_WHILE:
-        return read_requirement(reading, line);
-    case GM_WORD_COLOURS:
-        item = add_item(reading, line, (struct gm_span){0, 0});
-        return item && add_formulas(reading, item, line->value) &&
-               (item->count == 2 ||
-                gm_fail_first(&reading->fault, line->value.begin,
-                              "two values are at the ends of the colours: colours: -1, 1"));
-    case GM_WORD_LEVEL:
-        return read_level(reading, line);
-    case GM_WORD_GRAPH:
-    case GM_WORD_FIGURE:
-    case GM_WORD_WORK:
-    case GM_WORD_STABILITY:
-        return read_optional(reading, line);
-    case GM_WORD_SYMMETRY:
-        return read_symmetry(reading, line);
-    case GM_WORD_SECTION:
-        return read_section(reading, line);
-    case GM_WORD_VIEW:
-    case GM_WORD_ROD:
-        return read_view(reading, line);
-    case GM_WORD_SURFACE:
-        return read_surface(reading, line);
-    case GM_WORD_CONSTRAINT:
-    case GM_WORD_STOP:
-    case GM_WORD_MONITOR:
-    case GM_WORD_MASS:
-        item = add_item(reading, line, (struct gm_span){0, 0});
-        return item && add_formula(reading, item, line->value);
-    default: /* names were read before */
-        return true;
-    }
+    return gm_reading_number(reading, line->value, &number) &&
+           (number == 1 || gm_fail_first(&reading->fault, line->value.begin,
+                                         "this program reads files of format 1, not %g", number));
 }
+
+static bool read_text(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return (reading->system->texts[line->word] = gm_reading_text(reading, line->value)) != NULL;
+}
+
+/* Reads a text that may contain values. */
+static bool read_shown_text(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_system_item *item =
+        read_text(reading, line) ? add_item(reading, line, (struct gm_span){0, 0}) : NULL;
+    return item && gm_text_read(reading, item, line->value) &&
+           (line->word != GM_WORD_TITLE || item->count == 0 || gm_reading_line(reading, GM_WORD_NAME) ||
+            gm_fail_first(&reading->fault, line->place,
+                          "a title with values needs a line \"name\" for lists"));
+}
+
+static bool read_space(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return read_choice(reading, line, "differences", "fourier");
+}
+
+static bool read_boundary(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return read_choice(reading, line, "ring", "walls");
+}
+
+static bool read_jump(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const bool jumps = reading->system->kind == GM_MATRICES;
+    return jumps ? read_assignments(reading, line) : read_ring(reading, line);
+}
+
+/* Reads L, V or S. */
+static bool read_function(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return gm_reading_formula(reading, line->value, &reading->system->energy);
+}
+
+static bool read_formula(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    return item && add_formula(reading, item, line->value);
+}
+
+static bool read_colours(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    return item && add_formulas(reading, item, line->value) &&
+           (item->count == 2 || gm_fail_first(&reading->fault, line->value.begin,
+                                              "two values are at the ends of the colours: colours: -1, 1"));
+}
+
+/* Names were read before. */
+static bool read_declared(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return reading && line;
+}
+
+static bool (*const readers[GM_WORDS])(struct gm_reading *reading, const struct gm_system_line *line) = {
+#define GM_WORD(constant, word, identity, kinds, reader) read_##reader,
+#include "core/model/words.def"
+#undef GM_WORD
+};
 
 /* Reads i = low .. high; line, for each i in turn. A line without a counter is read once. */
 static bool read_counted(struct gm_reading *reading, const struct gm_system_line *line)
@@ -841,7 +803,7 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
     if (gm_system_words[line->word].identity == GM_LINE_ONCE || head.end == line->value.end ||
         equals == head.end || name == 0 || counter.end != counter.begin + name ||
         gm_span_until(reading->text, bounds, "..") == bounds.end) {
-        return read_what_is_said(reading, line);
+        return readers[line->word](reading, line);
     }
     if (gm_reading_entry(reading, reading->text + counter.begin, name, false, 0)) {
         return gm_fail_first(&reading->fault, counter.begin,
@@ -855,7 +817,7 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
     const struct gm_system_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
     reading->counter = counter;
     for (reading->counted = low; reading->counted <= high && !reading->fault.failed; reading->counted++) {
-        read_what_is_said(reading, &one);
+        readers[line->word](reading, &one);
     }
     reading->counter = (struct gm_span){0, 0};
     return !reading->fault.failed;
@@ -866,7 +828,7 @@ static bool name_parts(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     system->part_count = system->graph.count;
-    system->parts = calloc(system->part_count + 1, sizeof *system->parts);
+    system->parts = gm_arena_take(system->arena, system->part_count + (size_t)1, sizeof *system->parts);
     for (size_t i = 0; system->parts && i < reading->entry_count && !reading->fault.failed; i++) {
         const struct gm_entry *entry = &reading->entries[i];
         const struct gm_system_line line = {
@@ -876,10 +838,11 @@ static bool name_parts(struct gm_reading *reading)
         }
         struct gm_system_item *item =
             add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
-        char *element = NULL;
-        if (item && entry->indexed && asprintf(&element, "%s[%ld]", item->name, entry->index) >= 0) {
-            free(item->name);
-            item->name = element;
+        if (item && entry->indexed) {
+            item->name = gm_arena_print(system->arena, "%s[%ld]", item->name, entry->index);
+        }
+        if (item && !item->name) {
+            return gm_fail_memory(&reading->fault);
         }
         if (item && add_node(reading, item, entry->node) &&
             system->graph.nodes[entry->node].operation > GM_VARIABLE) {
@@ -893,19 +856,16 @@ enum { MOST_OF_BRACKET = 2000 }; /* limits the size of the matrix of nodes */
 
 static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t count)
 {
-    *nodes = malloc((count + 1) * sizeof **nodes);
-    for (size_t i = 0; *nodes && i < count; i++) {
-        (*nodes)[i] = GM_NO_NODE;
-    }
+    *nodes = gm_system_no_nodes(reading->system, count);
     return *nodes || gm_fail_memory(&reading->fault);
 }
 
 /* A field without a start starts with its exact solution. */
 static bool start_exactly(struct gm_user_system *system)
 {
-    gm_node_id *values = malloc(system->variable_count * sizeof *values);
-    for (size_t i = 0; values && i < system->variable_count; i++) {
-        values[i] = i == system->n ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
+    gm_node_id *values = gm_system_no_nodes(system, system->variable_count);
+    if (values) {
+        values[system->n] = gm_formula_constant(&system->graph, 0);
     }
     for (size_t i = 0; values && i < system->n; i++) {
         const bool is_rate = system->kind == GM_FIELD && i == 1;
@@ -920,7 +880,6 @@ static bool start_exactly(struct gm_user_system *system)
         }
         *start = node;
     }
-    free(values);
     return values && !system->graph.failed;
 }
 
@@ -985,7 +944,8 @@ static bool read_system(struct gm_reading *reading)
         }
     }
     if (system->kind == GM_MATRICES) {
-        system->matrix_places = calloc(2 * system->n * system->n, sizeof *system->matrix_places);
+        system->matrix_places =
+            gm_arena_take(system->arena, 2 * system->n * system->n, sizeof *system->matrix_places);
         if (!system->matrix_places || !all_nodes(reading, &system->matrices, 2 * system->n * system->n)) {
             return gm_fail_memory(&reading->fault);
         }
@@ -1013,10 +973,12 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
     *system = (struct gm_user_system){0};
     *fault = (struct gm_fault){0};
     gm_formula_open(&system->graph);
-    system->source = length <= GM_LARGEST_SYSTEM ? malloc(length + 1) : NULL;
+    system->arena = gm_arena_open();
+    if (system->arena && length <= GM_LARGEST_SYSTEM) {
+        system->source = gm_arena_take(system->arena, length + 1, 1);
+    }
     if (system->source) {
         memcpy(system->source, text, length);
-        system->source[length] = '\0';
         system->length = length;
     }
     const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);

@@ -26,7 +26,7 @@ enum {
 };
 
 const struct gm_system_word_row gm_system_words[GM_WORDS] = {
-#define GM_WORD(constant, word, identity, kinds) {word, (enum gm_line_identity)identity, kinds},
+#define GM_WORD(constant, word, identity, kinds, reader) {word, (enum gm_line_identity)identity, kinds},
 #include "core/model/words.def"
 #undef GM_WORD
 };
@@ -37,7 +37,6 @@ void gm_reading_close(struct gm_reading *reading)
         free(reading->entries[i].name);
     }
     free(reading->chosen);
-    free(reading->lines);
     free(reading->entries);
     free(reading->table);
 }
@@ -45,7 +44,7 @@ void gm_reading_close(struct gm_reading *reading)
 bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
 {
     if ((count & (count - 1)) == 0) {
-        void *more = realloc(*array, (count ? 2 * count : 1) * size);
+        void *more = gm_arena_resize(reading->system->arena, *array, count ? 2 * count : 1, size);
         if (!more) {
             return gm_fail_memory(&reading->fault);
         }
@@ -144,7 +143,7 @@ bool gm_reading_lines(struct gm_reading *reading)
 
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
 {
-    char *text = gm_span_words(reading->text, span);
+    char *text = gm_arena_keep(reading->system->arena, gm_span_words(reading->text, span), free);
     if (!text) {
         gm_fail_memory(&reading->fault);
     }
@@ -235,7 +234,9 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     if (is_place(reading, &entry)) {
         return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
     }
-    if (is_of_ring(reading, &entry) ||
+    const bool is_word =
+        entry.role == GM_ENTRY_CHOICE && word_of(entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
+    if (is_word || is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);
     }
@@ -438,7 +439,6 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
             stack[depth++] = reading->wanted;
         }
     }
-    free(stack);
     return !reading->fault.failed;
 }
 

@@ -72,7 +72,8 @@ struct gm_reading {
 /* Frees the reading, without its system. */
 void gm_reading_close(struct gm_reading *reading);
 
-/* Reserves room for one more element of an array of `count`, which doubles when full. */
+/* Reserves room, in the system's memory, for one more element of an array of `count`, which doubles when
+   full. */
 bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
 
 /* Reads the lines that hold for the chosen words. */
@@ -81,7 +82,7 @@ bool gm_reading_lines(struct gm_reading *reading);
 const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);
 /* Reports a second definition of an entry. Returns false. */
 bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first);
-/* Words with one blank between them, freed by the caller; NULL with a fault. */
+/* Words with one blank between them, in the system's memory; NULL with a fault. */
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
 
 /* True if a name is a key of command lines, a column of tables or a function. */

@@ -7,38 +7,8 @@
 
 void gm_system_close(struct gm_user_system *system)
 {
-    for (size_t i = 0; i < system->variable_count; i++) {
-        free(system->variables[i].name);
-        free(system->variables[i].text);
-        free(system->variables[i].meaning);
-        free(system->variables[i].unit);
-    }
-    for (size_t i = 0; i < system->item_count; i++) {
-        struct gm_system_item *item = &system->items[i];
-        for (size_t k = 0; k < item->option_count; k++) {
-            free(item->options[k].text);
-            free(item->options[k].numbers);
-        }
-        free(item->options);
-        free(item->name);
-        free(item->words);
-        free(item->text);
-        free(item->nodes);
-    }
-    for (size_t i = 0; i < GM_WORDS; i++) {
-        free(system->texts[i]);
-    }
-    free(system->source);
-    free(system->variables);
-    free(system->items);
-    free(system->rates);
-    free(system->momenta);
+    gm_arena_close(system->arena);
     free(system->mass.entries);
-    free(system->bracket);
-    free(system->matrices);
-    free(system->matrix_places);
-    free(system->facets);
-    free(system->parts);
     gm_formula_close(&system->graph);
     *system = (struct gm_user_system){0};
 }
@@ -54,20 +24,24 @@ static const char *part_name(gm_node_id node, const void *data)
     return node < system->part_count ? system->parts[node] : NULL;
 }
 
+gm_node_id *gm_system_no_nodes(struct gm_user_system *system, size_t count)
+{
+    gm_node_id *nodes = gm_arena_take(system->arena, count + 1, sizeof *nodes);
+    for (size_t i = 0; nodes && i < count; i++) {
+        nodes[i] = GM_NO_NODE;
+    }
+    return nodes;
+}
+
 bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t count)
 {
-    const size_t variables = system->velocities + 1;
-    gm_node_id *others = malloc(variables * sizeof *others);
-    for (size_t i = 0; others && i < variables; i++) {
-        others[i] = GM_NO_NODE;
+    gm_node_id *others = gm_system_no_nodes(system, system->variable_count);
+    if (!others) {
+        return false;
     }
-    if (others) {
-        others[system->velocities] = gm_formula_variable(&system->graph, 0);
-        others[system->n] = gm_formula_variable(&system->graph, 1);
-    }
-    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
-    free(others);
-    return good;
+    others[system->velocities] = gm_formula_variable(&system->graph, 0);
+    others[system->n] = gm_formula_variable(&system->graph, 1);
+    return gm_formula_substitute(&system->graph, nodes, count, others, system->variable_count);
 }
 
 const struct gm_system_item *gm_system_item_of(const struct gm_user_system *system, enum gm_system_word word,

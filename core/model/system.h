@@ -3,6 +3,7 @@
 #ifndef GM_CORE_MODEL_SYSTEM_H
 #define GM_CORE_MODEL_SYSTEM_H
 
+#include "core/arena.h"
 #include "core/expression/choices.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
@@ -100,6 +101,7 @@ struct gm_system_item {
    scene. */
 
 struct gm_user_system {
+    struct gm_arena *arena; /* all that is read, until the system is closed */
     enum gm_system_kind kind;
     char *source; /* source text, closed by a NUL */
     size_t length;
@@ -145,7 +147,8 @@ static inline bool gm_system_is_field(const struct gm_user_system *system)
 
 /* Returns the derivative of a node over one variable; GM_NO_NODE when out of memory, which the graph notes. */
 gm_node_id gm_system_derivative(struct gm_user_system *system, gm_node_id node, size_t variable);
-
+/* Returns `count` entries GM_NO_NODE in the system's memory; NULL when out of memory. */
+gm_node_id *gm_system_no_nodes(struct gm_user_system *system, size_t count);
 /* Rewrites formulas of a field with x as variable 0 and t as variable 1. False: out of memory. */
 bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t count);
 

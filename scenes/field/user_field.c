@@ -829,9 +829,9 @@ static void make_observables(struct user_field *field)
     const struct gm_user_system *system = &of_file->system;
     const struct gm_hook *hook = field->kind == &waves ? of_file->hook : NULL;
     size_t count = hook ? hook->observable_count : field->kind->observable_count;
-    of_file->observables = calloc(MOST_OBSERVABLES, sizeof *of_file->observables);
-    of_file->formulas = calloc(MOST_OBSERVABLES, sizeof *of_file->formulas);
-    of_file->terms = calloc(MOST_OBSERVABLES, sizeof *of_file->terms);
+    of_file->observables = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
+    of_file->formulas = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
+    of_file->terms = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
     gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
     memcpy(of_file->observables, hook ? hook->observables : field->kind->observables,
            count * sizeof *of_file->observables);

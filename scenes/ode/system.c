@@ -661,16 +661,21 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         system_scene->scene.stops = gm_system_stops;
         system_scene->scene.follow = 1;
     }
-    const bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
-                      gm_system_check_exact(system_scene, &problem, sentence) &&
-                      make_schemes(system_scene, &problem, sentence) &&
-                      gm_system_make_studies(system_scene, &problem, radian_time, sentence);
+    bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
+                gm_system_check_exact(system_scene, &problem, sentence) &&
+                make_schemes(system_scene, &problem, sentence) &&
+                gm_system_make_studies(system_scene, &problem, radian_time, sentence);
     gm_user_problem_close(&problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
     system_scene->scene.asked = gm_ode_asked + skipped;
     system_scene->scene.asked_count = GM_ODE_ASKED - skipped;
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
+    for (size_t i = 0; good && i < system->choices.count; i++) {
+        const char *key = system->choices.list[i].name;
+        good = gm_scene_observable(&system_scene->scene, key) < 0 ||
+               gm_refuse(sentence, "choice: %s is an observable of this system: take another name", key);
+    }
     if (good && system_scene->observable_count > MOST_OBSERVED) {
         return gm_refuse(sentence, "a system has at most %d observables and invariants; this has %zu",
                          MOST_OBSERVED, system_scene->observable_count);
@@ -739,9 +744,6 @@ void gm_system_scene_close(const struct gm_scene *scene)
         gm_tape_close(others[i]);
     }
     gm_user_model_close(&system_scene->model);
-    free(system_scene->sights);
-    free(system_scene->shows);
-    free(system_scene->all_shows);
     gm_system_close_rows(system_scene);
     free(system_scene);
 }

@@ -51,4 +51,4 @@ while read -r command; do
     echo "$command"
     sh -c "$command" >out 2>&1 || { cat out; exit 1; }
 done <commands
-[ -s pictures/duffing-render.png ] && [ -s diagrams/duffing-work-precision.png ]
+[ -s pictures/well-render.png ] && [ -s diagrams/well-work-precision.png ]

@@ -78,6 +78,12 @@ refused 1 '^geomint: systems has no file$' list systems --source
 refused 1 'did you mean toda' list tota --source
 refused 3 'could not be read' list ./none.system --source
 refused 1 'takes one name' list toda office --source
+# the equations of a system of the program with other values
+status 0 list oscillator system=pendulum
+grep -q 'H = p^2/2 - cos(q)' out || fail 'list oscillator system=pendulum'
+status 0 list kepler eccentricity=.3
+grep -q 'q1  *0.7' out || fail 'list kepler eccentricity=.3'
+refused 1 'values only after the name of a system' list vortices count=3
 
 # names of folders: the program's come first, then those of the variable, then the user's own, each once
 mkdir -p mine config/geomint

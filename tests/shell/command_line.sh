@@ -76,7 +76,7 @@ grep -q '"triangles":2' out || fail "a triangle that is there twice counts: $(ca
 refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm$' render disc --size 0x0
 refused 1 '^geomint: --fps 0 is not a number from 0.01 to 1000$' render disc --fps 0
 refused 1 '^geomint: --every 0 is not a whole number from 1 to 1e9$' run disc --every 0
-refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shares, with I from 1 to N$' render disc --shard 3/2
+refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shards, with I from 1 to N$' render disc --shard 3/2
 refused 1 '^geomint: --out is empty$' render disc --out ''
 # a word that names no tour is wrong usage, a folder that cannot be read is not
 GEOMINT_TOURS=$folder refused 1 'there is no tour "nope"' tour nope
@@ -548,6 +548,9 @@ grep -q '"t":1.2,' out || fail 'steps= makes no whole steps'
 "$geomint" run kepler scheme=rk4 dt=.3 until=2.05 --json >whole || fail 'run until=2.05'
 sed -i 's/,"seconds":[^,]*//' out whole
 cmp -s out whole || fail 'a checkpoint before a shortened step changes a later end'
+"$geomint" run system 'rate=x = -1e9*x' x=1 dt=1 until=2 scheme=dopri5 >out
+[ $? -eq 2 ] || fail 'dopri5 solves a stiff problem'
+grep -q 'a stiff problem needs an implicit scheme, such as radau5$' out || fail "stiffness is not named: $(cat out)"
 for tolerance in -1 1e-20 2; do
     refused 1 "tolerance=$tolerance is out of range: it is 0 or lies between 1e-15 and 1" \
         run kepler scheme=dopri5 tolerance=$tolerance
@@ -663,6 +666,10 @@ import sys
 pixels = [data[data.index(b"IDAT"):] for data in (open(name, "rb").read() for name in sys.argv[1:])]
 sys.exit(pixels[0] != pixels[1])
 END
+# a key that the scene had in an earlier version
+status 0 render kepler scheme=verlet until=1 -o pictures/q1.svg
+sed 's/>kepler scheme=verlet until=1</>kepler scheme=verlet until=1 q1=0.5</' pictures/q1.svg >pictures/earlier.svg
+refused 3 'until=1 q1=0.5"; render them without the refused one: scene kepler has no parameter "q1"' again pictures/earlier.svg
 status 0 render disc --frames 3 --size 320x200 --out sequence
 [ "$(ls sequence | wc -l)" = 3 ] || fail '--frames 3 makes three files'
 [ "$(cat err)" = 'geomint: wrote 3 frames, sequence/disc-render-*.png' ] || fail "frames are not told: $(cat err)"

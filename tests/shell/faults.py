@@ -38,7 +38,7 @@ COMMANDS = [
     ("run kepler steps=3 scheme=gsl-msbdf --json", {}),
     ("run vortices steps=5 --json", {}),
     ("run vortices configuration=random count=300 multipole=1e-3 steps=2 --json", {}),
-    ("run stiff steps=5 --json", {}),
+    ("run stiff springs=2 steps=5 --json", {}),
     ("run henon-heiles steps=5 --json", {}),
     ("run henon-heiles steps=5 scheme=verlet,gauss4 --measure lyapunov,return_time --json", {}),
     ("run oscillator scheme=variational-midpoint steps=5 --measure megno --json", {}),

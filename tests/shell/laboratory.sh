@@ -41,6 +41,13 @@ refused 1 "no scene" stability kepler --region rk4
 grep -q '^Cheapest by run time: ' "$folder/out" || fail "no sentence"
 grep -q '^kepler,rk4,4,.*,ok,' "$folder/kepler-work-precision.csv" || fail "no row of rk4"
 
+# a scheme with a tolerance has it as a column, which is empty for the others
+"$geomint" work-precision kepler scheme=rk4,dopri5 tolerance=1e-4,1e-6 dt=.1,.05 until=1 --size 320x180 -o "$folder/by.png" \
+    >"$folder/out" 2>"$folder/err" || fail "work-precision by tolerance: $(cat "$folder/err")"
+[ "$(cut -d, -f2,8 "$folder/by.csv" | tr '\n' ' ')" = \
+    'scheme,tolerance rk4, rk4, dopri5,0.0001 dopri5,9.9999999999999995e-07 ' ] ||
+    fail "tolerances in the table: $(cat "$folder/by.csv")"
+
 # a scheme that chooses its steps is measured where it ends, against a reference that is taken on to there
 "$geomint" work-precision system H='p^2/2 + q^4/4' q=1 p=0.3 scheme=error-controlled-verlet,gauss8 dt=.02,.01,.005,.0025 \
     until=3 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" || fail "steps of its own: $(cat "$folder/err")"

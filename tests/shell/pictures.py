@@ -3,9 +3,10 @@
 """Each picture of the documents is what the command beside it draws.
 Usage: pictures.py GEOMINT SOURCE [--write [NAME ...]]   --write: draws the pictures that differ, or those named
 
-A command that draws a file of the picture's name is near the image, or near the same image in another document. A PNG
-stores its own command: scene, schemes and parameters must be the same, and the painter the program's own, whose pixels
-are the same on every machine with the same fonts. A movie stores nothing, so it is drawn only by its name."""
+A command that draws a file of the picture's name is in the section of the image, or of the same image in another
+document. A PNG stores its own command: scene, schemes and parameters must be the same, and the painter the program's
+own, whose pixels are the same on every machine with the same fonts. A movie stores nothing, so it is drawn only by its
+name."""
 import glob
 import json
 import os
@@ -16,7 +17,6 @@ import subprocess
 import sys
 import tempfile
 
-BEFORE, AFTER = 8, 4  # lines between an image and its command
 SIZE = "960x540"  # pixels, if the command gives none
 MOST_BYTES = {".png": 200_000, ".gif": 600_000}
 MOST_BYTES_IN_ALL = 2_700_000
@@ -50,18 +50,17 @@ def stored(path):
 
 
 def shown(source):
-    """Returns the path of each picture in the documents, and the places and words of the commands near it."""
+    """Returns the path of each picture in the documents, and the places and words of the commands in its section."""
     found = {}
     for document in [os.path.join(source, "README.md"), *sorted(glob.glob(os.path.join(source, "docs/*.md")))]:
-        lines = open(document, encoding="utf-8").read().split("\n")
-        for number, line in enumerate(lines, 1):
-            for link in re.findall(r"!\[[^]]*\]\(([^)]*\.(?:png|gif))\)", line):
+        for section in re.split(r"^(?=#+ )", open(document, encoding="utf-8").read(), flags=re.M):
+            title = section.split("\n", 1)[0]
+            for link in re.findall(r"!\[[^]]*\]\(([^)]*\.(?:png|gif))\)", section):
                 commands = found.setdefault(os.path.normpath(os.path.join(os.path.dirname(document), link)), [])
-                near = "\n".join(lines[max(0, number - BEFORE - 1):number + AFTER])
-                for command in re.findall(r"geomint ([a-z-]+ [^\n`]*(?:-o|--movie|--shot) \S+\.(?:png|gif))", near):
+                for command in re.findall(r"geomint ([a-z-]+ [^\n`]*(?:-o|--movie|--shot) \S+\.(?:png|gif))", section):
                     words = shlex.split(command)
                     if words[-1] == os.path.basename(link):
-                        commands.append((f"{os.path.relpath(document, source)}:{number}", words))
+                        commands.append((f"{os.path.relpath(document, source)}, {title}", words))
     return found
 
 

@@ -328,7 +328,7 @@ wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x =
 wrong 'wrong.room:5:12: parameter: needs a new name' 'parameter: 3 = 1'
 wrong 'wrong.room:6:12: parameter: needs a new name' 'parameter: a = 1\nparameter: a = 2'
 wrong 'wrong.room:5:19: a range.s lower end comes first' 'parameter: a = 1; 2 .. 1'
-wrong 'wrong.room:5:9: a choice has a name and 2 to 16 words' 'choice: a = b'
+wrong 'wrong.room:5:9: a choice has a name, a default and words' 'choice: a = b'
 wrong 'wrong.room:5:13: there is no word "d"' 'choice: a = d of b, c'
 wrong 'wrong.room:5:7: there is no choice "domain"' 'when: domain = box'
 wrong 'wrong.room:6:23: a is a word, not a number' 'choice: a = b of b, c\nwall: pillar scalar = a'

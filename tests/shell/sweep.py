@@ -204,11 +204,11 @@ def test_kinds(folder):
         check(bare(tables[0]) == bare(tables[1]), f"{words[0]}: other rows with two at once")
 
 
-def test_shares(folder, one):
-    table = os.path.join(folder, "shares.csv")
+def test_shards(folder, one):
+    table = os.path.join(folder, "shards.csv")
     for shard in (3, 1):
         sweep(*SWEEP, "--table", table, "--shard", f"{shard}/3")
-    check(len(rows(os.path.join(folder, "shares.3-of-3.csv"))) == 46, "a share of three")
+    check(len(rows(os.path.join(folder, "shards.3-of-3.csv"))) == 46, "a shard of three")
     done = sweep("--join", table, status=3)
     check("run 1 has no row: geomint run kepler eccentricity=0 dt=0.001 scheme=rk4\n" in done.stderr and
           "93 of 140" in done.stderr, f"missing rows are named: {done.stderr}")
@@ -219,7 +219,7 @@ def test_shares(folder, one):
     says("misses rows", "sweep", *SWEEP, "--table", table, status=3)
     check(content(table) == gaps, "a table with gaps stays as it is")
     sweep("--join", table)
-    check(bare(table) == bare(one), "three shares joined: the same rows")
+    check(bare(table) == bare(one), "three shards joined: the same rows")
     pictures = os.path.join(folder, "joined")
     picture = os.path.join(pictures, "kepler-sweep.png")
     sweep("--join", table, "--out", pictures)
@@ -335,7 +335,7 @@ with tempfile.TemporaryDirectory() as folder:
     test_warnings(one)
     test_output(one)
     test_kinds(folder)
-    test_shares(folder, one)
+    test_shards(folder, one)
     test_statuses(folder)
     test_pictures(folder)
     if "few" not in sys.argv:  # a sanitizer keeps notes of its own, which grow

@@ -121,8 +121,8 @@ static void choices_are_combined(void **unused)
     static const char text[] = "choice: sign = plus of plus, minus\nchoice: power = first of first, second\n"
                                "rate: x = x\nstart: x = 1\ndt: 0.01\nuntil: 1\nschemes: gauss8\n"
                                "let: f = 1\nlet: g = 1\n"
-                               "when: sign = minus\nlet: f = -1\n"
-                               "when: always\nwhen: power = second\nlet: g = 2\n"
+                               "when: sign = minus\nlet: f = -1\nobserve: lower = f\n"
+                               "when: always\nwhen: power = second\nlet: g = 2\nobserve: twice = g\n"
                                "when: always\nrate: y = f*g\nstart: y = 0\n";
     struct gm_fault fault;
     char sentence[GM_MESSAGE] = "";
@@ -133,11 +133,12 @@ static void choices_are_combined(void **unused)
     static const struct {
         const char *sign, *power;
         double y;
-    } rows[] = {{"plus", "first", 1},
-                {"minus", "first", -1},
-                {"plus", "second", 2},
-                {"minus", "second", -2},
-                {"minus", "second", -2}};
+        const char *lower, *twice; /* why there is no such observable */
+    } rows[] = {{"plus", "first", 1, "with sign=plus there is none", "with power=first there is none"},
+                {"minus", "first", -1, NULL, "with power=first there is none"},
+                {"plus", "second", 2, "with sign=plus there is none", NULL},
+                {"minus", "second", -2, NULL, NULL},
+                {"minus", "second", -2, NULL, NULL}};
     const struct gm_scene *last = NULL;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         static const struct gm_settings settings = {.binding = 20};
@@ -150,10 +151,53 @@ static void choices_are_combined(void **unused)
         assert_int_equal(gm_lane_to(lane, 100, 1), GM_OK);
         assert_float_equal(gm_run_state(lane->run)[1], rows[i].y, 1e-12);
         assert_true(i < 4 || lane->scene == last);
+        const char *const reasons[] = {missing(lane, "lower"), missing(lane, "twice")};
+        assert_true(!rows[i].lower == !reasons[0] && !rows[i].twice == !reasons[1]);
+        assert_string_equal(reasons[0] ? reasons[0] : "", rows[i].lower ? rows[i].lower : "");
+        assert_string_equal(reasons[1] ? reasons[1] : "", rows[i].twice ? rows[i].twice : "");
         last = lane->scene;
         gm_lane_close(lane);
         free(parameters);
     }
+    gm_system_scene_close(scene);
+}
+
+/* Two words may contradict each other alone; more than sixteen rows may decide which system it is. */
+static void combinations_are_checked(void **unused)
+{
+    (void)unused;
+    char text[4000] = "choice: a = p of p, q\nchoice: b = r of r, s\n", sentence[GM_MESSAGE] = "";
+    size_t used = strlen(text);
+    for (int i = 0; i < 20; i++) {
+        used += (size_t)snprintf(text + used, sizeof text - used, "parameter: n%d = 1; 1 .. 3\n", i);
+    }
+    snprintf(
+        text + used, sizeof text - used, "%s",
+        "rate: x = x\nstart: x = 1\nlet: f = 1\nobserve: size = sum(i = 1 .. n0, 1) + sum(i = 1 .. n19, 1)"
+        "\nwhen: a = q\nlet: f = 2\nwhen: always\nwhen: b = s\nlet: f = 3\nwhen: always\n");
+    for (int i = 1; i < 19; i++) {
+        used = strlen(text);
+        snprintf(text + used, sizeof text - used, "observe: z%d = sum(i = 1 .. n%d, 1)\n", i, i);
+    }
+    struct gm_fault fault;
+    struct gm_user_system system;
+    assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
+    const struct gm_scene *scene = gm_system_scene_open(&system, "test", NULL, false, &fault, sentence);
+    if (!scene) {
+        fail_msg("%s", sentence);
+    }
+    const char *const keys[] = {"a", "b", "n19"};
+    void *parameters = gm_scene_defaults(scene);
+    gm_parameter_set(gm_scene_parameter(scene, "a"), parameters, "q");
+    gm_parameter_set(gm_scene_parameter(scene, "n19"), parameters, "3");
+    assert_true(scene->settle(parameters, keys, 3, sentence));
+    assert_string_equal(sentence, "");
+    const struct gm_scene *const made = scene->variant(parameters);
+    assert_true(made != scene && gm_parameter_get(gm_scene_parameter(made, "n19"), made->initial) == 3);
+    gm_parameter_set(gm_scene_parameter(scene, "b"), parameters, "s");
+    assert_false(scene->settle(parameters, keys, 3, sentence));
+    assert_string_equal(sentence, "line 31: with a=q, b=s: f is defined twice");
+    free(parameters);
     gm_system_scene_close(scene);
 }
 
@@ -168,7 +212,8 @@ static void what_is_wrong_is_named(void **unused)
         {"when: knd = b\nlet: y = 1\n", "knd", "there is no choice \"knd\"; did you mean kind"},
         {"when: other = w\nlet: y = 1\n", "w\nlet", "there is no word \"w\""},
         {"when: other = u, vv\nlet: y = 1\n", "vv", "there is no word \"vv\"; did you mean v"},
-        {"when: kind = \nlet: y = 1\n", NULL, "there is no word \"\""},
+        {"when: kind = \nlet: y = 1\n", NULL, "a word was expected"},
+        {"when: = a\nlet: y = 1\n", "= a\nlet", "a choice was expected"},
         {"when: kind = b\nwhen: always\n", "kind = b\nwhen", "this block has no lines"},
         {"when: kind = b\n", "kind = b\n", "this block has no lines"},
         {"when: kind = b\nlet: y = 1\nwhen: other = v\nlet: z = 1\n", "other = v\nlet",
@@ -178,13 +223,21 @@ static void what_is_wrong_is_named(void **unused)
          "kind is a choice of words: write lines below \"when: kind = ...\""},
         {"parameter: kind = 1\n", "kind = 1", "kind is defined twice"},
         {"choice: kind = p of p, q\n", "kind = p of", "kind is defined twice"},
-        {"choice: c = p\n", "c = p", "a choice has a name and 2 to 16 words"},
-        {"choice: c = p of p\n", "c = p of", "a choice has a name and 2 to 16 words"},
+        {"choice: c = p\n", "c = p", "a choice has a name, a default and words"},
+        {"choice: c of p, q\n", "c of p", "a choice has a name, a default and words"},
+        {"choice: c = p of p\n", "c = p of", "a choice has at least two words"},
         {"choice: c = r of p, q\n", "r of", "there is no word \"r\""},
+        {"choice: c =  of p, q\n", NULL, "a word was expected"},
         {"choice: c = p of p, q, p\n", "p\n", "p is named twice"},
-        {"choice: 1c = p of p, q\n", "1c", "a choice has a name"},
-        {"choice: c = p of p, q r\n", "c = p", "a choice has a name"},
+        {"choice: 1c = p of p, q\n", "1c", "the name of a choice has 1 to 31 letters, digits and _"},
+        {"choice: c = p of p, q r\n", "q r", "a word of a choice has 1 to 31 bytes without blanks"},
+        {"choice: c = p of p, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, q\n", "q\n",
+         "a choice has at most 16 words"},
         {"choice: show = p of p, q\n", "show", "the name show is reserved"},
+        {"choice: H = p of p, q\n", "H = p", "the name H is reserved"},
+        {"choice: lanes = p of p, q\n", "lanes = p", "the name lanes is reserved"},
+        {"choice: lyapunov = p of p, q\n", NULL, "choice: lyapunov is an observable of this system"},
+        {"choice: azimuth = p of p, q\n", "azimuth = p", "the name azimuth is reserved"},
         {"when: kind = b\nrate: x = zz\n", "zz", "with kind=b: there is no name zz"},
         {"when: kind = b\nrate: y = x\n", "x = 1", "with kind=b: y has no value at the start"},
         {"when: kind = b\nstart: y = 1\n", "y = 1", "with kind=b: there is no name y"},
@@ -196,7 +249,7 @@ static void what_is_wrong_is_named(void **unused)
         snprintf(text, sizeof text, HEAD "%s", wrong[i].lines);
         const char *place = wrong[i].at ? strstr(text, wrong[i].at) : NULL;
         const struct gm_scene *scene = open_scene(text, &fault, sentence);
-        if (scene || !strstr(fault.sentence, wrong[i].sentence)) {
+        if (scene || !strstr(sentence, wrong[i].sentence)) {
             fail_msg("%s: %s", wrong[i].lines, sentence);
         }
         if (place && fault.offset != (size_t)(place - text)) {
@@ -232,13 +285,35 @@ static void lines_are_replaced(void **unused)
     }
 }
 
+/* The time to choose lines is proportional to their number. */
+static void many_blocks_are_read(void **unused)
+{
+    (void)unused;
+    enum { BLOCKS = 20000 };
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    assert_non_null(stream);
+    fputs("choice: kind = a of a, b\nrate: x = f1\nstart: x = 1\n", stream);
+    for (int i = 0; i < BLOCKS; i++) {
+        fprintf(stream, "let: f%d = 1\nwhen: kind = b\nlet: f%d = 2\nwhen: always\n", i, i);
+    }
+    fclose(stream);
+    const struct gm_system_value value = {"kind", "b"};
+    struct gm_user_system system;
+    struct gm_fault fault;
+    assert_true(gm_equations_open(&system, text, size, &value, 1, &fault));
+    assert_true(system.graph.nodes[system.rates[0]].value == 2);
+    gm_system_close(&system);
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_choose_systems),
-        cmocka_unit_test(choices_are_combined),
-        cmocka_unit_test(what_is_wrong_is_named),
-        cmocka_unit_test(lines_are_replaced),
+        cmocka_unit_test(many_blocks_are_read),   cmocka_unit_test(words_choose_systems),
+        cmocka_unit_test(choices_are_combined),   cmocka_unit_test(combinations_are_checked),
+        cmocka_unit_test(what_is_wrong_is_named), cmocka_unit_test(lines_are_replaced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes for ordinary differential equations: sections, angles, bounded memory, refusals; linear stability;
    the prices and verdicts of work-precision and stability. */
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,10 +10,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
+#include "app/base/interrupt.h"
+#include "app/commands/commands.h"
 #include "app/grid/grid.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
@@ -489,11 +494,94 @@ static void verdicts(void **unused)
     assert_non_null(strstr(message, "no stability map"));
 }
 
+/* The rows of a sweep in the explorer are written whole, or their file counts as failed. */
+static void rows_that_cannot_be_read_are_reported(void **unused)
+{
+    (void)unused;
+    char *words[] = {(char[]){"kepler"}, (char[]){"scheme=verlet"}, (char[]){"dt=0.1,0.2"},
+                     (char[]){"until=1"}};
+    const struct gm_arguments arguments = {words, 4};
+    struct gm_grid grid;
+    char message[GM_MESSAGE], *text = NULL;
+    size_t size = 0, lines = 0;
+    FILE *file = open_memstream(&text, &size);
+    assert_true(gm_grid_open(&grid, GM_STUDY_SWEEP, &arguments, NULL, message));
+    assert_true(gm_grid_measure(&grid, NULL, message));
+    assert_true(gm_grid_write(&grid, file));
+    fclose(file);
+    for (size_t i = 0; i < size; i++) {
+        lines += text[i] == '\n';
+    }
+    assert_int_equal(lines, 3);
+    free(text);
+    const int unreadable = open("/dev/null", O_WRONLY);
+    assert_true(dup2(unreadable, grid.table) >= 0);
+    close(unreadable);
+    file = fopen("/dev/null", "w");
+    assert_false(gm_grid_write(&grid, file));
+    fclose(file);
+    gm_grid_close(&grid);
+}
+
+static bool interrupts; /* a file that is put in its place interrupts the run */
+
+/* Replaces that of the C library. */
+int rename(const char *from, const char *to)
+{
+    gm_interrupted = interrupts ? 1 : gm_interrupted;
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+static void run_with_a_checkpoint(struct gm_arena *arena, void *status)
+{
+    char *words[] = {(char[]){"geomint"},   (char[]){"run"},        (char[]){"kepler"},
+                     (char[]){"dt=0.3"},    (char[]){"until=1.05"}, (char[]){"scheme=rk4"},
+                     (char[]){"--csv"},     (char[]){"rest.csv"},   (char[]){"--checkpoint"},
+                     (char[]){"rest.state"}};
+    struct gm_options options;
+    char message[GM_MESSAGE];
+    assert_true(gm_options_parse(&options, GM_RUN, (int)GM_COUNT(words), words, 2, message));
+    gm_arena_keep(arena, &options, gm_options_close);
+    options.arena = arena;
+    options.end = status;
+    *(int *)status = gm_command_run(&options);
+    gm_arena_drop(arena, &options);
+}
+
+/* A run that is interrupted after its last whole step, while the checkpoint of it is written, has not come to
+   its end. */
+static void interrupted_before_the_last_part(void **unused)
+{
+    (void)unused;
+    int status = 0;
+    char line[512] = "", status_word[32] = "";
+    double t = 0;
+    interrupts = true;
+    struct gm_arena *arena = gm_arena_open();
+    assert_true(gm_arena_run(arena, run_with_a_checkpoint, &status));
+    gm_arena_close(arena);
+    interrupts = false;
+    gm_interrupted = 0;
+    assert_int_equal(status, GM_EXIT_INTERRUPTED);
+    FILE *rows = fopen("rest.csv", "r");
+    assert_non_null(rows);
+    while (fgets(line, sizeof line, rows)) {
+    }
+    fclose(rows);
+    assert_int_equal(sscanf(line, "kepler,0,rk4,%lf,%31[a-z]", &t, status_word), 2);
+    assert_string_equal(status_word, "interrupted");
+    assert_true(fabs(t - 0.9) < 1e-12);
+    unlink("rest.csv");
+    unlink("rest.state");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(observables_say_what_they_are),
         cmocka_unit_test(sections_are_interpolated),
+        cmocka_unit_test(rows_that_cannot_be_read_are_reported),
+        cmocka_unit_test(interrupted_before_the_last_part),
         cmocka_unit_test(sections_survive_stepping_back),
         cmocka_unit_test(angles_are_unwrapped),
         cmocka_unit_test(memory_is_bounded),

@@ -526,17 +526,15 @@ static const struct gm_shot *type_value(struct gm_worker *worker, struct gm_face
 {
     const struct gm_shot *shot = next_shot(worker);
     const unsigned long told = shot->message_number;
-    const size_t place = face->parameter = place_of(shot, key);
-    struct gm_keystroke press = {0, face, shot, worker};
-    gm_prompt_open(&press, GM_PROMPT_VALUE);
-    for (; *value; value++) {
-        press.key = *value;
-        gm_prompt_press(&press);
+    const size_t place = place_of(shot, key);
+    struct gm_order order = {.kind = GM_ORDER_TYPE, .row = shot->parameters[place].row};
+    for (face->typed[0] = '\0'; *value; value++) {
+        gm_typed_key(face->typed, *value);
     }
     char typed[GM_TYPED];
     snprintf(typed, sizeof typed, "%s", face->typed);
-    press.key = '\n';
-    gm_prompt_press(&press);
+    snprintf(order.text, sizeof order.text, "%s", typed);
+    gm_worker_order(worker, order);
     for (int i = 0; i < 1000; i++) {
         shot = next_shot(worker);
         if (strcmp(shot->parameters[place].value, typed) == 0 || shot->message_number != told) {
@@ -580,7 +578,7 @@ static void long_texts_stay_whole(void **unused)
     const struct gm_shot *shot = next_shot(worker);
     assert_string_equal(shot->parameters[place_of(shot, "mesh")].value, path);
     struct gm_studies studies = {0};
-    gm_studies_begin(&studies, 'm', shot, wake);
+    gm_studies_begin(&studies, GM_STUDY_STABILITY, shot, wake);
     assert_non_null(studies.studies[GM_STUDY_STABILITY]);
     struct gm_arguments arguments = {0};
     assert_true(gm_arguments_split(&arguments, gm_study_words(studies.studies[GM_STUDY_STABILITY])));

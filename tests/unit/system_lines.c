@@ -231,7 +231,8 @@ static void texts_hold_values(void **unused)
     (void)unused;
     static const char text[] = OSCILLATOR
         "name: A spring\ntitle: A spring by {schemes} for {t/(2*pi)} turns\n"
-        "subtitle: k = {k}; start {q(0)}; {k/6:/} of it; q {-k:nonzero}; Δt = {dt:pi}\n"
+        "subtitle: k = {k}; start {q(0)}; {k/6:/} of it; q {-k:nonzero}; Δt = {dt:pi}; "
+        "{k} spring{k:s}; {4*k} spring{4*k:s} in {dt*k}\n"
         "caption: {k - 1:nonzero}\ntime: a radian\nlevel: q^2 + p^2 - q(0)^2 - p(0)^2; the circle\n";
     const struct gm_scene *scene = scene_of(text);
     assert_string_equal(scene->title, "A spring");
@@ -240,11 +241,14 @@ static void texts_hold_values(void **unused)
     struct gm_picture *picture = picture_of(lanes, 1);
     assert_string_equal(picture->title, "A spring by RK4 for 1 turns");
     assert_string_equal(picture->subtitle,
-                        "k = 1,  start 1,  1/6 of it,  q −1,  Δt = π/50;  grey: the circle");
+                        "k = 1,  start 1,  1/6 of it,  q −1,  Δt = π/50,  1 spring,  4 springs in 0.06283"
+                        ";  grey: the circle");
     assert_string_equal(picture->caption, "");
     gm_picture_close(picture);
     picture = picture_of(lanes, 2);
-    assert_string_equal(picture->subtitle, "k = 1,  1/6 of it,  q −1,  Δt = π/50;  grey: the circle");
+    assert_string_equal(picture->subtitle,
+                        "k = 1,  1/6 of it,  q −1,  Δt = π/50,  1 spring,  4 springs in 0.06283"
+                        ";  grey: the circle");
     gm_picture_close(picture);
     gm_lane_close(lanes[1]);
     lanes[1] = running(scene, "", "gauss4", 2 * M_PI);
@@ -253,6 +257,25 @@ static void texts_hold_values(void **unused)
     gm_picture_close(picture);
     gm_lane_close(lanes[1]);
     gm_lane_close(lanes[0]);
+    gm_system_scene_close(scene);
+}
+
+/* Curves over time have their titles in the picture. */
+static void curves_have_titles(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of("coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: q = 1, p = 0\n"
+                 "view: t, q; title the place\nview: t, p\ndt: pi/50\n");
+    struct gm_lane *lane = running(scene, "", "rk4", 2 * M_PI);
+    struct gm_picture *picture = picture_of(&lane, 1);
+    size_t titles = 0;
+    for (const struct gm_mark *mark = picture->first->first; mark; mark = mark->next) {
+        titles += mark->kind == GM_MARK_TEXT && strcmp(mark->text, "the place") == 0;
+    }
+    assert_int_equal(titles, 1);
+    gm_picture_close(picture);
+    gm_lane_close(lane);
     gm_system_scene_close(scene);
 }
 
@@ -439,6 +462,7 @@ int main(void)
         cmocka_unit_test(derived_starts_follow),
         cmocka_unit_test(sights_are_live),
         cmocka_unit_test(texts_hold_values),
+        cmocka_unit_test(curves_have_titles),
         cmocka_unit_test(levels_are_drawn),
         cmocka_unit_test(graphs_are_those_of_the_file),
         cmocka_unit_test(studies_are_those_of_the_file),

@@ -50,9 +50,8 @@ static void print_line(const struct gm_grid_line *line)
 
 static void print_table(const struct gm_grid *grid)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     printf("%s, up to t = %.6g: largest error of H + dt H1 + dt^2 H2 + ..., cut off after a power of dt\n",
-           grid->request.scene->name, timing->until);
+           grid->request.scene->name, gm_grid_timing(grid)->until);
     for (size_t i = 0; i < grid->count; i++) {
         print_line(&grid->lines[i]);
     }
@@ -63,8 +62,8 @@ static void print_table(const struct gm_grid *grid)
 
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
-    gm_row_put(row, "order %i, until %.17g, reason %s", line->scheme->order, timing->until, line->reason);
+    gm_row_put(row, "order %i, until %.17g, reason %s", line->scheme->order, gm_grid_timing(grid)->until,
+               line->reason);
     gm_row_list(row, "slopes", line->orders, GM_POWERS);
 }
 

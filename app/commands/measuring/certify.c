@@ -189,7 +189,7 @@ static void draw_orders(const void *data, struct gm_picture *picture)
     }
 }
 
-static void write_orders(const void *data, FILE *csv)
+static bool write_orders(const void *data, FILE *csv)
 {
     const struct orders *orders = data;
     fprintf(csv, "scheme,for,problem,order,dt,error\n");
@@ -204,6 +204,7 @@ static void write_orders(const void *data, FILE *csv)
             fputc('\n', csv);
         }
     }
+    return true;
 }
 
 /* ---- the command ---- */

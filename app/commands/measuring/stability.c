@@ -158,7 +158,7 @@ static void draw_region(const void *data, struct gm_picture *picture)
     }
 }
 
-static void write_region(const void *data, FILE *csv)
+static bool write_region(const void *data, FILE *csv)
 {
     const struct region *region = data;
     const bool plane = region->test == GM_TEST_PLANE;
@@ -172,6 +172,7 @@ static void write_region(const void *data, FILE *csv)
                    isfinite(region->known[i]) ? region->known[i] : NAN);
         fputc('\n', csv);
     }
+    return true;
 }
 
 /* The limits of a region, its part of the picture, and the largest difference from the stability function; NAN:
@@ -259,14 +260,13 @@ static int find_region(const struct gm_options *options)
 static void print_table(const struct gm_grid *grid)
 {
     const struct gm_stability *plan = grid->plan;
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char letters[128], question[GM_TEXT_SIZE];
     gm_stability_letters(grid, letters, sizeof letters);
     printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", grid->request.scene->name,
-           gm_stability_question(grid, question, sizeof question), timing->until, gm_stability_judge(grid),
-           letters[0] ? ", " : "", letters);
+           gm_stability_question(grid, question, sizeof question), gm_grid_timing(grid)->until,
+           gm_stability_judge(grid), letters[0] ? ", " : "", letters);
     if (plan->told) {
-        printf("%s: %.4g here\n", plan->told, 1 / plan->unit(timing));
+        printf("%s: %.4g here\n", plan->told, 1 / plan->unit(gm_grid_timing(grid)));
     }
     for (size_t i = 0; i < grid->count; i++) {
         const struct gm_grid_line *line = &grid->lines[i];
@@ -295,10 +295,9 @@ static void print_table(const struct gm_grid *grid)
 
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     const double limit = gm_stability_limit(grid, line);
     gm_row_put(row, "parameter %s, unit %s, until %.17g, judge %s, accuracy %.17g, limit %.17g",
-               grid->parameter->key, grid->plan->label, timing->until, gm_stability_judge(grid),
+               grid->parameter->key, grid->plan->label, gm_grid_timing(grid)->until, gm_stability_judge(grid),
                grid->accuracy, limit > 0 ? limit : NAN);
 }
 

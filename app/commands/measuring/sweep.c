@@ -25,7 +25,7 @@ static size_t cores_of(const struct gm_options *options)
 /* Ends the command unless the user agrees to the runs. */
 static void confirm(const struct gm_sweep *sweep, const struct gm_options *options)
 {
-    const size_t runs = gm_sweep_share(sweep);
+    const size_t runs = gm_sweep_shard_runs(sweep);
     if (options->yes || ((double)runs <= many && gm_sweep_total(sweep, gm_request_steps) <= gm_many_steps)) {
         return;
     }
@@ -68,11 +68,11 @@ static void check(const struct gm_options *options)
     }
     const bool streamed = gm_options_take_stdout(options);
     const bool named = options->table || (is_drawn(options) && !streamed);
-    if ((options->retry || options->shards || streamed) && !named) {
+    if ((options->retry || options->pace.shards || streamed) && !named) {
         gm_command_end(options, GM_EXIT_USAGE, "%s needs a table: --table FILE.csv",
-                       options->retry    ? "--retry"
-                       : options->shards ? "--shard"
-                                         : "--output -");
+                       options->retry         ? "--retry"
+                       : options->pace.shards ? "--shard"
+                                              : "--output -");
     }
 }
 
@@ -101,8 +101,8 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
                     sum->first_warned, sum->warning);
     }
     if (path) {
-        gm_complain("%zu of %zu run%s made now, %zu of them not ok", sum->made, gm_sweep_share(sweep),
-                    gm_plural((double)gm_sweep_share(sweep)), sum->failed);
+        gm_complain("%zu of %zu run%s made now, %zu of them not ok", sum->made, gm_sweep_shard_runs(sweep),
+                    gm_plural((double)gm_sweep_shard_runs(sweep)), sum->failed);
         gm_complain("wrote %s", path);
     }
 }
@@ -132,7 +132,7 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
 {
     char message[GM_MESSAGE];
     *options->end = GM_EXIT_FILE;
-    if (options->shards) {
+    if (options->pace.shards) {
         gm_sweep_note(sweep, path);
     }
     struct gm_sweep_table *table = gm_sweep_table_open(options->arena, sweep, path, options->retry);
@@ -154,7 +154,7 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     if (gm_interrupted || !good) {
         return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
     }
-    return is_drawn(options) && !options->shards ? paint(sweep, options, path) : GM_EXIT_OK;
+    return is_drawn(options) && !options->pace.shards ? paint(sweep, options, path) : GM_EXIT_OK;
 }
 
 static void name_missing(size_t run, const char *words)
@@ -164,17 +164,13 @@ static void name_missing(size_t run, const char *words)
 
 static int join(const struct gm_options *options, struct gm_sweep *sweep)
 {
-    char message[GM_MESSAGE];
-    size_t missing = 0;
     if (options->arguments.count > 0) {
         return gm_give_up(GM_EXIT_USAGE, "--join needs no scene: %s.sweep describes the sweep",
                           options->join);
     }
     *options->end = GM_EXIT_FILE;
     gm_sweep_recall(options->arena, sweep, options->join);
-    if (!gm_sweep_join(sweep, options->join, name_missing, &missing, message)) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    const size_t missing = gm_sweep_join(sweep, options->join, name_missing);
     if (missing > 0) {
         return gm_give_up(
             GM_EXIT_FILE, "%s has %zu of %zu row%s; run the incomplete shards again, then join again",
@@ -193,10 +189,10 @@ int gm_command_sweep(const struct gm_options *options)
     }
     check(options);
     gm_sweep_open(options->arena, sweep, &options->arguments, options->measure, options->end);
-    sweep->shard = options->shards ? (size_t)options->shard : 1;
-    sweep->shards = options->shards ? (size_t)options->shards : 1;
+    sweep->shard = options->pace.shards ? (size_t)options->pace.shard : 1;
+    sweep->shards = options->pace.shards ? (size_t)options->pace.shards : 1;
     const char *path = options->table || is_drawn(options) ? path_of(options, sweep) : NULL;
-    if (is_drawn(options) && !options->shards && !gm_sweep_is_drawable(sweep, message)) {
+    if (is_drawn(options) && !options->pace.shards && !gm_sweep_is_drawable(sweep, message)) {
         gm_command_end(options, GM_EXIT_USAGE, "%s; --table FILE.csv alone makes none", message);
     }
     confirm(sweep, options);

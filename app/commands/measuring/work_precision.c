@@ -9,9 +9,8 @@
 
 static void print_table(const struct gm_grid *grid)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char sentence[512];
-    printf("%s, %s at t = %.6g", grid->request.scene->name, grid->measure, timing->until);
+    printf("%s, %s at t = %.6g", grid->request.scene->name, grid->measure, gm_grid_timing(grid)->until);
     printf(grid->reference[0] ? " against %s\n" : "\n", grid->reference);
     char heading[64];
     snprintf(heading, sizeof heading, "%s for an error of",
@@ -52,9 +51,9 @@ static void print_table(const struct gm_grid *grid)
 
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     (void)line;
-    gm_row_put(row, "measure %s, against %s, until %.17g", grid->measure, grid->reference, timing->until);
+    gm_row_put(row, "measure %s, against %s, until %.17g", grid->measure, grid->reference,
+               gm_grid_timing(grid)->until);
 }
 
 static void put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)

@@ -51,11 +51,10 @@ static void cut(struct gm_edit *line, size_t from, size_t to)
 
 bool gm_edit_press(struct gm_edit *line, int key)
 {
-    if (gm_key_is_erase(key)) {
+    switch (key) {
+    case KEY_BACKSPACE:
         cut(line, before(line, line->at), line->at);
         return true;
-    }
-    switch (key) {
     case KEY_LEFT:
         line->at = before(line, line->at);
         return true;

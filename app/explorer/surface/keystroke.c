@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions common to all keys, and the search. */
+/* The names of keys, typed words, and the search. */
 #include "app/explorer/surface/surface.h"
 
 #include <ctype.h>
@@ -8,27 +8,40 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { ESCAPE = 27 };
+#include "core/basics.h"
 
-bool gm_key_is_enter(int key)
+/* The words of scripts, the labels of hints, and the keys. */
+static const struct {
+    const char *name, *label;
+    int key;
+} named[] = {{"ENTER", "enter", '\n'}, {"ESC", "esc", GM_KEY_ESCAPE}, {"TAB", "tab", '\t'},
+             {"SPACE", "space", ' '},  {"UP", "↑", KEY_UP},           {"DOWN", "↓", KEY_DOWN},
+             {"LEFT", "←", KEY_LEFT},  {"RIGHT", "→", KEY_RIGHT},     {"BACKSPACE", "⌫", KEY_BACKSPACE},
+             {"PGUP", "", KEY_PPAGE},  {"PGDN", "", KEY_NPAGE},       {"HOME", "", KEY_HOME},
+             {"END", "", KEY_END},     {"F1", "", KEY_F(1)},          {"", "ctrl-U", 'U' - '@'}};
+
+int gm_key_named(const char *word, size_t length)
 {
-    return key == '\n' || key == '\r' || key == KEY_ENTER;
+    for (size_t i = 0; i < GM_COUNT(named); i++) {
+        const char *const names[] = {named[i].name, named[i].label};
+        for (size_t k = 0; k < GM_COUNT(names); k++) {
+            if (length > 0 && strlen(names[k]) == length && memcmp(word, names[k], length) == 0) {
+                return named[i].key;
+            }
+        }
+    }
+    return length == 1 ? word[0] : 0;
 }
 
-bool gm_key_is_erase(int key)
+const char *gm_key_name(size_t index)
 {
-    return key == KEY_BACKSPACE || key == 127 || key == 8;
-}
-
-bool gm_key_is_escape(int key)
-{
-    return key == ESCAPE;
+    return index < GM_COUNT(named) && named[index].name[0] ? named[index].name : NULL;
 }
 
 bool gm_typed_key(char *typed, int key)
 {
     size_t length = strlen(typed);
-    if (gm_key_is_erase(key)) {
+    if (key == KEY_BACKSPACE) {
         typed[length > 0 ? length - 1 : 0] = '\0';
         return true;
     }
@@ -38,21 +51,6 @@ bool gm_typed_key(char *typed, int key)
     typed[length] = (char)key;
     typed[length + 1] = '\0';
     return true;
-}
-
-enum gm_key_result gm_keystroke_order(const struct gm_keystroke *press, struct gm_order order)
-{
-    gm_worker_order(press->worker, order);
-    return GM_KEY_DONE;
-}
-
-enum gm_key_result gm_keystroke_page(const struct gm_keystroke *press, enum gm_page page,
-                                     const struct gm_scheme *scheme)
-{
-    press->face->page = page;
-    press->face->explained = scheme;
-    press->face->scroll = 0;
-    return GM_KEY_DONE;
 }
 
 /* ---- searching ---- */

@@ -195,25 +195,40 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
     return taken;
 }
 
-int gm_sheet_hints(const struct gm_sheet *sheet, int from, const struct gm_hint *hints)
+enum { HINT = 40 };
+
+/* Reads a hint "keys:word" and moves to the next one; returns false at the end. */
+static bool read_hint(const char **at, char keys[HINT], char word[HINT])
 {
+    const size_t size = strcspn(*at, "|"), length = strcspn(*at, ":");
+    if (size == 0) {
+        return false;
+    }
+    snprintf(keys, HINT, "%.*s", (int)length, *at);
+    snprintf(word, HINT, "%.*s", (int)(size - length - 1), *at + length + 1);
+    *at += size + ((*at)[size] == '|');
+    return true;
+}
+
+int gm_sheet_hints(const struct gm_sheet *sheet, int from, const char *hints)
+{
+    char keys[HINT], word[HINT];
     int widths = 0, count = 0;
-    for (; hints[count].key; count++) {
-        int width =
-            gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
+    for (const char *at = hints; read_hint(&at, keys, word); count++) {
+        const int width = gm_sheet_width(sheet, keys) + 1 + gm_sheet_width(sheet, word) + 3;
         if (from + widths + width > sheet->width) {
             break;
         }
         widths += width;
     }
-    int begin = sheet->width - widths + 2, column = begin;
-    for (int i = 0; i < count; i++) {
-        int first = column;
-        column += gm_sheet_text(sheet, column, 0, hints[i].key, GM_INK, true) + 1;
-        column += gm_sheet_text(sheet, column, 0, hints[i].word, GM_SECONDARY, false) + 3;
-        if (hints[i].code) {
+    const int begin = sheet->width - widths + 2;
+    for (int column = begin; count > 0 && read_hint(&hints, keys, word); count--) {
+        const int first = column, code = gm_key_named(keys, strcspn(keys, " "));
+        column += gm_sheet_text(sheet, column, 0, keys, GM_INK, true) + 1;
+        column += gm_sheet_text(sheet, column, 0, word, GM_SECONDARY, false) + 3;
+        if (code) {
             gm_sheet_hit(sheet, first, 0, column - first - 2,
-                         (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)hints[i].code});
+                         (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)code});
         }
     }
     return begin;
@@ -336,6 +351,14 @@ void gm_screen_rule(const struct gm_sheet *whole, int below, int side)
     }
 }
 
+struct gm_sheet gm_screen_foot(const struct gm_sheet *whole)
+{
+    if (gm_screen_rows_below(whole->cells) == 2) {
+        gm_screen_rule(whole, 2, 0);
+    }
+    return gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+}
+
 void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
 {
     const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
@@ -353,8 +376,6 @@ void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
 
 void gm_screen_ask(const struct gm_sheet *whole, const char *loss)
 {
-    static const struct gm_hint hints[] = {
-        {"q", "quit", 'q'}, {"any other key", "stay", 27}, {NULL, NULL, 0}};
     char text[160];
     const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
     snprintf(text, sizeof text, "Quit? %s. q again quits, any other key stays", loss);
@@ -362,7 +383,7 @@ void gm_screen_ask(const struct gm_sheet *whole, const char *loss)
     for (int column = 0; column < last.width; column++) {
         gm_sheet_glyph(&last, column, 0, ' ', GM_INK, false);
     }
-    gm_sheet_hints(&last, 1, hints);
+    gm_sheet_hints(&last, 1, "q:quit|any other key:stay");
 }
 
 static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)

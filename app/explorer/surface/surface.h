@@ -76,46 +76,17 @@ struct gm_face {
     struct gm_studies *studies;                 /* the background studies; NULL if not available */
 };
 
-/* A key pressed while a scene is open, and its result. */
+/* Keys, as ncurses numbers them. */
 
-enum gm_key_result {
-    GM_KEY_DONE,    /* the key is handled */
-    GM_KEY_BLOCKS,  /* shows pictures in another way */
-    GM_KEY_REPAINT, /* writes the screen again */
-    GM_KEY_THEME,   /* writes the screen in other colours */
-    GM_KEY_SCENES,  /* opens the list of scenes */
-    GM_KEY_STUDY,   /* starts a background diagram, chosen by the key */
-    GM_KEY_MAP,     /* asks for a map of many runs */
-    GM_KEY_TOUR,    /* shows another step of a tour, chosen by the key */
-    GM_KEY_TYPED,   /* asks for a user-defined system, or from the list of schemes for a scheme */
-    GM_KEY_FILE,    /* saves the user-defined system to a file */
-    GM_KEY_COPY,    /* copies the chosen command line to the clipboard */
-    GM_KEY_UNKNOWN, /* has no meaning here */
-    GM_KEY_LEAVE,
-};
+enum { GM_KEY_ESCAPE = 27, GM_KEY_REDRAW = 'L' - '@' };
 
-/* A key, and the state it acts on. */
-struct gm_keystroke {
-    int key; /* the key as ncurses numbers it */
-    struct gm_face *face;
-    const struct gm_shot *shot;
-    struct gm_worker *worker;
-};
-
-/* Keys that have the same meaning everywhere. */
-enum { GM_KEY_REDRAW = 'L' - '@' };
-bool gm_key_is_enter(int key);
-bool gm_key_is_erase(int key);
-bool gm_key_is_escape(int key);
+/* Returns the key of a name in a script, such as ENTER, of a label in a hint, or of a letter; else 0. */
+int gm_key_named(const char *word, size_t length);
+/* Returns the name number `index` in a script, or NULL. */
+const char *gm_key_name(size_t index);
 
 /* Adds a letter to a line of GM_TYPED bytes, or deletes its last one; returns false for other keys. */
 bool gm_typed_key(char *typed, int key);
-
-/* Sends an order; returns GM_KEY_DONE. */
-enum gm_key_result gm_keystroke_order(const struct gm_keystroke *press, struct gm_order order);
-/* Opens a page; `scheme` is the scheme it explains, or NULL. */
-enum gm_key_result gm_keystroke_page(const struct gm_keystroke *press, enum gm_page page,
-                                     const struct gm_scheme *scheme);
 
 /* A rectangle of the screen to write in, and its clickable parts. */
 
@@ -178,14 +149,9 @@ int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role);
 
-/* A hint: a key and a word. */
-struct gm_hint {
-    const char *key, *word;
-    int code; /* the key's code for a click; 0: not clickable */
-};
-/* Writes the hints that fit at the right of row 0, from column `from` on; a NULL key ends the list.
-   Returns the column of the first. */
-int gm_sheet_hints(const struct gm_sheet *sheet, int from, const struct gm_hint *hints);
+/* Writes hints "keys:word|keys:word" as far as they fit, at the right of row 0 from column `from` on. A click on one
+   presses the first of its keys. Returns the column of the first hint. */
+int gm_sheet_hints(const struct gm_sheet *sheet, int from, const char *hints);
 
 /* A picture painted as blocks, cached until it changes. */
 struct gm_painting {
@@ -248,6 +214,8 @@ int gm_screen_rows_below(const struct gm_cells *cells);
 /* Draws the rule with `below` - 1 rows below it, and the line at the left of a panel of `side` columns; 0:
    no panel. */
 void gm_screen_rule(const struct gm_sheet *whole, int below, int side);
+/* Draws the rule without a panel, if there is room; returns the last row. */
+struct gm_sheet gm_screen_foot(const struct gm_sheet *whole);
 /* Writes a text that does not fit beside the hints above the last row, in at most a third of the rows. */
 void gm_screen_say_above(const struct gm_sheet *whole, const char *text);
 /* Draws the question whether to quit, over the rows at the bottom. */

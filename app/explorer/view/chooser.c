@@ -2,14 +2,11 @@
 /* The list of schemes, with a search. */
 #include "app/explorer/view/view.h"
 
-#include <curses.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/explorer/surface/surface.h"
 #include "core/aliases.h"
-
-enum { PAGE = 10 };
 
 const struct gm_scheme gm_chooser_user = {
     .name = "own",
@@ -18,9 +15,7 @@ const struct gm_scheme gm_chooser_user = {
                "splitting(drifts; kicks), or a file: ./my.scheme",
 };
 
-/* Finds the suitable schemes that match the typed words, the best first, and last the one to be typed.
-   Returns their number. */
-static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
+size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
                        const struct gm_scheme *found[GM_SHOT_SCHEMES])
 {
     int ranks[GM_SHOT_SCHEMES];
@@ -48,10 +43,7 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
     return count;
 }
 
-/* ---- keys ---- */
-
-/* Returns the first scheme after the selected lane's that no lane uses. */
-static const struct gm_scheme *first_choice(const struct gm_shot *shot)
+const struct gm_scheme *gm_chooser_first(const struct gm_shot *shot)
 {
     size_t own = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {
@@ -65,86 +57,22 @@ static const struct gm_scheme *first_choice(const struct gm_shot *shot)
             return scheme;
         }
     }
-    return shot->schemes[own];
+    return shot->scheme_count > 0 ? shot->schemes[own] : NULL;
 }
 
-enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, const struct gm_key_code *key)
+const char *gm_chooser_alias(const struct gm_face *face)
 {
-    press->face->choosing = (enum gm_choosing)key->meaning;
-    press->face->typed[0] = '\0';
-    press->face->choice = press->shot->scheme_count > 0 ? first_choice(press->shot) : NULL;
-    return GM_KEY_DONE;
-}
-
-/* Moves the choice up or down in the list. */
-static void move_choice(struct gm_face *face, const struct gm_shot *shot, int by)
-{
-    const struct gm_scheme *found[GM_SHOT_SCHEMES];
-    size_t count = find_all(face, shot, found), at = 0;
-    if (count == 0) {
-        face->choice = NULL;
-        return;
+    const struct gm_scheme *choice = face->typed[0] ? face->choice : NULL;
+    if (!choice ||
+        gm_search_rank(face->typed, (const char *const[]){choice->name, choice->title, NULL}) >= 0) {
+        return NULL;
     }
-    for (size_t i = 0; i < count; i++) {
-        at = found[i] == face->choice ? i : at;
-    }
-    long next = (long)at + by, last = (long)count - 1;
-    if (by == 1 || by == -1) {
-        next = (next + (long)count) % (long)count;
-    }
-    face->choice = found[next < 0 ? 0 : next > last ? last : next];
-}
-
-/* Chooses the best match; without a typed word the choice stays. */
-static void choose_best(struct gm_face *face, const struct gm_shot *shot)
-{
-    const struct gm_scheme *found[GM_SHOT_SCHEMES];
-    const size_t count = find_all(face, shot, found);
-    if (face->typed[0] || !face->choice) {
-        face->choice = count > 0 ? found[0] : NULL;
-    }
-}
-
-enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
-{
-    struct gm_face *face = press->face;
-    if (gm_key_is_escape(press->key) || (gm_key_is_erase(press->key) && !face->typed[0])) {
-        face->choosing = GM_CHOOSE_NOTHING;
-        return GM_KEY_DONE;
-    }
-    if (gm_key_is_enter(press->key)) {
-        if (!face->choice || face->choice == &gm_chooser_user) {
-            return face->choice ? GM_KEY_TYPED : GM_KEY_DONE;
-        }
-        enum gm_order_kind kind = face->choosing == GM_CHOOSE_FORK ? GM_ORDER_FORK : GM_ORDER_SWITCH;
-        face->choosing = GM_CHOOSE_NOTHING;
-        return gm_keystroke_order(press, (struct gm_order){.kind = kind, .scheme = face->choice});
-    }
-    switch (press->key) {
-    case KEY_UP:
-    case KEY_BTAB:
-        move_choice(face, press->shot, -1);
-        return GM_KEY_DONE;
-    case KEY_DOWN:
-    case '\t':
-        move_choice(face, press->shot, 1);
-        return GM_KEY_DONE;
-    case KEY_PPAGE:
-        move_choice(face, press->shot, -PAGE);
-        return GM_KEY_DONE;
-    case KEY_NPAGE:
-        move_choice(face, press->shot, PAGE);
-        return GM_KEY_DONE;
-    case '?':
-        return face->choice && face->choice != &gm_chooser_user
-                   ? gm_keystroke_page(press, GM_PAGE_SCHEME, face->choice)
-                   : GM_KEY_DONE;
-    default:
-        if (gm_typed_key(face->typed, press->key)) {
-            choose_best(face, press->shot);
-        }
-        return GM_KEY_DONE;
-    }
+    const char *alias;
+    size_t k = 0;
+    do {
+        alias = gm_alias_of(choice->name, k++);
+    } while (alias && gm_search_rank(face->typed, (const char *const[]){alias, NULL}) < 0);
+    return alias;
 }
 
 /* ---- drawing ---- */
@@ -153,7 +81,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
     const struct gm_face *face = sheet->face;
     const struct gm_scheme *found[GM_SHOT_SCHEMES];
-    int count = (int)find_all(face, shot, found), row = 0, at = 0;
+    int count = (int)gm_chooser_find(face, shot, found), row = 0, at = 0;
     for (int i = 0; i < count; i++) {
         at = found[i] == face->choice ? i : at;
     }

@@ -6,35 +6,9 @@
 
 enum { MOST_ROWS = 100, LEAST_HEIGHT = 8 };
 
-struct gm_guide gm_guide_open(const struct gm_tour *tour)
+struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step)
 {
-    return (struct gm_guide){.tour = tour, .answered = !tour->steps[0].ask};
-}
-
-static enum gm_guide_result go(struct gm_guide *guide, size_t step)
-{
-    if (step >= guide->tour->count) {
-        return GM_GUIDE_END;
-    }
-    guide->step = step;
-    guide->answered = !guide->tour->steps[step].ask;
-    return GM_GUIDE_OPEN;
-}
-
-enum gm_guide_result gm_guide_press(struct gm_guide *guide, int key)
-{
-    switch (key) {
-    case 'n':
-        if (!guide->answered) {
-            guide->answered = true;
-            return GM_GUIDE_RUN;
-        }
-        return go(guide, guide->step + 1);
-    case 'N':
-        return go(guide, guide->step - 1); /* step 0 - 1 wraps around to a number without a step */
-    default:
-        return go(guide, guide->step);
-    }
+    return (struct gm_guide){.tour = tour, .step = step, .answered = !tour->steps[step].ask};
 }
 
 /* ---- texts ---- */
@@ -74,21 +48,15 @@ int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide)
 /* Draws the tour's keys at the right of the rule; returns their first column. */
 static int draw_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
 {
-    struct gm_hint hints[4];
-    size_t count = 0;
-    if (!guide->answered || guide->step + 1 < guide->tour->count) {
-        hints[count++] = (struct gm_hint){"n", guide->answered ? "next" : "answer", 'n'};
-    }
-    if (guide->step > 0) {
-        hints[count++] = (struct gm_hint){"N", "back", 'N'};
-    }
-    hints[count++] = (struct gm_hint){"a", "again", 'a'};
-    hints[count] = (struct gm_hint){NULL, NULL, 0};
-    int width = 0;
-    for (size_t i = 0; i < count; i++) {
-        width += gm_sheet_width(sheet, hints[i].word) + 5;
-    }
-    for (int i = sheet->width - width; i < sheet->width; i++) {
+    char hints[64];
+    const bool on = !guide->answered || guide->step + 1 < guide->tour->count;
+    snprintf(hints, sizeof hints, "%s%sa:again",
+             !on               ? ""
+             : guide->answered ? "n:next|"
+                               : "n:answer|",
+             guide->step > 0 ? "N:back|" : "");
+    const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
+    for (int i = gm_sheet_hints(&nothing, 1, hints) - 2; i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
     }
     return gm_sheet_hints(sheet, 1, hints);

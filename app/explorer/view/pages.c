@@ -2,13 +2,10 @@
 /* The content of the explaining pages, and scrolling. */
 #include "app/explorer/view/view.h"
 
-#include <curses.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/basics.h"
-
-enum { PAGE = 10 }; /* lines per press of PgUp or PgDn */
 
 /* A page that grows downwards, scrolled by `scroll` rows. */
 struct page {
@@ -64,11 +61,9 @@ static void put_key(struct page *page, const char *label, const char *text)
 
 static void put_key_rows(struct page *page)
 {
-    for (size_t i = 0; i < gm_key_row_count; i++) {
-        if (gm_key_rows[i].text) {
-            put_key(page, gm_key_rows[i].label, gm_key_rows[i].text);
-        }
-    }
+#define GM_KEYS(label, hint, rank, text, ...) put_key(page, label, text);
+#include "app/explorer/view/keys.def"
+#undef GM_KEYS
 }
 
 static void put_keys(struct page *page, const struct gm_scene *scene)
@@ -248,72 +243,16 @@ static void draw_page(const struct gm_sheet *sheet, struct gm_face *face, const 
     draw(sheet, face->scroll, shot);
 }
 
-static const struct gm_hint page_hints[] = {
-    {"?", "back", '?'}, {"↑↓", "scroll", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
-static const struct gm_hint own_hints[] = {
-    {"esc", "back", 27}, {"y", "copy the other", 'y'}, {"s", "save the system", 's'},
-    {"↑↓", "scroll", 0}, {"q", "quit", 'q'},           {NULL, NULL, 0}};
-static const struct gm_hint command_hints[] = {{"esc", "back", 27},
-                                               {"y", "copy the other", 'y'},
-                                               {"↑↓", "scroll", 0},
-                                               {"q", "quit", 'q'},
-                                               {NULL, NULL, 0}};
-
 void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, const struct gm_shot *shot)
 {
     const int below = gm_screen_rows_below(whole->cells);
-    const struct gm_sheet page = gm_sheet_part(whole, 1, 0, whole->width - 2, whole->height - below);
+    const struct gm_sheet page = gm_sheet_part(whole, 1, 0, whole->width - 2, whole->height - below),
+                          last = gm_screen_foot(whole);
     draw_page(&page, face, shot);
-    if (below == 2) {
-        gm_screen_rule(whole, below, 0);
-    }
     if (below > 0) {
-        const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
         gm_sheet_hints(&last, 1,
-                       face->page != GM_PAGE_COMMAND ? page_hints
-                       : shot->scene->text           ? own_hints
-                                                     : command_hints);
+                       face->page != GM_PAGE_COMMAND ? "?:back|↑↓:scroll|q:quit"
+                       : shot->scene->text ? "esc:back|y:copy the other|s:save the system|↑↓:scroll|q:quit"
+                                           : "esc:back|y:copy the other|↑↓:scroll|q:quit");
     }
-}
-
-/* ---- keys ---- */
-
-enum gm_key_result gm_pages_press(int key, struct gm_face *face)
-{
-    switch (key) {
-    case 'q':
-        return GM_KEY_LEAVE;
-    case KEY_UP:
-        face->scroll--;
-        return GM_KEY_DONE;
-    case KEY_DOWN:
-        face->scroll++;
-        return GM_KEY_DONE;
-    case KEY_PPAGE:
-        face->scroll -= PAGE;
-        return GM_KEY_DONE;
-    case KEY_NPAGE:
-    case ' ':
-        face->scroll += PAGE;
-        return GM_KEY_DONE;
-    case 'y':
-        if (face->page == GM_PAGE_COMMAND) {
-            face->command = (face->command + 1) % GM_COMMANDS;
-            return GM_KEY_COPY;
-        }
-        break;
-    case 's':
-        if (face->page == GM_PAGE_COMMAND) {
-            face->page = GM_PAGE_SCENE;
-            return GM_KEY_FILE;
-        }
-        break;
-    default:
-        break;
-    }
-    if (face->page == GM_PAGE_HELP) {
-        face->watched = NULL; /* the sentence on what to watch is shown again */
-    }
-    face->page = GM_PAGE_SCENE;
-    return GM_KEY_DONE;
 }

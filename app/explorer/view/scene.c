@@ -3,17 +3,16 @@
    texts. */
 #include "app/explorer/view/view.h"
 
-#include <curses.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "render/clock.h"
 
 /* ---- the status line ---- */
 
-enum { MOST_HINTS = 40, FIRST_HINT = 14 };
+enum { FIRST_HINT = 14 };
 
 /* Returns the rows below a scene: on most screens a rule, a row for messages and one for keys. */
 static int rows_below(const struct gm_sheet *whole)
@@ -21,46 +20,28 @@ static int rows_below(const struct gm_sheet *whole)
     return whole->height >= GM_SCREEN_ROWS_OF_KEYS ? 3 : gm_screen_rows_below(whole->cells);
 }
 
-static int by_rank(const void *a, const void *b)
+/* Writes the hints of the table of keys, by rank. */
+static void key_hints(const struct gm_shot *shot, char *hints, size_t size)
 {
-    const struct gm_key_row *const *first = a, *const *second = b;
-    return (*first)->rank - (*second)->rank;
-}
-
-/* Collects the hints of the table of keys. */
-static void key_hints(const struct gm_shot *shot, struct gm_hint hints[MOST_HINTS])
-{
-    const struct gm_key_row *rows[MOST_HINTS];
-    size_t count = 0;
-    for (size_t i = 0; i < gm_key_row_count && count + 1 < MOST_HINTS; i++) {
-        if (gm_key_rows[i].hint) {
-            rows[count++] = &gm_key_rows[i];
+    static const struct {
+        const char *keys, *word;
+        int rank;
+    } rows[] = {
+#define GM_KEYS(label, hint, rank, ...) {label, hint, rank},
+#include "app/explorer/view/keys.def"
+#undef GM_KEYS
+    };
+    size_t used = 0;
+    for (int rank = 1; rank <= (int)GM_COUNT(rows); rank++) {
+        for (size_t i = 0; i < GM_COUNT(rows) && used < size; i++) {
+            const bool go = rank == 1 && shot->paused;
+            if (rows[i].rank == rank) {
+                used += (size_t)snprintf(hints + used, size - used, "%s%s:%s", used ? "|" : "", rows[i].keys,
+                                         go ? "resume" : rows[i].word);
+            }
         }
     }
-    qsort(rows, count, sizeof *rows, by_rank);
-    for (size_t i = 0; i < count; i++) {
-        bool go = rows[i]->keys[0].code == ' ' && shot->paused;
-        hints[i] = (struct gm_hint){rows[i]->label, go ? "resume" : rows[i]->hint, rows[i]->keys[0].code};
-    }
-    hints[count] = (struct gm_hint){NULL, NULL, 0};
 }
-
-static const struct gm_hint chooser_hints[] = {{"enter", "take it", '\n'},
-                                               {"↑↓", "choose", 0},
-                                               {"?", "formula", '?'},
-                                               {"esc", "back", 27},
-                                               {NULL, NULL, 0}};
-/* the hints while a parameter is explained */
-static const struct gm_hint parameter_hints[] = {{"enter", "type", '\n'},
-                                                 {"← →", "change", 0},
-                                                 {"↑ ↓", "choose", 0},
-                                                 {"?", "help", '?'},
-                                                 {"esc", "back", 27},
-                                                 {"- +", "finely", 0},
-                                                 {"⌫", "default", KEY_BACKSPACE},
-                                                 {NULL, NULL, 0}};
-static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
-static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
 
 /* steps per second below which single steps are visible, and below which the picture seems to stand still */
 static const double slow_motion = 20, standstill = 0.1;
@@ -105,21 +86,51 @@ static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
     return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
 }
 
+void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size)
+{
+    snprintf(text, size, "%.6g", shot->ahead);
+}
+
+/* Returns the end of the typed text, where letters are added, and sets the mark before it; the help needs
+   the rest. */
+static const char *end_of(const char *typed, const char **before)
+{
+    enum { SHOWN = 40 };
+    const size_t length = strlen(typed);
+    *before = length > SHOWN ? "…" : "";
+    return length > SHOWN ? typed + length - SHOWN : typed;
+}
+
+static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
+{
+    const char *before, *typed = end_of(face->typed, &before);
+    if (face->prompt == GM_PROMPT_AHEAD) {
+        char standard[32] = "";
+        gm_prompt_ahead(shot, standard, sizeof standard);
+        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %s)", before, typed, standard);
+    } else {
+        const struct gm_parameter *row = shot->parameters[face->parameter].row;
+        snprintf(text, size, "%s = %s%s_   (%s)", row->key, before, typed, row->help);
+    }
+}
+
 /* Writes the text at the left of the status line. */
 static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
     text[0] = '\0';
-    const char *lane = shot->lanes[shot->selected].scheme->title;
+    const char *alias = gm_chooser_alias(face), *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
         face->parameter < shot->parameter_count ? &shot->parameters[face->parameter] : NULL;
     if (shot->running_ahead) {
         snprintf(text, size, "Running ahead: %.0f %%", 100 * shot->progress);
+    } else if (face->choosing != GM_CHOOSE_NOTHING && alias) {
+        snprintf(text, size, "%s: %s", alias, face->choice->name);
     } else if (face->choosing == GM_CHOOSE_SWITCH) {
         snprintf(text, size, "Another scheme for %s, from its current state on", lane);
     } else if (face->choosing == GM_CHOOSE_FORK) {
         snprintf(text, size, "%s continues, and another scheme starts from its current state", lane);
     } else if (face->prompt == GM_PROMPT_AHEAD || (face->prompt == GM_PROMPT_VALUE && parameter)) {
-        gm_prompt_text(face, shot, text, size);
+        prompt_text(face, shot, text, size);
     } else if (shot->message[0] && shot->message_number != face->read) {
         snprintf(text, size, "%s", shot->message);
     } else if (gm_clock_milliseconds() < face->hint_until) {
@@ -141,22 +152,25 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
     const bool apart = rows_below(whole) == 3;
     const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1),
                           sheet = gm_sheet_part(whole, 0, whole->height - 1 - apart, whole->width, 1);
-    struct gm_hint keys[MOST_HINTS];
-    char text[GM_MESSAGE];
+    char text[GM_MESSAGE], keys[GM_MESSAGE];
     int column = 1;
     if (!side) { /* the side panel shows it otherwise */
         status_speed(shot, text, sizeof text);
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
     say(face, shot, side > 0, text, sizeof text);
-    key_hints(shot, keys);
+    key_hints(shot, keys, sizeof keys);
     bool asks = face->prompt != GM_PROMPT_NONE;
     bool news = asks || shot->running_ahead || (shot->message[0] && shot->message_number != face->read);
-    const struct gm_hint *hints = shot->running_ahead                   ? ahead_hints
-                                  : face->choosing != GM_CHOOSE_NOTHING ? chooser_hints
-                                  : asks                                ? prompt_hints
-                                  : face->explaining && !news           ? parameter_hints
-                                                                        : keys;
+    const char *hints = shot->running_ahead                   ? "any key:stop"
+                        : face->choosing != GM_CHOOSE_NOTHING ? "enter:take it|↑↓:choose|?:formula|esc:back"
+                        : asks                                ? "enter:do|esc:back"
+                        : face->explaining && !news ? "enter:type|← →:change|↑ ↓:choose|?:help|esc:back|- "
+                                                      "+:finely|⌫:default"
+                                                    : keys;
+    if (shot->running_ahead) {
+        gm_sheet_hit(&last, 0, 0, last.width, (struct gm_hit){.kind = GM_HIT_KEY, .index = ' '});
+    }
     const int reserved = apart ? 1 : FIRST_HINT;
     if (text[0] && rows_below(whole) >= 2 && column + gm_sheet_width(&sheet, text) + reserved > sheet.width) {
         gm_screen_say_above(whole, text);
@@ -216,9 +230,6 @@ static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, 
     gm_sheet_hit(&sheet, 0, 0, sheet.width, (struct gm_hit){.kind = GM_HIT_PAST});
 }
 
-static const struct gm_hint study_hints[] = {{"esc", "back", 27},  {"x", "stop", 'x'}, {"p", "save", 'p'},
-                                             {"b", "blocks", 'b'}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
-
 /* Draws a study in `rows` rows of full width, and its progress. */
 static void draw_study(const struct gm_sheet *whole, int rows)
 {
@@ -228,14 +239,16 @@ static void draw_study(const struct gm_sheet *whole, int rows)
     const struct gm_sheet diagram = gm_sheet_part(whole, 0, 0, whole->width, rows);
     gm_studies_draw(&diagram, studies);
     gm_sheet_hit(&diagram, 0, 0, diagram.width, (struct gm_hit){.kind = GM_HIT_PICTURE, .height = rows});
-    if (below == 2) {
-        gm_screen_rule(whole, below, 0);
-    }
+    struct gm_sheet last = gm_screen_foot(whole);
     if (below > 0) {
-        struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
         gm_studies_status(studies, text, sizeof text);
         const int from = 1 + gm_sheet_width(&last, text) + 3, most = last.width - 10;
-        last.width = gm_sheet_hints(&last, from < most ? from : most > 1 ? most : 1, study_hints) - 2;
+        last.width = gm_sheet_hints(&last,
+                                    from < most ? from
+                                    : most > 1  ? most
+                                                : 1,
+                                    "esc:back|x:stop|p:save|b:blocks|q:quit") -
+                     2;
         if (1 + gm_sheet_width(&last, text) > last.width && below == 2) {
             gm_screen_say_above(whole, text);
         } else {

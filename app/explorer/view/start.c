@@ -182,28 +182,19 @@ static void draw_own(const struct gm_sheet *sheet)
 /* Draws the last row: the typed search, or a hint that one can search, and the keys. */
 static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start)
 {
-    enum { MOST = 7 };
-    struct gm_hint hints[MOST];
-    size_t count = 0;
-    char text[GM_TYPED + 16];
-    int column = 1;
+    const size_t next = gm_start_next_group(start);
+    char text[GM_TYPED + 16], hints[80];
     if (start->typed[0]) {
         snprintf(text, sizeof text, "search: %s_", start->typed);
-        column += gm_sheet_text(sheet, 1, 0, text, GM_INK, true) + 2;
     } else {
-        column += gm_sheet_text(sheet, 1, 0, "Type to search.", GM_SECONDARY, false) + 2;
+        snprintf(text, sizeof text, "Type to search.");
     }
-    hints[count++] = (struct gm_hint){"enter", "open", '\n'};
-    hints[count++] = (struct gm_hint){"↑↓", "choose", 0};
-    const size_t next = gm_start_next_group(start);
-    if (next != start->choice) {
-        hints[count++] = (struct gm_hint){"tab", group_names[start->found[next].group], '\t'};
-    }
-    hints[count++] =
-        start->typed[0] ? (struct gm_hint){"esc", "all", 27} : (struct gm_hint){"q", "quit", 'q'};
-    hints[count++] = (struct gm_hint){"?", "help", '?'};
-    hints[count] = (struct gm_hint){NULL, NULL, 0};
-    gm_sheet_hints(sheet, column, hints);
+    const int width =
+        gm_sheet_text(sheet, 1, 0, text, start->typed[0] ? GM_INK : GM_SECONDARY, start->typed[0]);
+    snprintf(hints, sizeof hints, "enter:open|↑↓:choose%s%s|%s|?:help", next != start->choice ? "|tab:" : "",
+             next != start->choice ? group_names[start->found[next].group] : "",
+             start->typed[0] ? "esc:all" : "q:quit");
+    gm_sheet_hints(sheet, 1 + width + 2, hints);
 }
 
 void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const struct gm_start *start,
@@ -242,18 +233,13 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
             draw_look(screen, &right, chosen, shot, said);
         }
     }
+    const struct gm_sheet last =
+        asked ? gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1) : gm_screen_foot(&whole);
     if (asked) {
-        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked),
-                              last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
+        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked);
         gm_typed_prompt_draw(&panel, face->typed_prompt);
         gm_typed_prompt_keys(&last, face->typed_prompt);
-        return;
-    }
-    if (below == 2) {
-        gm_screen_rule(&whole, below, 0);
-    }
-    if (below > 0) {
-        const struct gm_sheet last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
+    } else if (below > 0) {
         draw_keys(&last, start);
     }
 }

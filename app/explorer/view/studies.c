@@ -3,6 +3,7 @@
 #include "app/explorer/view/view.h"
 
 #include <ctype.h>
+#include <curses.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,11 +87,12 @@ char *gm_studies_words(const struct gm_shot *shot)
     return fclose(stream) == 0 ? words : NULL;
 }
 
-void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake)
+void gm_studies_begin(struct gm_studies *studies, enum gm_study_kind kind, const struct gm_shot *shot,
+                      int wake)
 {
     char *words = gm_studies_words(shot);
     if (words) {
-        gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, shot->scene, words, wake);
+        gm_studies_open(studies, kind, shot->scene, words, wake);
     }
     free(words);
 }
@@ -119,7 +121,7 @@ bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
         return false;
     }
     struct gm_study *study = studies->studies[studies->shown];
-    if (gm_key_is_escape(key) || gm_key_is_erase(key) || key == keys[studies->shown]) {
+    if (key == GM_KEY_ESCAPE || key == KEY_BACKSPACE || key == keys[studies->shown]) {
         studies->shown = GM_STUDY_NONE;
         return true;
     }

@@ -3,6 +3,7 @@
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* The prompt has the line, its caret, rows for LETTERS letters of the fault, and on taller screens a rule
    with the question. The scene, the keys, the line and its caret have priority. */
@@ -72,10 +73,6 @@ void gm_typed_prompt_draw(const struct gm_sheet *sheet, const struct gm_typed_pr
 void gm_typed_prompt_keys(const struct gm_sheet *last, const struct gm_typed_prompt *prompt)
 {
     const bool ready = prompt->checked && !prompt->fault.sentence[0];
-    const struct gm_hint hints[] = {{"enter", ready ? "take it" : "–", '\n'},
-                                    {"esc", "back", 27},
-                                    {"← →", "move", 0},
-                                    {"ctrl-U", "clear", 'U' - '@'},
-                                    {NULL, NULL, 0}};
-    gm_sheet_hints(last, 1, ready ? hints : hints + 1);
+    static const char hints[] = "enter:take it|esc:back|← →:move|ctrl-U:clear";
+    gm_sheet_hints(last, 1, ready ? hints : strchr(hints, '|') + 1);
 }

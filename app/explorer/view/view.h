@@ -8,32 +8,7 @@
 #include "app/tours/tour.h"
 #include "app/words/typed.h"
 
-/* The table of the keys for an open scene. */
-
-enum { GM_KEY_CODES = 4 };
-
-/* A key code, and the arguments of its row's function: an order, a list, a prompt or a page, and a
-   direction. */
-struct gm_key_code {
-    int code, meaning, amount;
-};
-
-/* A row of the table gives the help, the hint in the status line, and the function of its keys. */
-struct gm_key_row {
-    struct gm_key_code keys[GM_KEY_CODES]; /* the key codes; 0 ends them */
-    const char *label;                     /* the keys' names in the help */
-    const char *hint;                      /* a word for the status line; may be NULL */
-    int rank;                              /* the hint's rank: the smallest comes first */
-    const char *text;                      /* the help; NULL if another row has it */
-    enum gm_key_result (*press)(const struct gm_keystroke *press, const struct gm_key_code *key);
-};
-extern const struct gm_key_row gm_key_rows[];
-extern const size_t gm_key_row_count;
-
-/* Carries out a key for an open scene. */
-enum gm_key_result gm_key_press(const struct gm_keystroke *press);
-
-/* A tour in the explorer: its state, its texts below the picture, and its keys. */
+/* A tour in the explorer: its state, and its texts below the picture. */
 
 struct gm_guide {
     const struct gm_tour *tour;
@@ -41,17 +16,8 @@ struct gm_guide {
     bool answered; /* the step's question is answered, or it has none */
 };
 
-enum gm_guide_result {
-    GM_GUIDE_OPEN, /* show the step from its start */
-    GM_GUIDE_RUN,  /* run the step: its question is answered */
-    GM_GUIDE_END,  /* no such step */
-};
-
-/* Returns a guide at the start of the tour's first step. */
-struct gm_guide gm_guide_open(const struct gm_tour *tour);
-
-/* Handles a key of the tour: n answers or shows the next step, N the previous one, a the same again. */
-enum gm_guide_result gm_guide_press(struct gm_guide *guide, int key);
+/* Returns a guide at the start of a step of the tour. */
+struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step);
 
 /* Returns the rows below the picture for the texts, at most two fifths of the screen. */
 int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide);
@@ -139,8 +105,9 @@ void gm_studies_close(struct gm_studies *studies);
 bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const struct gm_scene *scene,
                      const char *words, int wake);
 
-/* Shows a study of the scene with its current settings, by key: w work-precision, m the stability map. */
-void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake);
+/* Shows a study of the scene with its current settings. */
+void gm_studies_begin(struct gm_studies *studies, enum gm_study_kind kind, const struct gm_shot *shot,
+                      int wake);
 
 /* Returns the scene with the user's settings except dt, as words. The caller frees them; NULL when out of
    memory. */
@@ -216,24 +183,21 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
 /* The last entry of the list: a scheme to be typed. */
 extern const struct gm_scheme gm_chooser_user;
 
-enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, const struct gm_key_code *key);
-/* Handles a key while the list is open. */
-enum gm_key_result gm_chooser_press(const struct gm_keystroke *press);
+/* Returns the first scheme after the selected lane's that no lane uses; NULL: no scheme fits. */
+const struct gm_scheme *gm_chooser_first(const struct gm_shot *shot);
+/* Finds the suitable schemes that match the typed words, the best first, and last the one to be typed.
+   Returns their number. */
+size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
+                       const struct gm_scheme *found[GM_SHOT_SCHEMES]);
+/* Returns the alias by which the typed words found the chosen scheme; NULL: by its name, or another text. */
+const char *gm_chooser_alias(const struct gm_face *face);
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
 
-/* A typed line: a time to run ahead to, or a parameter's value. */
-
-/* Opens the prompt; a value needs a chosen parameter. */
-enum gm_key_result gm_prompt_open(const struct gm_keystroke *press, enum gm_prompt prompt);
-/* Handles a key while the prompt is open. */
-enum gm_key_result gm_prompt_press(const struct gm_keystroke *press);
-/* Writes the open prompt's question and the typed text. */
-void gm_prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size);
+/* Writes the time to run ahead to if no time is typed. */
+void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size);
 
 /* Pages on the scene with its keys and claims, a scheme, the command lines, or the list of scenes. */
 
-/* Handles a key while a page is open: scrolls or closes it. */
-enum gm_key_result gm_pages_press(int key, struct gm_face *face);
 /* Draws the open page and its keys; the shot may be NULL for GM_PAGE_START. */
 void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, const struct gm_shot *shot);
 

@@ -7,6 +7,12 @@
 #include "app/explorer/worker/session.h"
 #include "core/basics.h"
 
+/* Returns true for a parameter of the schemes. */
+static bool is_of_scheme(const struct gm_parameter *row)
+{
+    return row >= gm_settings_parameters && row < gm_settings_parameters + gm_settings_parameter_count;
+}
+
 /* ---- undoing ---- */
 
 /* Stores the order that undoes a change of the selected lane; the oldest one gives way. A dragged slider
@@ -34,7 +40,7 @@ static bool undo(struct gm_play *play, char *message)
     const bool scheme = order->kind == GM_ORDER_SWITCH;
     char sentence[GM_MESSAGE];
     if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
-               : !gm_session_set(&play->session, lane, order->row, order->of_scheme, order->text,
+               : !gm_session_set(&play->session, lane, order->row, is_of_scheme(order->row), order->text,
                                  &play->restart, message)) {
         return false;
     }
@@ -61,7 +67,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {
     char text[GM_TYPED], message[GM_MESSAGE];
     const struct gm_parameter *row = order->row;
-    const void *owner = gm_session_owner(&play->session, play->selected, order->of_scheme);
+    const void *owner = gm_session_owner(&play->session, play->selected, is_of_scheme(row));
     if (order->kind == GM_ORDER_STANDARD) {
         snprintf(text, sizeof text, "%s", row->standard);
     } else if (order->kind == GM_ORDER_TYPE) {
@@ -78,12 +84,9 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
         gm_play_say(play, message);
         return;
     }
-    struct gm_order back = {.kind = GM_ORDER_TYPE,
-                            .amount = order->kind == GM_ORDER_SLIDE,
-                            .row = row,
-                            .of_scheme = order->of_scheme};
+    struct gm_order back = {.kind = GM_ORDER_TYPE, .amount = order->kind == GM_ORDER_SLIDE, .row = row};
     gm_parameter_format(row, owner, back.text, sizeof back.text);
-    if (!gm_session_set(&play->session, play->selected, row, order->of_scheme, text, &play->restart,
+    if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
                         message)) {
         gm_play_say(play, message);
     } else if (strcmp(back.text, text) != 0) {

@@ -53,8 +53,7 @@ struct gm_order {
     int amount;
     double value, x, y;
     char text[GM_TYPED];
-    const struct gm_parameter *row;
-    bool of_scheme; /* the row is a parameter of the schemes */
+    const struct gm_parameter *row; /* of the scene or of the schemes */
     const struct gm_scheme *scheme;
     const struct gm_tour *tour; /* the tour outlives the worker */
     size_t step;

@@ -287,13 +287,12 @@ static void draw_cuts(const struct gm_grid_line *line, const struct gm_axis *err
 
 static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     struct gm_axis steps, errors;
     range_of(grid, &steps, &errors);
     picture->title =
         gm_picture_text(picture, "%s: what the scheme really solves", grid->request.scene->title);
     picture->subtitle = gm_picture_text(picture, "errors of H + Δt H₁ + Δt² H₂ + …, cut off, up to t = %s",
-                                        gm_step_text(picture, timing->until));
+                                        gm_step_text(picture, gm_grid_timing(grid)->until));
     picture->caption =
         "The steeper the line, the more of the modified Hamiltonian is taken: that one the scheme keeps.";
     picture->clock = "";

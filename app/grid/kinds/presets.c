@@ -66,8 +66,8 @@ void gm_grid_draw(const void *grid, struct gm_picture *picture)
     ((const struct gm_grid *)grid)->row->draw(grid, picture);
 }
 
-void gm_grid_write(const void *grid, FILE *table)
+bool gm_grid_write(const void *grid, FILE *table)
 {
     const struct gm_study_row *row = ((const struct gm_grid *)grid)->row;
-    (row->write ? row->write : gm_cells_write)(grid, table);
+    return (row->write ? row->write : gm_cells_write)(grid, table);
 }

@@ -250,12 +250,11 @@ static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line
 
 static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char letters[128], question[GM_TEXT_SIZE];
     picture->title = gm_picture_text(picture, "%s: which step is %s", grid->request.scene->title,
                                      gm_stability_question(grid, question, sizeof question));
     picture->subtitle = gm_picture_text(picture, "up: %s;  after t = %s", grid->plan->label,
-                                        gm_step_text(picture, timing->until));
+                                        gm_step_text(picture, gm_grid_timing(grid)->until));
     gm_stability_letters(grid, letters, sizeof letters);
     picture->caption = gm_picture_text(picture, "Without a letter: %s.  %s%s", gm_stability_judge(grid),
                                        letters, letters[0] ? "." : "");

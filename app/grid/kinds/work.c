@@ -82,37 +82,31 @@ static void note_settings(struct gm_grid *grid, const struct gm_arguments *words
     }
 }
 
-/* Takes "best" out of the list of schemes; false: it is not among them. */
-static bool take_best(struct gm_arguments *words)
+/* Takes "best" out of the list of schemes. */
+static void edit(struct gm_grid *grid, struct gm_arguments *words)
 {
     static const char key[] = "scheme=", best[] = "best";
     for (int i = 1; i < words->count; i++) {
         char *const list = words->words[i];
+        const char *others = "";
         if (strncmp(list, key, sizeof key - 1) != 0) {
             continue;
         }
         struct gm_span rest = {sizeof key - 1, strlen(list)}, name;
         while (gm_span_take(list, &rest, ",", &name)) {
-            if (name.end - name.begin == sizeof best - 1 &&
-                memcmp(list + name.begin, best, sizeof best - 1) == 0) {
-                /* cut with the comma after it, or else the one before, so that the rest is a list */
-                const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
-                const size_t from = last && !alone ? name.begin - 1 : name.begin,
-                             to = last ? name.end : rest.begin;
-                memmove(list + from, list + to, strlen(list + to) + 1);
-                return true;
+            const int length = (int)(name.end - name.begin);
+            if (length == sizeof best - 1 && memcmp(list + name.begin, best, sizeof best - 1) == 0) {
+                grid->best = true;
+            } else {
+                others = gm_arena_print(grid->arena, "%s%s%.*s", others, *others ? "," : "", length,
+                                        list + name.begin);
             }
         }
-    }
-    return false;
-}
-
-static void edit(struct gm_grid *grid, struct gm_arguments *words)
-{
-    grid->best = take_best(words);
-    for (int i = 1; grid->best && i < words->count; i++) {
-        if (strcmp(words->words[i], "scheme=") == 0) {
+        if (grid->best && !*others) {
             gm_arena_refuse(grid->arena, "best are those to compare a scheme with: scheme=my.scheme,best");
+        }
+        if (grid->best) {
+            strcpy(list + sizeof key - 1, others);
         }
     }
 }
@@ -629,6 +623,16 @@ static void conclude(const struct gm_grid *grid, struct gm_grid_line *line)
     }
 }
 
+/* Returns true if a scheme is measured by its tolerance. */
+static bool has_tolerances(const struct gm_grid *grid)
+{
+    bool has = false;
+    for (size_t i = 0; i < grid->count; i++) {
+        has |= grid->lines[i].scheme->family->by_tolerance;
+    }
+    return has;
+}
+
 static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell, int number)
 {
     (void)number;
@@ -637,8 +641,10 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     }
     gm_row_put(row, "dt %.17g, steps %.0f, t %.17g, status %s", cell->dt, (double)cell->steps, cell->t,
                gm_status_name(cell->status));
-    if (row->form == GM_ROW_JSON && cell->spec->settings.tolerance > 0) {
-        gm_row_number(row, "tolerance", cell->spec->settings.tolerance, 17);
+    const double tolerance = cell->spec->settings.tolerance;
+    const bool is_step = cell->spec == grid->request.lanes; /* of a ladder of steps, not of tolerances */
+    if (row->form == GM_ROW_JSON ? tolerance > 0 : has_tolerances(grid)) {
+        gm_row_number(row, "tolerance", row->form == GM_ROW_CSV && is_step ? NAN : tolerance, 17);
     }
     gm_row_number(row, row->form == GM_ROW_HEAD ? grid->measure : "error",
                   isfinite(cell->error) ? cell->error : NAN, 17);

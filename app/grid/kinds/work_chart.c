@@ -241,14 +241,14 @@ void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture)
     const struct gm_grid_line *chosen[NAMED] = {NULL};
     const size_t count = choose(grid, chosen);
     const struct gm_scene *scene = grid->request.scene;
-    const struct gm_timing *timing = grid->request.lanes[0].parameters;
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle = gm_picture_text(
-        picture, "%s at t = %s,  %s%s%zu scheme%s%s", grid->measure_title,
-        gm_step_text(picture, timing->until), grid->settings, grid->settings[0] ? ",  " : "", grid->begun,
-        gm_plural((double)grid->begun), count < grid->begun ? ";  grey: those without a name" : "");
+    picture->subtitle =
+        gm_picture_text(picture, "%s at t = %s,  %s%s%zu scheme%s%s", grid->measure_title,
+                        gm_step_text(picture, gm_grid_timing(grid)->until), grid->settings,
+                        grid->settings[0] ? ",  " : "", grid->begun, gm_plural((double)grid->begun),
+                        count < grid->begun ? ";  grey: those without a name" : "");
 
     picture->clock = "";
     picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(grid, sentence, sizeof sentence));

@@ -63,21 +63,21 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
         gm_arena_keep(arena, note, free);
     }
     char *words = find(note, "\nsweep: "), *measure = find(note, "\nmeasure: "),
-         *shares = find(note, "\nshares: ");
-    if (!words || !measure || !shares || strncmp(note, "geomint: 1\n", 11) != 0 ||
-        strtoul(shares, NULL, 10) == 0) {
+         *shards = find(note, "\nshares: ");
+    if (!words || !measure || !shards || strncmp(note, "geomint: 1\n", 11) != 0 ||
+        strtoul(shards, NULL, 10) == 0) {
         gm_arena_refuse(arena, "%.300s.sweep, which describes the sweep, could not be read%s%s", path,
                         note ? "" : ": ", note ? "" : reason);
     }
     words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
     gm_arena_need(arena, gm_arguments_split(arguments, words));
     gm_sweep_open(arena, sweep, arguments, measure[0] ? measure : NULL, &status);
-    sweep->shards = strtoul(shares, NULL, 10);
+    sweep->shards = strtoul(shards, NULL, 10);
 }
 
 /* ---- joining ---- */
 
-/* Many shares are many open files: as many as the system allows. */
+/* Many shards are many open files: as many as the system allows. */
 static void allow_files(void)
 {
     struct rlimit limit;
@@ -87,100 +87,84 @@ static void allow_files(void)
     }
 }
 
-/* Opens the shard after its head. A missing shard has no rows; one that is being written, or another
-   sweep's, is refused. */
-static bool open_share(const struct gm_sweep *sweep, const char *path, size_t shard,
-                       struct gm_csv_lines *share, char *message)
+static void close_lines(void *lines)
 {
-    char *name = gm_sweep_share_path(path, shard, sweep->shards);
-    bool good = name || gm_refuse(message, "%.360s could not be joined: not enough memory", path);
-    share->stream = name ? fopen(name, "r") : NULL;
-    if (name && !share->stream && errno != ENOENT) {
-        good = gm_refuse(message, "%.360s could not be read: %s", name, strerror(errno));
-    } else if (share->stream && flock(fileno(share->stream), LOCK_SH | LOCK_NB) != 0) {
-        good = gm_refuse(message, "%.360s is being written by another process", name);
-    } else if (share->stream) {
-        gm_csv_next(share);
-        good = !share->line || !share->line[0] || strcmp(share->line, sweep->head) == 0 ||
-               gm_refuse(message, "%.360s is not a share of this sweep: its columns are others", name);
-    }
-    free(name);
-    return good;
+    gm_csv_close(lines);
 }
 
-/* The shares' rows in turn. */
-static bool merge(const struct gm_sweep *sweep, struct gm_csv_lines *shares, FILE *table,
-                  void (*missing)(size_t run, const char *words), size_t *missing_count, char *message)
+/* Opens a table, which may be missing, after its head. Refuses one that has another head, or is being written. */
+static void open_table(const struct gm_sweep *sweep, const char *path, const char *other,
+                       struct gm_csv_lines *table)
+{
+    struct gm_arena *arena = sweep->arena;
+    gm_arena_keep(arena, table, close_lines);
+    table->stream = fopen(path, "r");
+    if (!table->stream && errno != ENOENT) {
+        gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));
+    }
+    if (table->stream && flock(fileno(table->stream), LOCK_SH | LOCK_NB) != 0) {
+        gm_arena_refuse(arena, "%.360s is being written by another process", path);
+    }
+    gm_csv_next(table);
+    if (table->line && table->line[0] && strcmp(table->line, sweep->head) != 0) {
+        gm_arena_refuse(arena, "%.360s is %s", path, other);
+    }
+}
+
+struct joining {
+    const struct gm_sweep *sweep;
+    struct gm_csv_lines *shards;
+    void (*missing)(size_t run, const char *words);
+    size_t missing_count, other; /* runs without a row; 1 + the run in whose place there is another's row */
+};
+
+/* Writes the shards' rows in turn. */
+static bool merge(FILE *table, const void *context)
 {
     enum { NAMED = 10 };
+    struct joining *joining = *(struct joining *const *)context;
+    const struct gm_sweep *sweep = joining->sweep;
+    fputs(sweep->head, table);
     for (size_t run = 0; run < sweep->count; run++) {
-        struct gm_csv_lines *share = &shares[run % sweep->shards];
-        const char *row = gm_csv_next(share); /* an incomplete row does not count */
+        struct gm_csv_lines *shard = &joining->shards[run % sweep->shards];
+        const char *row = gm_csv_next(shard); /* an incomplete row does not count */
         if (row && gm_sweep_front(sweep, run, row) == 0) {
-            return gm_refuse(message, "share %zu has a row that is not that of run %zu",
-                             run % sweep->shards + 1, run);
+            joining->other = 1 + run;
+            return false;
         }
         if (row) {
             fputs(row, table);
         } else {
-            gm_csv_close(share);
-            char *words = (*missing_count)++ < NAMED ? gm_sweep_words(sweep, run) : NULL;
+            gm_csv_close(shard);
+            char *words = joining->missing_count++ < NAMED ? gm_sweep_words(sweep, run) : NULL;
             if (words) {
-                missing(run, words);
+                joining->missing(run, words);
             }
             free(words);
         }
     }
-    return true;
+    return !ferror(table);
 }
 
-/* Takes the table's place if that is one of this sweep, or none. */
-static bool replace(const char *part, const char *path, const char *head, char *message)
+size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
+                     void (*missing)(size_t run, const char *words))
 {
-    struct gm_csv_lines before = {.stream = fopen(path, "r")};
-    gm_csv_next(&before);
-    const bool other = before.line && before.line[0] && strcmp(before.line, head) != 0;
-    gm_csv_close(&before);
-    if (other) {
-        return gm_refuse(message, "%.360s is the table of another sweep; it is left as it is", path);
-    }
-    return rename(part, path) == 0 ||
-           gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
-}
-
-bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
-                   void (*missing)(size_t run, const char *words), size_t *missing_count, char *message)
-{
-    char *part = gm_text("%s.part", path);
-    struct gm_csv_lines *shares = calloc(sweep->shards, sizeof *shares);
-    *missing_count = 0;
+    struct gm_arena *arena = sweep->arena;
+    struct gm_csv_lines *tables = gm_arena_take(arena, sweep->shards + 1, sizeof *tables);
+    struct joining joining = {.sweep = sweep, .shards = tables + 1, .missing = missing}, *self = &joining;
     allow_files();
-    bool good = shares && part;
-    if (!good) {
-        gm_refuse(message, "%.360s could not be joined: not enough memory", path);
+    for (size_t i = 1; i <= sweep->shards; i++) {
+        const char *shard = gm_sweep_shard_path(arena, path, i, sweep->shards);
+        open_table(sweep, shard, "not a shard of this sweep: its columns are others", &tables[i]);
     }
-    for (size_t i = 0; good && i < sweep->shards; i++) {
-        good = open_share(sweep, path, i + 1, &shares[i], message);
-    }
-    FILE *table = good ? fopen(part, "w") : NULL;
-    if (table) {
-        fputs(sweep->head, table);
-        good = merge(sweep, shares, table, missing, missing_count, message);
-        const bool failed = ferror(table) != 0;
-        if ((fclose(table) != 0 || failed) && good) {
-            good = gm_refuse(message, "%.360s could not be written: %s", part, strerror(errno));
+    open_table(sweep, path, "the table of another sweep; it is left as it is", &tables[0]);
+    if (!gm_temporary_make(path, merge, &self)) {
+        const int error = errno;
+        if (joining.other > 0) {
+            gm_arena_refuse(arena, "shard %zu has a row that is not that of run %zu",
+                            (joining.other - 1) % sweep->shards + 1, joining.other - 1);
         }
-        good = good && replace(part, path, sweep->head, message);
-        if (!good) {
-            unlink(part);
-        }
-    } else if (good) {
-        good = gm_refuse(message, "%.360s could not be written: %s", part, strerror(errno));
+        gm_arena_refuse(arena, "%.360s could not be written: %s", path, strerror(error));
     }
-    for (size_t i = 0; shares && i < sweep->shards; i++) {
-        gm_csv_close(&shares[i]);
-    }
-    free(shares);
-    free(part);
-    return good;
+    return joining.missing_count;
 }

@@ -256,7 +256,7 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, put_head), free);
 }
 
-size_t gm_sweep_share(const struct gm_sweep *sweep)
+size_t gm_sweep_shard_runs(const struct gm_sweep *sweep)
 {
     return (sweep->count + sweep->shards - sweep->shard) / sweep->shards;
 }
@@ -396,7 +396,7 @@ double gm_sweep_total(const struct gm_sweep *sweep,
                       double (*of)(const struct gm_request *request, size_t index))
 {
     enum { SAMPLES = 5 };
-    const size_t runs = gm_sweep_share(sweep);
+    const size_t runs = gm_sweep_shard_runs(sweep);
     double sum = 0;
     for (size_t i = 0; i < SAMPLES && runs > 0; i++) {
         char message[GM_MESSAGE];

@@ -42,10 +42,11 @@ static bool refuse_writing(char *message, const char *path)
                      strerror(errno));
 }
 
-char *gm_sweep_share_path(const char *path, size_t shard, size_t shards)
+const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t shard, size_t shards)
 {
     const size_t front = strlen(path) - (gm_word_ends(path, ".csv") ? strlen(".csv") : 0);
-    return shards == 1 ? strdup(path) : gm_text("%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
+    return shards == 1 ? gm_arena_print(arena, "%s", path)
+                       : gm_arena_print(arena, "%.*s.%zu-of-%zu.csv", (int)front, path, shard, shards);
 }
 
 /* ---- existing rows ---- */
@@ -85,12 +86,12 @@ static bool is_older_head(const char *line, const char *head)
            strcmp(line + before, head + before + sizeof column - 1) == 0;
 }
 
-/* A row that is not that of the next run: of a later one in a table that was joined before its shares had all
+/* A row that is not that of the next run: of a later one in a table that was joined before its shards had all
    rows, else of another sweep. */
 static void refuse_row(const struct gm_sweep_table *table, const char *line)
 {
     const struct gm_sweep *sweep = table->sweep;
-    const size_t runs = gm_sweep_share(sweep), row = table->there;
+    const size_t runs = gm_sweep_shard_runs(sweep), row = table->there;
     size_t later = row;
     while (later < runs && !is_row_of(sweep, gm_sweep_run(sweep, later), line)) {
         later++;
@@ -98,8 +99,8 @@ static void refuse_row(const struct gm_sweep_table *table, const char *line)
     if (later < runs) {
         gm_arena_refuse(
             table->arena,
-            "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shares "
-            "gets its rows by its shares and --join)",
+            "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shards "
+            "gets its rows by its shards and --join)",
             table->path, row + 1, gm_sweep_run(sweep, later));
     }
     gm_arena_refuse(
@@ -127,7 +128,7 @@ static void read_head(struct gm_sweep_table *table)
    that is not a row. */
 static void read_rows(struct gm_sweep_table *table, const char *retry)
 {
-    const size_t runs = gm_sweep_share(table->sweep);
+    const size_t runs = gm_sweep_shard_runs(table->sweep);
     read_head(table);
     for (const char *line; (line = gm_csv_next(&table->old)); table->there++) {
         const size_t run = gm_sweep_run(table->sweep, table->there);
@@ -237,7 +238,7 @@ struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct 
     gm_arena_keep(arena, table, close_table);
     fflush(stdout);
     if (path) {
-        table->path = gm_arena_keep(arena, gm_sweep_share_path(path, sweep->shard, sweep->shards), free);
+        table->path = gm_sweep_shard_path(arena, path, sweep->shard, sweep->shards);
         open_file(table, retry);
     }
     return table;
@@ -288,7 +289,7 @@ static void hear(struct filling *filling, size_t k)
     const double often = 0.1, now = gm_clock_seconds();
     if (now - filling->heard > often) {
         filling->heard = now;
-        gm_listener_hears(filling->listener, "runs", k + 1, gm_sweep_share(filling->table->sweep));
+        gm_listener_hears(filling->listener, "runs", k + 1, gm_sweep_shard_runs(filling->table->sweep));
     }
 }
 
@@ -357,7 +358,8 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
     filling->listener = listener;
     filling->sum = sum;
     filling->message = message;
-    const struct gm_pool pool = {.count = table->again_count + gm_sweep_share(table->sweep) - table->there,
+    const struct gm_pool pool = {.count =
+                                     table->again_count + gm_sweep_shard_runs(table->sweep) - table->there,
                                  .jobs = jobs,
                                  .window = WINDOW,
                                  .work = make,

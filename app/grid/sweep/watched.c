@@ -67,13 +67,14 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
     gm_sweep_chart_draw(grid->chart, picture);
 }
 
-static void write_table(const struct gm_grid *grid, FILE *file)
+static bool write_table(const struct gm_grid *grid, FILE *file)
 {
     char block[1 << 14];
     ssize_t got = 0;
     for (off_t at = 0; (got = pread(grid->table, block, sizeof block, at)) > 0; at += got) {
         fwrite(block, 1, (size_t)got, file);
     }
+    return got == 0;
 }
 
 static char *pick(const struct gm_grid *grid, size_t panel, double x, double y)

@@ -19,6 +19,7 @@
 #include "core/flow/second_thread.h"
 #include "core/flow/solver.h"
 #include "core/flow/tracers.h"
+#include "core/flow_scheme_texts.h"
 
 /* A row: the share of the new time in convection and diffusion; 0 for the steady state. */
 struct row {
@@ -476,38 +477,9 @@ static struct gm_progress loop(const struct gm_task *task)
 #define EXACT_CALCULUS (GM_DIVERGENCE_FREE | GM_KEEPS_CONSTANTS | GM_CLOSES_BUDGET)
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "semi-implicit",
-        .title = "semi-implicit",
-        .formula = "[⋆₀/h + C(F½) + νK] ω₁ = ⋆₀ω₀/h,  K ψ₁ = ⋆₀ω₁;  F½ of an explicit half step",
-        .reference = "Mohamed, Hirani & Samtaney (2016); Razafindralandy et al. (2018), eqs. 153-155",
-        .coefficients = &backward,
-        .order = 1,
-        .claims = EXACT_CALCULUS | GM_KEEPS_LINEAR,
-        FLOW,
-    },
-    {
-        .name = "crank-nicolson",
-        .title = "Crank–Nicolson",
-        .formula = "[⋆₀/h + (C(F½) + νK)/2] ω₁ = [⋆₀/h − (C(F½) + νK)/2] ω₀,  K ψ₁ = ⋆₀ω₁",
-        .reference =
-            "J. Crank & P. Nicolson (1947); with the fluxes of Razafindralandy et al. (2018), eq. 153",
-        .coefficients = &centred,
-        .order = 2,
-        .claims = EXACT_CALCULUS | GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC,
-        FLOW,
-    },
-    {
-        .name = "steady",
-        .title = "steady state",
-        .formula = "C(F) ω + νK ω = 0 by Newton's method, with continuation in the Reynolds number",
-        .reference = "Mohamed, Hirani & Samtaney (2016); a step is a correction",
-        .coefficients = &steady,
-        .order = 0,
-        .claims = EXACT_CALCULUS,
-        .steady = true,
-        FLOW,
-    },
+    {GM_TEXTS_semi_implicit, .coefficients = &backward, FLOW},
+    {GM_TEXTS_crank_nicolson, .coefficients = &centred, FLOW},
+    {GM_TEXTS_steady, .coefficients = &steady, .steady = true, FLOW},
 };
 
 const struct gm_family gm_family_exterior_calculus = {

@@ -185,7 +185,7 @@ static void open_formula(struct opening *opening)
         gm_arena_leave(energy->arena);
     }
     energy->weight = hamiltonian->weight ? hamiltonian->weight(opening->problem) : 1;
-    node = gm_simplified(graph, GM_OPERATION_MULTIPLY, gm_formula_constant(graph, energy->weight), node);
+    node = gm_product(graph, gm_formula_constant(graph, energy->weight), node);
     gm_arena_need(energy->arena, !graph->failed);
     gm_node_id *field = field_of(opening, node);
     for (int m = 0; m < GM_MODIFIED_ORDER; m++) {

@@ -20,16 +20,10 @@
 
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 {
-    const double matrix[9] = {0};
-    struct gm_ode facets = *gm_ode_of(&gm_problem_linear);
-    struct gm_problem plane = gm_problem_linear;
-    facets.volume = NULL;
-    plane.facets = &facets;
-    plane.parameters = matrix;
     if (scheme->family->adaptive || scheme->family->by_tolerance) {
         return GM_TEST_NONE;
     }
-    return gm_scheme_fits(scheme, &plane)                   ? GM_TEST_PLANE
+    return gm_scheme_fits(scheme, &gm_problem_linear)       ? GM_TEST_PLANE
            : gm_scheme_fits(scheme, &gm_problem_oscillator) ? GM_TEST_OSCILLATOR
                                                             : GM_TEST_NONE;
 }

@@ -19,6 +19,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { NODES = 8 };
 
@@ -203,40 +204,12 @@ static const struct method avf4 = {average_field, &gm_composition_yoshida4};
 static const struct method discrete_gradient2 = {gradient_field, &gm_composition_none};
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "avf2",
-        .title = "average vector field",
-        .formula = "y₁ = y₀ + h ∫₀¹ f((1 − s) y₀ + s y₁) ds",
-        .reference = "Quispel & McLaren, J. Phys. A 41 (2008) 045206",
-        .family = &gm_family_energy_keeping,
-        .coefficients = &avf2,
-        .order = 2,
-        .needs = GM_NEEDS_HAMILTONIAN,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_ENERGY | GM_KEEPS_LINEAR,
-    },
-    {
-        .name = "avf4",
-        .title = "average vector field 4",
-        .formula =
-            "three steps of the average vector field method of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
-        .reference = "Quispel & McLaren, J. Phys. A 41 (2008) 045206; H. Yoshida (1990)",
-        .family = &gm_family_energy_keeping,
-        .coefficients = &avf4,
-        .order = 4,
-        .needs = GM_NEEDS_HAMILTONIAN,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_ENERGY | GM_KEEPS_LINEAR,
-    },
-    {
-        .name = "discrete-gradient2",
-        .title = "discrete gradient",
-        .formula = "y₁ = y₀ + h J [g + (H(y₁) − H(y₀) − g·d)/|d|² d],  d = y₁ − y₀,  g = ∇H((y₀ + y₁)/2)",
-        .reference = "O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449",
-        .family = &gm_family_energy_keeping,
-        .coefficients = &discrete_gradient2,
-        .order = 2,
-        .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_ENERGY,
-    },
+    {GM_TEXTS_avf2, .family = &gm_family_energy_keeping, .coefficients = &avf2,
+     .needs = GM_NEEDS_HAMILTONIAN},
+    {GM_TEXTS_avf4, .family = &gm_family_energy_keeping, .coefficients = &avf4,
+     .needs = GM_NEEDS_HAMILTONIAN},
+    {GM_TEXTS_discrete_gradient2, .family = &gm_family_energy_keeping, .coefficients = &discrete_gradient2,
+     .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY},
 };
 
 const struct gm_family gm_family_energy_keeping = {

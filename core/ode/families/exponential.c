@@ -20,6 +20,7 @@
 #include "core/linear/modes.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
 
@@ -220,37 +221,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static const struct exponential euler = {1, euler_rows}, lawson = {4, lawson_rows}, etd = {4, etd_rows};
 
-#define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR, .claims = GM_KEEPS_LINEAR
+#define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "exponential-euler1",
-        .title = "exponential Euler",
-        .formula = "y₁ = eʰᴸ y₀ + h φ₁(hL) N(y₀),  y′ = L y + N(y)",
-        .reference =
-            "D.A. Pope, Commun. ACM 6 (1963) 491; Hochbruck & Ostermann, Acta Numerica 19 (2010) 209",
-        .coefficients = &euler,
-        .order = 1,
-        EXPONENTIAL,
-    },
-    {
-        .name = "lawson4",
-        .title = "Lawson 4",
-        .formula = "RK4 for v = e⁻ᵗᴸ y,  v′ = e⁻ᵗᴸ N(eᵗᴸ v):  an integrating factor",
-        .reference = "J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372",
-        .coefficients = &lawson,
-        .order = 4,
-        EXPONENTIAL,
-    },
-    {
-        .name = "etdrk4",
-        .title = "ETD RK4",
-        .formula = "y₁ = eʰᴸ y₀ + h [(φ₁ − 3φ₂ + 4φ₃) N(y₀) + (2φ₂ − 4φ₃)(N(a) + N(b)) + (4φ₃ − φ₂) N(c)]",
-        .reference = "S.M. Cox & P.C. Matthews, J. Comput. Phys. 176 (2002) 430",
-        .coefficients = &etd,
-        .order = 4,
-        EXPONENTIAL,
-    },
+    {GM_TEXTS_exponential_euler1, .coefficients = &euler, EXPONENTIAL},
+    {GM_TEXTS_lawson4, .coefficients = &lawson, EXPONENTIAL},
+    {GM_TEXTS_etdrk4, .coefficients = &etd, EXPONENTIAL},
 };
 
 const struct gm_family gm_family_exponential = {

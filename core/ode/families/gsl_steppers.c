@@ -17,6 +17,7 @@
 #include "core/memory.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode_scheme_texts.h"
 
 /* default tolerance of the multistep methods */
 #define STANDARD_TOLERANCE 1e-8
@@ -225,44 +226,13 @@ static struct gm_progress loop(const struct gm_task *task)
     return progress;
 }
 
-#define GSL .family = &gm_family_gsl_steppers, .claims = GM_KEEPS_LINEAR
+#define GSL .family = &gm_family_gsl_steppers
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "gsl-rk4",
-        .title = "GSL RK4",
-        .formula = "gsl_odeiv2_step_rk4 (step doubling for its error)",
-        .reference = "GNU Scientific Library, ordinary differential equations",
-        .coefficients = &gsl_odeiv2_step_rk4,
-        .order = 4,
-        GSL,
-    },
-    {
-        .name = "gsl-rk8pd",
-        .title = "GSL Prince-Dormand 8",
-        .formula = "gsl_odeiv2_step_rk8pd",
-        .reference = "GNU Scientific Library; P.J. Prince & J.R. Dormand, J. Comput. Appl. Math. 7 (1981) 67",
-        .coefficients = &gsl_odeiv2_step_rk8pd,
-        .order = 8,
-        GSL,
-    },
-    {
-        .name = "gsl-msadams",
-        .title = "GSL Adams",
-        .formula = "gsl_odeiv2_step_msadams: multistep, chooses its order",
-        .reference = "GNU Scientific Library; variable coefficient Adams in Nordsieck form",
-        .coefficients = &gsl_odeiv2_step_msadams,
-        GSL,
-    },
-    {
-        .name = "gsl-msbdf",
-        .title = "GSL BDF",
-        .formula = "gsl_odeiv2_step_msbdf: multistep, chooses its order",
-        .reference = "GNU Scientific Library; variable coefficient backward differences in Nordsieck form",
-        .coefficients = &gsl_odeiv2_step_msbdf,
-        .needs = GM_NEEDS_JACOBIAN,
-        GSL,
-    },
+    {GM_TEXTS_gsl_rk4, .coefficients = &gsl_odeiv2_step_rk4, GSL},
+    {GM_TEXTS_gsl_rk8pd, .coefficients = &gsl_odeiv2_step_rk8pd, GSL},
+    {GM_TEXTS_gsl_msadams, .coefficients = &gsl_odeiv2_step_msadams, GSL},
+    {GM_TEXTS_gsl_msbdf, .coefficients = &gsl_odeiv2_step_msbdf, .needs = GM_NEEDS_JACOBIAN, GSL},
 };
 
 const struct gm_family gm_family_gsl_steppers = {

@@ -10,6 +10,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
@@ -36,16 +37,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "kahan2",
-        .title = "Kahan",
-        .formula = "y₁ = y₀ + h (I − h/2 f′(y₀))⁻¹ f(y₀),  f quadratic",
-        .reference = "W. Kahan (1993); Celledoni, McLachlan, Owren & Quispel, J. Phys. A 46 (2013) 025201",
-        .family = &gm_family_kahan,
-        .order = 2,
-        .needs = GM_NEEDS_QUADRATIC,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
-    },
+    {GM_TEXTS_kahan2, .family = &gm_family_kahan, .needs = GM_NEEDS_QUADRATIC},
 };
 
 const struct gm_family gm_family_kahan = {

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A program that the build runs: writes schemes of share/schemes as rows of the families that advance them.
+/* A program that the build runs: writes schemes of share/schemes as rows of the families that advance them, and the
+   texts of other rows.
    Usage: write_schemes implicit|splitting|compositions OUT.def NAME.scheme ...
+          write_schemes texts OUT.h schemes.text
    Each row is
        GM_SCHEME_ROW(identifier, coefficients) GM_SCHEME_TEXTS(identifier, members of struct gm_scheme)
    with the coefficients as the doubles of their formulas; a composition of Verlet's method is
-       GM_COMPOSITION(identifier, steps) */
+       GM_COMPOSITION(identifier, steps)
+   The texts of a row are
+       #define GM_TEXTS_identifier members of struct gm_scheme */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/expression/lines.h"
 #include "core/files/generated.h"
 #include "core/scheme.h"
 #include "core/theory/written_scheme.h"
@@ -57,21 +62,38 @@ static void put_composition(FILE *out, const struct gm_written_line *steps)
     fputs("}", out);
 }
 
-/* A line as a member of the row; " | " at the beginning of a further line is a line break. */
-static void put_text(FILE *out, const char *member, const struct gm_written_scheme *scheme,
-                     enum gm_scheme_word word)
+/* Writes a value as a member of the row. A further line that begins with " | " begins a line of the text, another one
+   continues it. */
+static void put_text(FILE *out, const char *member, const char *text, struct gm_span value)
 {
-    const struct gm_span value = scheme->lines[word].value;
-    char *text =
-        scheme->lines[word].said ? strndup(scheme->text + value.begin, value.end - value.begin) : NULL;
-    for (char *at = text ? strstr(text, "\n | ") : NULL; at; at = strstr(at, "\n | ")) {
-        memmove(at + 1, at + 4, strlen(at + 4) + 1);
+    char *copy = strndup(text + value.begin, value.end - value.begin);
+    size_t length = 0;
+    fprintf(out, ", .%s = ", member);
+    for (const char *at = copy; at && *at; at++) {
+        const size_t between = *at == '\n' ? 1 + strspn(at + 1, " ") : 0;
+        at += between;
+        if (between > 0 && *at == '|') {
+            gm_string_put(out, copy, length);
+            fputs(" \"\\n\" ", out);
+            length = 0;
+            at += 2;
+        } else if (between > 0) {
+            copy[length++] = ' ';
+        }
+        copy[length++] = *at;
     }
-    if (text) {
-        fprintf(out, ", .%s = ", member);
-        gm_string_put(out, text, strlen(text));
+    if (copy) {
+        gm_string_put(out, copy, length);
     }
-    free(text);
+    free(copy);
+}
+
+static void put_line(FILE *out, const struct gm_written_scheme *scheme, enum gm_scheme_word word,
+                     const char *member)
+{
+    if (scheme->lines[word].said) {
+        put_text(out, member, scheme->text, scheme->lines[word].value);
+    }
 }
 
 static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word word, const char *text)
@@ -81,8 +103,18 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
            memcmp(scheme->text + value.begin, text, strlen(text)) == 0;
 }
 
-enum family { IMPLICIT, SPLITTING, COMPOSITIONS, FAMILIES };
-static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions"};
+enum family { IMPLICIT, SPLITTING, COMPOSITIONS, TEXTS, FAMILIES };
+static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions", "texts"};
+
+/* The name of a scheme as an identifier. */
+static char *identifier_of(char identifier[64], const char *name, size_t length)
+{
+    snprintf(identifier, 64, "%.*s", (int)length, name);
+    for (char *at = identifier; (at = strchr(at, '-'));) {
+        *at = '_';
+    }
+    return identifier;
+}
 
 /* Returns true if the steps are palindromic: a row holds half of them. */
 static bool is_symmetric(const struct gm_written_line *steps)
@@ -104,10 +136,7 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
     unsigned claims = 0;
     size_t wrong;
     char identifier[64];
-    snprintf(identifier, sizeof identifier, "%s", name);
-    for (char *at = identifier; (at = strchr(at, '-'));) {
-        *at = '_';
-    }
+    identifier_of(identifier, name, strlen(name));
     if (!gm_claims_read(scheme->text + claimed.begin, claimed.end - claimed.begin, &claims, &wrong) ||
         (scheme->kind == GM_WRITTEN_COMPOSITION
              ? !(of_verlet || of_midpoint) || !is_symmetric(&scheme->lines[GM_SCHEME_WORD_STEPS])
@@ -138,11 +167,42 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
             scheme->order, claims);
     fputs(splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
     fputs(scheme->nystrom ? " | GM_NEEDS_NYSTROM" : "", out);
-    put_text(out, "title", scheme, GM_SCHEME_WORD_TITLE);
-    put_text(out, "formula", scheme, GM_SCHEME_WORD_FORMULA);
-    put_text(out, "reference", scheme, GM_SCHEME_WORD_REFERENCE);
+    put_line(out, scheme, GM_SCHEME_WORD_TITLE, "title");
+    put_line(out, scheme, GM_SCHEME_WORD_FORMULA, "formula");
+    put_line(out, scheme, GM_SCHEME_WORD_REFERENCE, "reference");
     fputs(")\n", out);
     return true;
+}
+
+/* Writes the texts of all rows of a list. False if a line has no meaning. */
+static bool put_texts(FILE *out, const char *text, size_t length, struct gm_fault *fault)
+{
+    static const char *const words[] = {"scheme", "title", "formula", "reference", "order", "claims", NULL};
+    enum { SCHEME, ORDER = 4, CLAIMS, WORDS };
+    struct gm_text_line line;
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+        const char *value = text + line.value.begin;
+        const size_t size = line.value.end - line.value.begin, word = gm_span_among(text, line.word, words);
+        unsigned claims;
+        size_t wrong;
+        char identifier[64];
+        if (word == WORDS || (word == CLAIMS && !gm_claims_read(value, size, &claims, &wrong))) {
+            snprintf(fault->sentence, sizeof fault->sentence, "%.*s is not such a line", (int)size, value);
+            return false;
+        }
+        if (word == SCHEME) {
+            fprintf(out, "\n#define GM_TEXTS_%s .name = \"%.*s\"", identifier_of(identifier, value, size),
+                    (int)size, value);
+        } else if (word == ORDER) {
+            fprintf(out, ", .order = %.*s", (int)size, value);
+        } else if (word == CLAIMS) {
+            fprintf(out, ", .claims = %#x", claims);
+        } else {
+            put_text(out, words[word], text, line.value);
+        }
+    }
+    fputc('\n', out);
+    return !fault->sentence[0];
 }
 
 static bool put_file(FILE *out, const char *path, enum family family)
@@ -154,8 +214,9 @@ static bool put_file(FILE *out, const char *path, enum family family)
              slash ? slash + 1 : path);
     struct gm_written_scheme scheme = {.text = NULL};
     struct gm_fault fault = {.sentence = "it could not be read"};
-    const bool good = text && gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
-                      put_scheme(out, &scheme, name, family);
+    const bool good = text && (family == TEXTS ? put_texts(out, text, length, &fault)
+                                               : gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
+                                                     put_scheme(out, &scheme, name, family));
     if (!good) {
         fprintf(stderr, "%s: %s\n", path, fault.sentence[0] ? fault.sentence : "it is not a row of a family");
     }

@@ -15,6 +15,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum filter { IMPULSE, MOLLIFIED, GAUTSCHI };
 static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GAUTSCHI;
@@ -109,39 +110,12 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-#define TRIGONOMETRIC .family = &gm_family_trigonometric, .order = 2, .needs = GM_NEEDS_FAST_LINEAR
+#define TRIGONOMETRIC .family = &gm_family_trigonometric, .needs = GM_NEEDS_FAST_LINEAR
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "impulse2",
-        .title = "impulse",
-        .formula = "p += h/2 g(q);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 g(q)",
-        .reference =
-            "Grubmüller, Heller, Windemuth & Schulten, Mol. Simul. 6 (1991) 121; Tuckerman, Berne & Martyna, "
-            "J. Chem. Phys. 97 (1992) 1990",
-        .coefficients = &impulse,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
-        TRIGONOMETRIC,
-    },
-    {
-        .name = "mollified2",
-        .title = "mollified impulse",
-        .formula = "p += h/2 a g(aq);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 a g(aq),  a = sinc hω",
-        .reference = "García-Archilla, Sanz-Serna & Skeel, SIAM J. Sci. Comput. 20 (1999) 930",
-        .coefficients = &mollified,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
-        TRIGONOMETRIC,
-    },
-    {
-        .name = "gautschi2",
-        .title = "Gautschi",
-        .formula = "p += h/2 a g(q);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 a g(q),\n"
-                   "a = sinc²(hω/2)/sinc hω",
-        .reference = "W. Gautschi, Numer. Math. 3 (1961) 381; Hairer, Lubich & Wanner (2006), XIII.1.2",
-        .coefficients = &gautschi,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
-        TRIGONOMETRIC,
-    },
+    {GM_TEXTS_impulse2, .coefficients = &impulse, TRIGONOMETRIC},
+    {GM_TEXTS_mollified2, .coefficients = &mollified, TRIGONOMETRIC},
+    {GM_TEXTS_gautschi2, .coefficients = &gautschi, TRIGONOMETRIC},
 };
 
 const struct gm_family gm_family_trigonometric = {

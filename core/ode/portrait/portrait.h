@@ -40,7 +40,7 @@ struct gm_portrait {
     /* Each component of f at the corners of a grid of cells, row by row from the lower left; NaN beside a pole or a
        jump, so that the lines on which it changes its sign are the nullclines. One block of memory. */
     double *fields[2];
-    /* What the list lacks: "equilibria fill a curve, which is not listed" ...; NULL: nothing. */
+    /* A sentence about equilibria that are not listed; NULL if the list is complete. */
     const char *missing;
 };
 

@@ -14,7 +14,7 @@ extern const struct gm_problem gm_problem_pendulum;   /* (q, p), H = p^2/2 - cos
 extern const struct gm_problem gm_problem_oscillator_tangent;
 extern const struct gm_problem gm_problem_pendulum_tangent;
 
-/* y' = A y in three dimensions; parameters: A, 9 doubles row by row; its trace is zero. */
+/* y' = A y in three dimensions; parameters: A, 9 doubles row by row. */
 extern const struct gm_problem gm_problem_linear;
 
 /* The Korteweg-de Vries equation on a ring of 12 points, (u_0 .. u_11). */

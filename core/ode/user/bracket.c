@@ -174,9 +174,8 @@ static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *mod
         rates[i] = gm_formula_constant(graph, 0);
         for (size_t k = 0; k < n; k++) {
             if (group[k] == which) {
-                const gm_node_id term = gm_simplified(graph, GM_OPERATION_MULTIPLY,
-                                                      system->bracket[i * n + k], model->gradient[k]);
-                rates[i] = gm_simplified(graph, GM_OPERATION_ADD, rates[i], term);
+                const gm_node_id term = gm_product(graph, system->bracket[i * n + k], model->gradient[k]);
+                rates[i] = gm_sum(graph, rates[i], term);
             }
         }
     }

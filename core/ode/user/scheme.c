@@ -547,7 +547,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
         return gm_scheme_find(meaning);
     }
     if (!scheme || elsewhere) {
-        const char *near = scheme ? NULL : gm_scheme_near(name);
+        const char *near = scheme ? NULL : gm_scheme_near(name, NULL, 0);
         near = near && gm_scheme_composes(gm_scheme_find(near)) ? near : NULL;
         fail(making, span.begin,
              scheme ? "%.40s is not a scheme for ordinary differential equations%s%s"

@@ -106,7 +106,7 @@ const char *gm_system_idle(const void *parameters, const char *key)
     for (size_t row = GM_SYSTEM_ROWS; row < owner->row_count; row++) {
         const struct gm_parameter *at = &owner->rows[row];
         if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE && owner->variables[row] == GM_NO_VARIABLE) {
-            return owner->lacks;
+            return owner->lacks[row];
         }
     }
     return NULL;
@@ -141,9 +141,10 @@ bool gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters,
                  starts = gm_system_is_field(system) ? 0 : n;
     const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + starts;
-    system_scene->rows = calloc(most + count, sizeof *system_scene->rows);
-    system_scene->variables = calloc(most, sizeof *system_scene->variables);
-    system_scene->initial = calloc(1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
+    system_scene->rows = gm_arena_take(system->arena, most + count, sizeof *system_scene->rows);
+    system_scene->variables = gm_arena_take(system->arena, most, sizeof *system_scene->variables);
+    system_scene->initial =
+        gm_arena_take(system->arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
     for (size_t i = 0; good && i < choices; i++) {
@@ -216,12 +217,4 @@ void gm_system_close_rows(struct gm_system_scene *system_scene)
     }
     gm_kept_texts_close(&system_scene->texts);
     gm_system_close(&system_scene->system);
-    free(system_scene->of_items);
-    free(system_scene->figures);
-    free(system_scene->observables);
-    free(system_scene->formulas);
-    free(system_scene->terms);
-    free(system_scene->variables);
-    free(system_scene->rows);
-    free(system_scene->initial);
 }

@@ -36,7 +36,8 @@ static bool take_schemes(const struct gm_system_item *item, const struct gm_prob
 static bool make_figures(struct gm_system_scene *system_scene)
 {
     const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_FIGURE);
-    system_scene->figures = calloc(count + 1, sizeof *system_scene->figures);
+    system_scene->figures =
+        gm_arena_take(system_scene->system.arena, count + 1, sizeof *system_scene->figures);
     for (size_t i = 0; system_scene->figures && i < count; i++) {
         const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_FIGURE, i);
         system_scene->figures[i] =

@@ -70,10 +70,11 @@ static void put_number(FILE *text, double value, const char *format, const char 
 static bool put_brace(FILE *text, const struct values *values, const char *at, size_t number,
                       const struct gm_system_item *item)
 {
-    const size_t first = item->word == GM_WORD_REQUIRE, length = strcspn(at + 1, ":}");
+    const size_t first = item->word == GM_WORD_REQUIRE, length = strcspn(at + 1, ":}"),
+                 letters = strcspn(at + 1, "*:}");
     const gm_node_id node = item->nodes[first + number];
     char key[64], format[16] = "";
-    snprintf(key, sizeof key, "%.*s", (int)(length < 60 ? length : 60), at + 1);
+    snprintf(key, sizeof key, "%.*s", (int)(letters < 60 ? letters : 60), at + 1);
     if (at[1 + length] == ':') {
         snprintf(format, sizeof format, "%.*s", (int)strcspn(at + 2 + length, "}") + 1, at + 2 + length);
     }
@@ -81,9 +82,14 @@ static bool put_brace(FILE *text, const struct values *values, const char *at, s
         fputs(values->schemes, text);
         return true;
     }
-    const struct gm_parameter *row =
-        node == GM_NO_NODE ? gm_scene_parameter(&values->lane->owner->scene, key) : NULL;
-    const double value = row ? gm_parameter_get(row, values->lane) : values->numbers[first + number];
+    const struct gm_parameter *row = gm_scene_parameter(&values->lane->owner->scene, key);
+    const bool timing = row && row < values->lane->owner->rows + GM_SYSTEM_ROWS;
+    const double factor = node == GM_NO_NODE ? 1 : values->numbers[first + number],
+                 value = node == GM_NO_NODE || timing ? factor * gm_parameter_get(row, values->lane) : factor;
+    if (strcmp(format, "s}") == 0) {
+        fputs(value == 1 ? "" : "s", text);
+        return true;
+    }
     put_number(text, value, format, values->minus);
     return strcmp(format, "nonzero}") != 0 || value != 0;
 }
@@ -164,7 +170,8 @@ static bool open_item(struct gm_system_scene *system_scene, const struct gm_syst
 bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
 {
     const struct gm_user_system *system = &system_scene->system;
-    system_scene->of_items = calloc(system->item_count + 1, sizeof *system_scene->of_items);
+    system_scene->of_items =
+        gm_arena_take(system->arena, system->item_count + 1, sizeof *system_scene->of_items);
     bool good = system_scene->of_items != NULL;
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];

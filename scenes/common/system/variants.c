@@ -11,8 +11,6 @@
 #include "core/model/equations.h"
 #include "scenes/common/system/pieces.h"
 
-enum { MOST_BUILDING = 16 };
-
 /* Guards the list of a scene's systems, which grows while lanes are opened. */
 static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
 
@@ -84,16 +82,21 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
     const size_t rows = tables->row_count, count = tables->observable_count,
                  size = sizeof *own->initial + rows * (sizeof(double) + 1);
     const struct gm_system_scene before = *own;
+    struct gm_arena *arena = own->system.arena;
     char text[GM_CHOICE_SIZE + 32];
-    own->rows = calloc(rows + tables->common_count, sizeof *own->rows);
-    own->variables = calloc(rows, sizeof *own->variables);
-    own->initial = calloc(1, size);
-    own->observables = calloc(count + 1, sizeof *own->observables);
-    own->formulas = calloc(count + 1, sizeof *own->formulas);
-    own->terms = calloc(count + 1, sizeof *own->terms);
-    const bool good =
-        own->rows && own->variables && own->initial && own->observables && own->formulas && own->terms;
-    for (size_t row = 0; good && row < rows; row++) {
+    own->rows = gm_arena_take(arena, rows + tables->common_count, sizeof *own->rows);
+    own->variables = gm_arena_take(arena, rows, sizeof *own->variables);
+    own->initial = gm_arena_take(arena, 1, size);
+    own->observables = gm_arena_take(arena, count + 1, sizeof *own->observables);
+    own->formulas = gm_arena_take(arena, count + 1, sizeof *own->formulas);
+    own->terms = gm_arena_take(arena, count + 1, sizeof *own->terms);
+    own->lacks = gm_arena_take(arena, rows, sizeof *own->lacks);
+    if (!(own->rows && own->variables && own->initial && own->observables && own->formulas && own->terms &&
+          own->lacks)) {
+        *own = before;
+        return false;
+    }
+    for (size_t row = 0; row < rows; row++) {
         const struct gm_parameter *to = &tables->rows[row];
         const size_t from = find(before.rows, sizeof *to, before.row_count, to->key);
         const bool found = from < before.row_count;
@@ -102,7 +105,7 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
                          found ? gm_parameter_format(&before.rows[from], before.initial, text, sizeof text)
                                : to->standard);
     }
-    for (size_t i = 0; good && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         const struct gm_observable *row = &tables->observables[i];
         const size_t from = find(before.observables, sizeof *row, before.observable_count, row->key);
         if (from < before.observable_count) {
@@ -115,37 +118,25 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
                                                          .title = row->title,
                                                          .unit = row->unit,
                                                          .evaluate = nothing,
-                                                         .missing = own->lacks,
                                                          .logarithmic = row->logarithmic};
         }
     }
-    for (size_t i = 0; good && i < before.observable_count; i++) { /* formulas without a row */
+    for (size_t i = 0; i < before.observable_count; i++) { /* formulas without a row */
         gm_tape_close(&before.formulas[i]);
         gm_tape_close(&before.terms[i]);
     }
-    struct gm_system_scene gone = good ? before : *own;
-    if (good) {
-        memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
-        memcpy(own->rows, tables->rows, (rows + tables->common_count) * sizeof *own->rows);
-        own->common = own->rows + rows;
-        own->common_count = tables->common_count;
-        own->scene.parameter_count += rows - own->row_count;
-        own->row_count = rows;
-        own->observable_count = own->scene.observable_count = count;
-        own->scene.size = size;
-        own->scene.initial = own->initial;
-        own->scene.parameters = own->rows;
-        own->scene.observables = own->observables;
-    } else {
-        *own = before;
-    }
-    free(gone.rows);
-    free(gone.variables);
-    free(gone.initial);
-    free(gone.observables);
-    free(gone.formulas);
-    free(gone.terms);
-    return good;
+    memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
+    memcpy(own->rows, tables->rows, (rows + tables->common_count) * sizeof *own->rows);
+    own->common = own->rows + rows;
+    own->common_count = tables->common_count;
+    own->scene.parameter_count += rows - own->row_count;
+    own->row_count = rows;
+    own->observable_count = own->scene.observable_count = count;
+    own->scene.size = size;
+    own->scene.initial = own->initial;
+    own->scene.parameters = own->rows;
+    own->scene.observables = own->observables;
+    return true;
 }
 
 /* Adds a system to those of the file, with their rows. */
@@ -157,11 +148,73 @@ static bool join(struct gm_system_scene *own, struct gm_system_scene *first, con
     return own->first != NULL;
 }
 
-/* Notes the value by which a system lacks rows of the others. False when out of memory. */
-static bool lack(struct gm_system_scene *own, const char *key, const char *value)
+/* Returns true if a system has a row or, with row_count added, an observable. */
+static bool has(const struct gm_system_scene *own, size_t i)
 {
-    own->lacks = gm_system_kept_text(own, "it is not defined with %s=%s", key, value);
-    return own->lacks != NULL;
+    return i < own->row_count ? own->variables[i] != GM_NO_VARIABLE || own->rows[i].type == GM_CHOICE
+                              : own->observables[i - own->row_count].evaluate != nothing;
+}
+
+/* Returns true if a row has one value in two systems. */
+static bool is_equal(const struct gm_system_scene *own, const struct gm_system_scene *other, size_t row)
+{
+    return gm_parameter_get(&own->rows[row], own->initial) ==
+           gm_parameter_get(&other->rows[row], other->initial);
+}
+
+/* Returns the last row that builds two systems and differs in them, and how many do. */
+static size_t find_difference(const struct gm_system_scene *own, const struct gm_system_scene *other,
+                              size_t *count)
+{
+    size_t found = 0;
+    *count = 0;
+    for (size_t row = GM_SYSTEM_ROWS; row < own->row_count; row++) {
+        if (builds(own, row) && !is_equal(own, other, row)) {
+            found = row;
+            ++*count;
+        }
+    }
+    return found;
+}
+
+/* Gives the value of a row as the reason for what a system lacks without a reason: all of it, or what only
+   one has of the first system and `other`, which differs from it in that row alone. False when out of memory. */
+static bool give_reason(struct gm_system_scene *own, size_t row, const struct gm_system_scene *other)
+{
+    const char *reason = NULL;
+    char value[GM_CHOICE_SIZE + 32];
+    for (size_t i = GM_SYSTEM_ROWS; i < own->row_count + own->observable_count; i++) {
+        const char **place =
+            i < own->row_count ? &own->lacks[i] : &own->observables[i - own->row_count].missing;
+        const bool decides = !other || (has(own->first, i) != has(other, i) &&
+                                        has(own->first, i) == is_equal(own, other, row));
+        if (*place || has(own, i) || !decides) {
+            continue;
+        }
+        if (!reason) {
+            gm_parameter_format(&own->rows[row], own->initial, value, sizeof value);
+            reason = gm_system_kept_text(own, "it is not defined with %s=%s", own->rows[row].key, value);
+        }
+        if (!reason) {
+            return false;
+        }
+        *place = reason;
+    }
+    return true;
+}
+
+/* Gives the reasons for what a system lacks. False when out of memory. */
+static bool explain(struct gm_system_scene *own)
+{
+    size_t count;
+    bool good = true;
+    for (const struct gm_system_scene *other = own->first->next; other && good; other = other->next) {
+        count = 0; /* one that could not be completed has no rows */
+        const size_t row = other->first ? find_difference(own->first, other, &count) : 0;
+        good = count != 1 || give_reason(own, row, other);
+    }
+    const size_t last = find_difference(own, own->first, &count);
+    return good && (count == 0 || give_reason(own, last, NULL));
 }
 
 /* Opens the system of the text of `first` with other values, and adds it to its list. */
@@ -184,7 +237,7 @@ static struct gm_system_scene *open_other(struct gm_system_scene *first, const s
             made->next = first->next;
             first->next = made;
         }
-        return made && lack(made, last->name, last->text) ? made : NULL;
+        return made;
     }
     gm_system_close(&system);
     return NULL;
@@ -200,7 +253,7 @@ static bool unite_shows(struct gm_system_scene *first)
             most++;
         }
     }
-    first->all_shows = calloc(most, sizeof *first->all_shows);
+    first->all_shows = gm_arena_take(first->system.arena, most, sizeof *first->all_shows);
     for (int pass = 0; first->all_shows && pass < 3; pass++) {
         for (const struct gm_system_scene *other = first; other; other = other->next) {
             for (size_t k = 0; other->shows[k]; k++) {
@@ -243,8 +296,7 @@ bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_openi
     struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
                             .common_count = first->common_count,
                             .observables = calloc(observables, sizeof *tables.observables)};
-    const struct gm_written_choice *usual = choices->list;
-    bool good = tables.rows && tables.observables && lack(first, usual->name, usual->words[usual->chosen]);
+    bool good = tables.rows && tables.observables;
     for (const struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
         add(&tables, other);
     }
@@ -257,6 +309,9 @@ bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_openi
     }
     for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
         good = join(other, first, &tables);
+    }
+    for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+        good = explain(other);
     }
     free(tables.rows);
     free(tables.observables);
@@ -275,15 +330,20 @@ static bool is_of(const struct gm_system_scene *other, const struct gm_system_la
     return other->first != NULL;
 }
 
-/* Makes a missing system. */
+/* Makes a missing system and adds it to the list. */
 static struct gm_system_scene *add_variant(struct gm_system_scene *first, const struct gm_system_lane *lane,
                                            const struct gm_system_opening *opening)
 {
-    struct gm_system_value values[MOST_BUILDING];
-    char texts[MOST_BUILDING][GM_CHOICE_SIZE + 32];
-    size_t count = 0;
+    size_t building = 0, count = 0;
     const unsigned long refusals = gm_memory_refusals();
-    for (size_t row = 0; row < first->row_count && count < MOST_BUILDING; row++) {
+    const struct tables tables = {first->rows, first->observables, first->row_count, first->common_count,
+                                  first->observable_count};
+    for (size_t row = 0; row < first->row_count; row++) {
+        building += builds(first, row);
+    }
+    struct gm_system_value *values = calloc(building, sizeof *values);
+    char(*texts)[GM_CHOICE_SIZE + 32] = calloc(building, sizeof *texts);
+    for (size_t row = 0; values && texts && row < first->row_count; row++) {
         if (builds(first, row)) {
             const struct gm_parameter *at = &first->rows[row];
             values[count] = (struct gm_system_value){
@@ -291,15 +351,29 @@ static struct gm_system_scene *add_variant(struct gm_system_scene *first, const 
             count++;
         }
     }
-    struct gm_system_scene *made = open_other(first, values, count, opening);
-    const struct tables tables = {first->rows, first->observables, first->row_count, first->common_count,
-                                  first->observable_count};
-    return made && join(made, first, &tables) && gm_memory_refusals() == refusals ? made : NULL;
+    struct gm_system_scene *made = count == building ? open_other(first, values, count, opening) : NULL;
+    free(values);
+    free(texts);
+    if (made && join(made, first, &tables) && explain(made) && gm_memory_refusals() == refusals) {
+        opening->sentence[0] = '\0'; /* the scene was made under the sentence that memory is short */
+        return made;
+    }
+    if (made) {
+        made->first = NULL;
+    }
+    if (made || count != building) {
+        gm_refuse(opening->sentence, "not enough memory");
+    } else if (opening->fault->sentence[0]) {
+        size_t line, column;
+        gm_text_place(first->system.source, opening->fault->offset, &line, &column);
+        gm_refuse(opening->sentence, "line %zu: %s", line, opening->fault->sentence);
+    }
+    return NULL;
 }
 
 bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence)
 {
-    struct gm_fault fault;
+    struct gm_fault fault = {0};
     const struct gm_system_opening opening = {open, &fault, sentence};
     struct gm_system_scene *first = lane->owner->first, *other = first;
     if (!first) {
@@ -309,10 +383,7 @@ bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *
     while (other && !is_of(other, lane)) {
         other = other->next;
     }
-    if (!other) {
-        gm_refuse(sentence, "not enough memory");
-        other = add_variant(first, lane, &opening);
-    }
+    other = other ? other : add_variant(first, lane, &opening);
     pthread_mutex_unlock(&listing);
     lane->owner = other ? other : lane->owner;
     return other != NULL;

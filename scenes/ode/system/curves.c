@@ -212,9 +212,26 @@ static size_t curve_of(const struct gm_path *path, const struct gm_sight *sight,
     return count;
 }
 
-/* Draws the curve of a body: of views, only the last of several in full; dots for steps that are apart. */
-static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_paths *paths,
-                       struct gm_style style, size_t body, const double *now, double *points)
+/* Writes the title of a curve over time above one of its points, those of several curves side by side. */
+static void draw_title(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       size_t body, const double *points, size_t count)
+{
+    const struct gm_system_lane *parameters = lane->parameters;
+    const struct gm_system_item *item = gm_system_item_of(&parameters->owner->system, GM_WORD_VIEW, body);
+    const char *title = item ? gm_system_option_text(item, GM_OPTION_TITLE, NULL) : NULL;
+    const size_t bodies = gm_system_sight(parameters)->bodies;
+    const double *at = points + 2 * ((bodies - body) * count / (bodies + 1)); /* parts differ late */
+    const double height = panel->y.high - panel->y.low;
+    if (title && count > 20 && at[1] < panel->y.high - 0.1 * height) {
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1}, at[0],
+                     at[1] + 0.05 * height, GM_ANCHOR_CENTRE, title);
+    }
+}
+
+/* Draws the curve of a body: of views, only the last of several in full; dots for steps that are apart. Returns the
+   number of its points. */
+static size_t draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_paths *paths,
+                         struct gm_style style, size_t body, const double *now, double *points)
 {
     enum { APART = 1500, APART_OF_NAMES = 80 };
     const struct gm_sight *sight = paths->sight;
@@ -226,6 +243,7 @@ static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     style.width = 3.4;
     style.dash = GM_SOLID;
     gm_mark_points(picture, panel, style, points, in_full && count < apart ? count : 0);
+    return count;
 }
 
 /* Returns true if the current lane of a walk has its panel alone. */
@@ -261,7 +279,10 @@ void gm_system_draw_curves(struct gm_picture *picture, struct gm_panel *panel, c
             const size_t count = curve_of(&paths->members[i], sight, body, NULL, points);
             gm_mark_line(picture, panel, thin, points, count, false);
         }
-        draw_curve(picture, panel, paths, style, body, now, points);
+        const size_t count = draw_curve(picture, panel, paths, style, body, now, points);
+        if (!sight->curves) {
+            draw_title(picture, panel, lane, body, points, count);
+        }
         gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 5, GM_SOLID}, now + 2 * body, 1);
         if (several && leads) {
             style.role = alone ? style.role : GM_SECONDARY;

@@ -213,13 +213,13 @@ static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
         switch (node.operation) {
         case GM_OPERATION_ADD:
         case GM_OPERATION_SUBTRACT:
-            sizes[i] = gm_simplified(graph, GM_OPERATION_ADD, sizes[node.a], sizes[node.b]);
+            sizes[i] = gm_sum(graph, sizes[node.a], sizes[node.b]);
             break;
         case GM_OPERATION_NEGATE:
             sizes[i] = sizes[node.a];
             break;
         case GM_OPERATION_MULTIPLY:
-            sizes[i] = gm_simplified(graph, GM_OPERATION_MULTIPLY, sizes[node.a], sizes[node.b]);
+            sizes[i] = gm_product(graph, sizes[node.a], sizes[node.b]);
             break;
         case GM_OPERATION_DIVIDE:
             sizes[i] = gm_simplified(graph, GM_OPERATION_DIVIDE, sizes[node.a],
@@ -500,9 +500,10 @@ bool gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     const struct gm_hook *hook = system_scene->hook;
     const size_t of_hook = hook ? hook->observable_count : 0,
                  most = system_scene->system.item_count + 9 + of_hook;
-    system_scene->observables = calloc(most, sizeof *system_scene->observables);
-    system_scene->formulas = calloc(most, sizeof *system_scene->formulas);
-    system_scene->terms = calloc(most, sizeof *system_scene->terms);
+    system_scene->observables =
+        gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->observables);
+    system_scene->formulas = gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->formulas);
+    system_scene->terms = gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->terms);
     bool good = system_scene->observables && system_scene->formulas && system_scene->terms;
     for (size_t i = 0; good && i < of_hook; i++) {
         good = add_observable(system_scene, hook->observables[i], GM_NO_NODE, GM_NO_NODE);

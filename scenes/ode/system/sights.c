@@ -205,8 +205,8 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2;
-    system_scene->sights = calloc(GM_MOST_SIGHTS, sizeof *system_scene->sights);
-    system_scene->shows = calloc(GM_MOST_SIGHTS + 5, sizeof *system_scene->shows);
+    system_scene->sights = gm_arena_take(system->arena, GM_MOST_SIGHTS, sizeof *system_scene->sights);
+    system_scene->shows = gm_arena_take(system->arena, GM_MOST_SIGHTS + 5, sizeof *system_scene->shows);
     bool good = system_scene->sights && system_scene->shows;
     if (good &&
         (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {

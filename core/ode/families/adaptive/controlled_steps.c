@@ -27,6 +27,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/splitting/splitting.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode_scheme_texts.h"
 #include "core/schemes.h"
 
 struct row {
@@ -286,38 +287,23 @@ static enum gm_status start(const struct gm_task *task)
     return good ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-#define CONTROLLED .family = &gm_family_controlled_steps
-#define BY_MONITOR(phi, number, words, degree, needed, kept)                                                 \
+#define CONTROLLED(...)                                                                                      \
+    .family = &gm_family_controlled_steps, .coefficients = &(const struct row)                               \
     {                                                                                                        \
-        .name = "controlled-" phi number, .title = words ", controlled steps",                               \
-        .coefficients = &(const struct row){.base = phi}, CONTROLLED,                                        \
-        .formula = "ρ_{n+½} = ρ_n + ds/2 G(y_n),  y_{n+1} = Φ_h(y_n),  h = ds/ρ_{n+½},\n"              \
-                   "ρ_{n+1} = ρ_{n+½} + ds/2 G(y_{n+1}),  G = ∇Q·f/Q,  Φ is " phi ";  dt is ds",             \
-        .reference = "E. Hairer & G. Söderlind, SIAM J. Sci. Comput. 26 (2005) 1838", .order = degree,       \
-        .needs = GM_NEEDS_MONITOR | needed,                                                                  \
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR | kept                  \
+        __VA_ARGS__                                                                                          \
     }
+#define BY_MONITOR(phi, facets) CONTROLLED(.base = phi), .needs = GM_NEEDS_MONITOR | (facets)
 
 static const struct gm_scheme schemes[] = {
-    BY_MONITOR("verlet", "2", "Verlet", 2, GM_NEEDS_SPLIT, 0),
-    BY_MONITOR("blanes-moan4", "", "Blanes-Moan 4", 4, GM_NEEDS_SPLIT, 0),
-    BY_MONITOR("blanes-moan-nystrom6", "", "Blanes-Moan Nyström 6", 6, GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM, 0),
-    BY_MONITOR("kahan-li8", "", "Kahan-Li 8", 8, GM_NEEDS_SPLIT, 0),
-    BY_MONITOR("gauss4", "", "Gauss 4", 4, 0, GM_KEEPS_QUADRATIC),
-    BY_MONITOR("gauss8", "", "Gauss 8", 8, 0, GM_KEEPS_QUADRATIC),
-    {
-        .name = "error-controlled-verlet",
-        .title = "Verlet, error control",
-        .formula = "y_{n+1} = Φ_h(y_n), Φ is verlet,  next h = h ds/|y_{n+1} − y_n − h f(y_n)|^½;  dt is ds",
-        .reference =
-            "Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I (1993), II.4; Hairer, "
-            "Lubich & Wanner (2006), VIII.1",
-        CONTROLLED,
-        .coefficients = &(const struct row){.base = "verlet", .by_error = true},
-        .order = 2,
-        .needs = GM_NEEDS_SPLIT,
-        .claims = GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
-    },
+    {GM_TEXTS_controlled_verlet2, BY_MONITOR("verlet", GM_NEEDS_SPLIT)},
+    {GM_TEXTS_controlled_blanes_moan4, BY_MONITOR("blanes-moan4", GM_NEEDS_SPLIT)},
+    {GM_TEXTS_controlled_blanes_moan_nystrom6,
+     BY_MONITOR("blanes-moan-nystrom6", GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM)},
+    {GM_TEXTS_controlled_kahan_li8, BY_MONITOR("kahan-li8", GM_NEEDS_SPLIT)},
+    {GM_TEXTS_controlled_gauss4, BY_MONITOR("gauss4", 0)},
+    {GM_TEXTS_controlled_gauss8, BY_MONITOR("gauss8", 0)},
+    {GM_TEXTS_error_controlled_verlet, CONTROLLED(.base = "verlet", .by_error = true),
+     .needs = GM_NEEDS_SPLIT},
 };
 
 const struct gm_family gm_family_controlled_steps = {

@@ -14,6 +14,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode_scheme_texts.h"
 #include "core/theory/coefficients.h"
 
 enum { STAGES = 7, ERROR = STAGES, DENSE };
@@ -246,18 +247,9 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
-static const struct gm_scheme schemes[] = {{
-    .name = "dopri5",
-    .title = "Dormand-Prince 5(4)",
-    .formula = "k_i = f(y + h Σ_{j<i} a_ij k_j),  y' = y + h Σ_i b_i k_i,  i ≤ 7\n"
-               "r = ‖h Σ_i e_i k_i‖ / tolerance ≤ 1,  next h = h min(5, max(1/5, 0.9 r^{−1/5}));\n"
-               "rows of distance dt are values of the interpolant",
-    .reference = "J.R. Dormand & P.J. Prince, J. Comput. Appl. Math. 6 (1980) 19; Hairer, Nørsett & Wanner, "
-                 "Solving Ordinary Differential Equations I (1993), II.4-II.6",
-    .family = &gm_family_dormand_prince,
-    .order = 5,
-    .claims = GM_KEEPS_LINEAR,
-}};
+static const struct gm_scheme schemes[] = {
+    {GM_TEXTS_dopri5, .family = &gm_family_dormand_prince},
+};
 
 const struct gm_family gm_family_dormand_prince = {
     .kind = &gm_kind_ode,

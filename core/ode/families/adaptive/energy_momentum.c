@@ -21,6 +21,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
 enum { ITERATIONS = 50 };
@@ -183,19 +184,8 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "symplectic-energy-momentum2",
-        .title = "symplectic-energy-momentum",
-        .formula = "z = y₀ + ½τ f(z),  H(z) = E,  y₁ = y₀ + τ f(z)",
-        .reference =
-            "C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353; Razafindralandy et al. (2018), "
-            "eqs. 55 and 56",
-        .family = &gm_family_energy_momentum,
-        .order = 2,
-        .needs = GM_NEEDS_ACTION | GM_NEEDS_ENERGY,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |
-                  GM_KEEPS_MOMENTUM_MAPS,
-    },
+    {GM_TEXTS_symplectic_energy_momentum2, .family = &gm_family_energy_momentum,
+     .needs = GM_NEEDS_ACTION | GM_NEEDS_ENERGY},
 };
 
 const struct gm_family gm_family_energy_momentum = {

@@ -19,6 +19,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 /* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
@@ -82,19 +83,8 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "levi-civita",
-        .title = "Levi-Civita",
-        .formula = "q = u², w = 2 ū p, dt = |q| ds:  midpoint rule on u′ = w/4, w′ = −2B u over ds/2;\n"
-                   "w −= ds ∂(|u|² W(u²))/∂u;  midpoint rule over ds/2.  B = −H(0);  dt is the step ds",
-        .reference = "T. Levi-Civita, Acta Math. 42 (1920) 99; Y. Minesaki & Y. Nakamura, Phys. Lett. A 306 "
-                     "(2002) 127",
-        .family = &gm_family_fictitious_time,
-        .coefficients = &(fictitious_step *const){levi_civita},
-        .order = 2,
-        .needs = GM_NEEDS_KEPLER_SPLIT,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR,
-    },
+    {GM_TEXTS_levi_civita, .family = &gm_family_fictitious_time,
+     .coefficients = &(fictitious_step *const){levi_civita}, .needs = GM_NEEDS_KEPLER_SPLIT},
 };
 
 const struct gm_family gm_family_fictitious_time = {

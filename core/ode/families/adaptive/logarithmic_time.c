@@ -22,6 +22,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { BINDING, TIME_CARRY, REMEMBERED };
 
@@ -119,32 +120,14 @@ static enum gm_status start(const struct gm_task *task)
     return gm_energy(task->problem, members->scratch) < 0 ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-#define LOGARITHMIC                                                                                          \
-    .family = &gm_family_logarithmic_time,                                                                   \
-    .reference = "S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; "                      \
-                 "M. Preto & S. Tremaine, Astron. J. 118 (1999) 2532",                                       \
-    .needs = GM_NEEDS_ATTRACTION, .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR
-#define COMPOSED(composition, key, words, count, degree)                                                     \
-    {                                                                                                        \
-        .name = "logh-" key, .title = "logarithmic Hamiltonian, " words,                                     \
-        .formula = count " steps of logh2 of lengths γ₁ds, …, γ_s ds,  γ_{s+1−i} = γᵢ;  dt is ds",           \
-        .coefficients = &gm_composition_##composition, .order = degree, LOGARITHMIC                          \
-    }
+#define LOGARITHMIC .family = &gm_family_logarithmic_time, .needs = GM_NEEDS_ATTRACTION
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "logh2",
-        .title = "logarithmic Hamiltonian",
-        .formula = "drift q += d ∂T/∂p, t += d, d = (ds/2)/(T(p) + B);  kick p += ds F(q)/(−V(q));  drift\n"
-                   "B = −H(0);  dt is the step ds of the fictitious time",
-        LOGARITHMIC,
-        .coefficients = &gm_composition_none,
-        .order = 2,
-    },
-    COMPOSED(suzuki4, "suzuki4", "Suzuki 4", "five", 4),
-    COMPOSED(kahan_li6, "kahan-li6", "Kahan-Li 6", "nine", 6),
-    COMPOSED(kahan_li8, "kahan-li8", "Kahan-Li 8", "seventeen", 8),
-    COMPOSED(sofroniou_spaletta10, "sofroniou-spaletta10", "Sofroniou-Spaletta 10", "thirty-five", 10),
+    {GM_TEXTS_logh2, .coefficients = &gm_composition_none, LOGARITHMIC},
+    {GM_TEXTS_logh_suzuki4, .coefficients = &gm_composition_suzuki4, LOGARITHMIC},
+    {GM_TEXTS_logh_kahan_li6, .coefficients = &gm_composition_kahan_li6, LOGARITHMIC},
+    {GM_TEXTS_logh_kahan_li8, .coefficients = &gm_composition_kahan_li8, LOGARITHMIC},
+    {GM_TEXTS_logh_sofroniou_spaletta10, .coefficients = &gm_composition_sofroniou_spaletta10, LOGARITHMIC},
 };
 
 const struct gm_family gm_family_logarithmic_time = {

@@ -19,6 +19,7 @@
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { ENERGY, TIME_CARRY, REMEMBERED };
 
@@ -126,21 +127,13 @@ static size_t room(const struct gm_problem *problem, const struct gm_scheme *sch
     return (2 + 2 * (size_t)((const struct gm_tableau *)scheme->coefficients)->stages) * problem->n;
 }
 
-#define IN_POINCARES_TIME(method, number, words, degree)                                                     \
-    {                                                                                                        \
-        .name = "poincare-" #method number, .title = words ", Poincaré's time", .order = degree,             \
-        .family = &gm_family_transformed_time, .coefficients = &gm_implicit_##method,                        \
-        .formula = "Gauss' method " #method " for y′ = f/Q − (H − E) J∇Q/Q²,  t′ = 1/Q;  dt is ds = Q dt",   \
-        .reference = "E. Hairer, Appl. Numer. Math. 25 (1997) 219; S. Reich, SIAM J. Numer. Anal. 36 "       \
-                     "(1999) 1549",                                                                          \
-        .needs = GM_NEEDS_ENERGY | GM_NEEDS_MONITOR, .claims = GM_SYMMETRIC | GM_REVERSIBLE                  \
-    }
+#define IN_POINCARES_TIME .family = &gm_family_transformed_time, .needs = GM_NEEDS_ENERGY | GM_NEEDS_MONITOR
 
 static const struct gm_scheme schemes[] = {
-    IN_POINCARES_TIME(midpoint, "2", "midpoint", 2),
-    IN_POINCARES_TIME(gauss4, "", "Gauss 4", 4),
-    IN_POINCARES_TIME(gauss6, "", "Gauss 6", 6),
-    IN_POINCARES_TIME(gauss8, "", "Gauss 8", 8),
+    {GM_TEXTS_poincare_midpoint2, .coefficients = &gm_implicit_midpoint, IN_POINCARES_TIME},
+    {GM_TEXTS_poincare_gauss4, .coefficients = &gm_implicit_gauss4, IN_POINCARES_TIME},
+    {GM_TEXTS_poincare_gauss6, .coefficients = &gm_implicit_gauss6, IN_POINCARES_TIME},
+    {GM_TEXTS_poincare_gauss8, .coefficients = &gm_implicit_gauss8, IN_POINCARES_TIME},
 };
 
 const struct gm_family gm_family_transformed_time = {

@@ -23,6 +23,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum rule { RECTANGLE, RECTANGLE_RESTART, MIDPOINT };
 static const enum rule rectangle = RECTANGLE, rectangle_restart = RECTANGLE_RESTART, midpoint = MIDPOINT;
@@ -214,42 +215,12 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "variational-rectangle",
-        .title = "variational, rectangle rule",
-        .formula = "v_{n−1} − v_n = τ_n V′(q_n),  v_n²/2 + V(q_n) = H₀,  q_{n+1} = q_n + τ_n v_n",
-        .reference = "Razafindralandy et al. (2018), eqs. 58a and 59",
-        .family = &gm_family_variational_time,
-        .coefficients = &rectangle,
-        .order = 1,
-        .needs = GM_NEEDS_LAGRANGIAN,
-        .claims = GM_KEEPS_ENERGY,
-    },
-    {
-        .name = "variational-rectangle-restart",
-        .title = "variational, rectangle rule with restarts",
-        .formula = "v_{n−1} − v_n = τ_n V′(q_n),  v_n²/2 + V(q_n) = H₀,  q_{n+1} = q_n + τ_n v_n;\n"
-                   "where no root has 0.3 < τ/τ₀ < 3: restart with τ₀, turned at a turning point",
-        .reference = "Razafindralandy et al. (2018), eqs. 58a and 59, with restarts",
-        .family = &gm_family_variational_time,
-        .coefficients = &rectangle_restart,
-        .order = 1,
-        .needs = GM_NEEDS_LAGRANGIAN,
-        .claims = GM_KEEPS_ENERGY,
-    },
-    {
-        .name = "variational-midpoint",
-        .title = "variational, midpoint rule",
-        .formula = "v + τ/2 V′(q + τv/2) = p,  q += τv,  p = v − τ/2 V′(q̄),  v²/2 + V(q̄) = E",
-        .reference =
-            "Razafindralandy et al. (2018), eq. 56; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) "
-            "3353",
-        .family = &gm_family_variational_time,
-        .coefficients = &midpoint,
-        .order = 2,
-        .needs = GM_NEEDS_LAGRANGIAN,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
-    },
+    {GM_TEXTS_variational_rectangle, .family = &gm_family_variational_time, .coefficients = &rectangle,
+     .needs = GM_NEEDS_LAGRANGIAN},
+    {GM_TEXTS_variational_rectangle_restart, .family = &gm_family_variational_time,
+     .coefficients = &rectangle_restart, .needs = GM_NEEDS_LAGRANGIAN},
+    {GM_TEXTS_variational_midpoint, .family = &gm_family_variational_time, .coefficients = &midpoint,
+     .needs = GM_NEEDS_LAGRANGIAN},
 };
 
 const struct gm_family gm_family_variational_time = {

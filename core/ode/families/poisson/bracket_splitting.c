@@ -13,6 +13,7 @@
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 static void palindrome(const struct gm_problem *problem, double h, double *y)
 {
@@ -38,38 +39,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-#define SPLITTING(composition)                                                                               \
-    .family = &gm_family_bracket_splitting, .coefficients = &(composition), .needs = GM_NEEDS_PIECES,        \
-    .claims = GM_SYMMETRIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP
+#define SPLITTING .family = &gm_family_bracket_splitting, .needs = GM_NEEDS_PIECES
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "bracket-splitting2",
-        .title = "bracket splitting",
-        .formula = "F(h) = F₁(h/2) … F_s(h) … F₁(h/2),  Fᵢ the exact flow of Hᵢ,  H = H₁ + … + H_s",
-        .reference =
-            "R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; Hairer, Lubich & Wanner (2006), VII.4.2",
-        SPLITTING(gm_composition_none),
-        .order = 2,
-    },
-    {
-        .name = "bracket-splitting4",
-        .title = "bracket splitting, Suzuki 4",
-        .formula = "F(γ₁h) … F(γ₅h),  F that of bracket-splitting2",
-        .reference =
-            "M. Suzuki, Phys. Lett. A 146 (1990) 319; R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043",
-        SPLITTING(gm_composition_suzuki4),
-        .order = 4,
-    },
-    {
-        .name = "bracket-splitting6",
-        .title = "bracket splitting, Kahan-Li 6",
-        .formula = "F(γ₁h) … F(γ₉h),  F that of bracket-splitting2",
-        .reference =
-            "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089; R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043",
-        SPLITTING(gm_composition_kahan_li6),
-        .order = 6,
-    },
+    {GM_TEXTS_bracket_splitting2, .coefficients = &gm_composition_none, SPLITTING},
+    {GM_TEXTS_bracket_splitting4, .coefficients = &gm_composition_suzuki4, SPLITTING},
+    {GM_TEXTS_bracket_splitting6, .coefficients = &gm_composition_kahan_li6, SPLITTING},
 };
 
 const struct gm_family gm_family_bracket_splitting = {

@@ -10,6 +10,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { MOST = 2, NODES = 5 };
 #define ROOT 0.28867513459481288225 /* sqrt(3)/6 */
@@ -112,25 +113,11 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-#define COLLOCATION(row, degree)                                                                             \
-    .family = &gm_family_energy_collocation, .coefficients = &(row),                                         \
-    .formula = "σ′(cᵢ) = h B(σ(cᵢ)) ∫ lᵢ(t)/bᵢ ∇H(σ(t)) dt,  σ of degree " degree ",  y₁ = σ(1)",            \
-    .reference = "D. Cohen & E. Hairer, BIT 51 (2011) 91", .needs = GM_NEEDS_POISSON,                        \
-    .claims = GM_SYMMETRIC | GM_KEEPS_ENERGY
+#define COLLOCATION .family = &gm_family_energy_collocation, .needs = GM_NEEDS_POISSON
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "energy-collocation2",
-        .title = "energy collocation 2",
-        COLLOCATION(one, "1"),
-        .order = 2,
-    },
-    {
-        .name = "energy-collocation4",
-        .title = "energy collocation 4",
-        COLLOCATION(two, "2"),
-        .order = 4,
-    },
+    {GM_TEXTS_energy_collocation2, .coefficients = &one, COLLOCATION},
+    {GM_TEXTS_energy_collocation4, .coefficients = &two, COLLOCATION},
 };
 
 const struct gm_family gm_family_energy_collocation = {

@@ -21,6 +21,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 enum { STAGES = 5, VECTORS = 7 /* vectors of scratch */ };
 
@@ -166,36 +167,12 @@ static const struct crouch_grossman four = {
      {0.3552358559023322, 0.2390958372307326, 1.3918565724203246, -1.1092979392113565}},
     {0.1370831520630755, -0.0183698531564020, 0.7397813985370780, -0.1907142565505889, 0.3322195591068374}};
 
-#define LIE_GROUP(row)                                                                                       \
-    .family = &gm_family_lie_group, .coefficients = &(row), .needs = GM_NEEDS_GROUP,                         \
-    .claims = GM_KEEPS_CASIMIRS
+#define LIE_GROUP .family = &gm_family_lie_group, .needs = GM_NEEDS_GROUP
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "rkmk4",
-        .title = "Munthe-Kaas 4",
-        .formula = "k₁ = F(y₀),  k₂ = F(exp(k₁/2)y₀),  k₃ = F(exp(k₂/2 − [k₁,k₂]/8)y₀),  k₄ = F(exp(k₃)y₀),\n"
-                   "y₁ = exp((k₁ + 2k₂ + 2k₃ + k₄ − [k₁,k₄]/2)/6) y₀,  F(y) = hω(y), of a top h(ω, u)(y, z)",
-        .reference = "H. Munthe-Kaas & B. Owren, Phil. Trans. R. Soc. A 357 (1999) 957",
-        LIE_GROUP(none),
-        .order = 4,
-    },
-    {
-        .name = "crouch-grossman3",
-        .title = "Crouch-Grossman 3",
-        .formula = "kᵢ = F(exp(aᵢ,ᵢ₋₁kᵢ₋₁) … exp(aᵢ₁k₁)y₀),  y₁ = exp(b₃k₃) exp(b₂k₂) exp(b₁k₁) y₀",
-        .reference = "P.E. Crouch & R. Grossman, J. Nonlinear Sci. 3 (1993) 1",
-        LIE_GROUP(three),
-        .order = 3,
-    },
-    {
-        .name = "crouch-grossman4",
-        .title = "Crouch-Grossman 4",
-        .formula = "kᵢ = F(exp(aᵢ,ᵢ₋₁kᵢ₋₁) … exp(aᵢ₁k₁)y₀),  y₁ = exp(b₅k₅) … exp(b₁k₁) y₀",
-        .reference = "B. Owren & A. Marthinsen, BIT 39 (1999) 116",
-        LIE_GROUP(four),
-        .order = 4,
-    },
+    {GM_TEXTS_rkmk4, .coefficients = &none, LIE_GROUP},
+    {GM_TEXTS_crouch_grossman3, .coefficients = &three, LIE_GROUP},
+    {GM_TEXTS_crouch_grossman4, .coefficients = &four, LIE_GROUP},
 };
 
 const struct gm_family gm_family_lie_group = {

@@ -15,6 +15,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 struct rotation {
     const double *inertia;
@@ -67,18 +68,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "discrete-moser-veselov2",
-        .title = "discrete Moser-Veselov",
-        .formula = "½sh(1 + |c|²) y₀ = I c + c × I c,  y₁ = y₀ − 4/(sh) c × I c/(1 + |c|²)",
-        .reference =
-            "J. Moser & A.P. Veselov, Commun. Math. Phys. 139 (1991) 217; R.I. McLachlan & A. Zanna, "
-            "Found. Comput. Math. 5 (2005) 87",
-        .family = &gm_family_moser_veselov,
-        .order = 2,
-        .needs = GM_NEEDS_FREE_BODY,
-        .claims = GM_SYMMETRIC | GM_KEEPS_ENERGY | GM_KEEPS_QUADRATIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP,
-    },
+    {GM_TEXTS_discrete_moser_veselov2, .family = &gm_family_moser_veselov, .needs = GM_NEEDS_FREE_BODY},
 };
 
 const struct gm_family gm_family_moser_veselov = {

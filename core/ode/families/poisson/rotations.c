@@ -22,6 +22,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 typedef enum gm_status one_step(const struct gm_problem *problem, double h, struct gm_members *members,
                                 struct gm_progress *progress);
@@ -134,31 +135,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 static one_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "rotations2",
-        .title = "rotations about the axes",
-        .formula =
-            "exp(½h ω₁e₁) exp(½h ω₂e₂) exp(h ω₃e₃) exp(½h ω₂e₂) exp(½h ω₁e₁) y₀,  ωᵢ = −s ∂H/∂yᵢ(yᵢ);\n"
-            "of a top, y and z turn so, between two halves y ← y + ½h s z × ∇V(z)",
-        .reference = "R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; S. Reich, Physica D 76 (1994) 375",
-        .family = &gm_family_rotations,
-        .coefficients = &by_axes,
-        .order = 2,
-        .needs = GM_NEEDS_AXES,
-        .claims = GM_SYMMETRIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP,
-    },
-    {
-        .name = "spherical-midpoint2",
-        .title = "spherical midpoint",
-        .formula = "y₁ = y₀ + h ω(z) × z,  z = |y₀| (y₀ + y₁)/|y₀ + y₁|",
-        .reference =
-            "R.I. McLachlan, K. Modin & O. Verdier, Phys. Rev. E 89 (2014) 061301; Math. Comp. 86 (2017) 2325",
-        .family = &gm_family_rotations,
-        .coefficients = &on_spheres,
-        .order = 2,
-        .needs = GM_NEEDS_ROTATIONS,
-        .claims = GM_SYMMETRIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP,
-    },
+    {GM_TEXTS_rotations2, .family = &gm_family_rotations, .coefficients = &by_axes, .needs = GM_NEEDS_AXES},
+    {GM_TEXTS_spherical_midpoint2, .family = &gm_family_rotations, .coefficients = &on_spheres,
+     .needs = GM_NEEDS_ROTATIONS},
 };
 
 const struct gm_family gm_family_rotations = {

@@ -13,6 +13,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/stage_solver.h"
+#include "core/ode_scheme_texts.h"
 #include "core/theory/coefficients.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
@@ -68,48 +69,10 @@ static const struct gm_partitioned_row lobatto4 = {
 #define INSEPARABLE PARTITIONED, .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_INSEPARABLE
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "symplectic-euler",
-        .title = "symplectic Euler",
-        .formula = "p₁ = p₀ − h ∂H/∂q(q₀, p₁),  q₁ = q₀ + h ∂H/∂p(q₀, p₁)",
-        .reference = "R. de Vogelaere (1956); Razafindralandy et al. (2018), eq. 24",
-        .coefficients = &symplectic_euler,
-        .order = 1,
-        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
-        INSEPARABLE,
-    },
-    {
-        .name = "symplectic-euler-adjoint",
-        .title = "symplectic Euler (adjoint)",
-        .formula = "q₁ = q₀ + h ∂H/∂p(q₁, p₀),  p₁ = p₀ − h ∂H/∂q(q₁, p₀)",
-        .reference = "Hairer, Lubich & Wanner (2006), VI.3",
-        .coefficients = &symplectic_euler_adjoint,
-        .order = 1,
-        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
-        INSEPARABLE,
-    },
-    {
-        .name = "lobatto2",
-        .title = "Lobatto IIIA-IIIB 2",
-        .formula = "p½ = p₀ − h/2 ∂H/∂q(q₀, p½),  q₁ = q₀ + h/2 [∂H/∂p(q₀, p½) + ∂H/∂p(q₁, p½)],\n"
-                   "p₁ = p½ − h/2 ∂H/∂q(q₁, p½)",
-        .reference = "G. Sun, J. Comput. Math. 11 (1993) 365; Hairer, Lubich & Wanner (2006), VI.3.4",
-        .coefficients = &lobatto2,
-        .order = 2,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
-        INSEPARABLE,
-    },
-    {
-        .name = "lobatto4",
-        .title = "Lobatto IIIA-IIIB 4",
-        .formula = "Qᵢ = q₀ + h Σⱼ aᵢⱼ ∂H/∂p(Qⱼ, Pⱼ),  Pᵢ = p₀ − h Σⱼ âᵢⱼ ∂H/∂q(Qⱼ, Pⱼ),  nodes 0, 1/2, 1",
-        .reference = "G. Sun, J. Comput. Math. 11 (1993) 365; Hairer, Lubich & Wanner (2006), VI.4",
-        .coefficients = &lobatto4,
-        .order = 4,
-        .needs = GM_NEEDS_HAMILTONIAN,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
-        PARTITIONED,
-    },
+    {GM_TEXTS_symplectic_euler, .coefficients = &symplectic_euler, INSEPARABLE},
+    {GM_TEXTS_symplectic_euler_adjoint, .coefficients = &symplectic_euler_adjoint, INSEPARABLE},
+    {GM_TEXTS_lobatto2, .coefficients = &lobatto2, INSEPARABLE},
+    {GM_TEXTS_lobatto4, .coefficients = &lobatto4, .needs = GM_NEEDS_HAMILTONIAN, PARTITIONED},
 };
 
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)

@@ -23,6 +23,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 /* One copy moves by f = (H_p, -H_q) taken at (q of one, p of the other): q of the second, p of the first. */
 static void shear(const struct gm_problem *problem, double h, double *first, double *second, double *scratch)
@@ -78,32 +79,11 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-#define TAO                                                                                                  \
-    .family = &gm_family_extended_phase_space, .needs = GM_NEEDS_HAMILTONIAN,                                \
-    .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE
+#define TAO .family = &gm_family_extended_phase_space, .needs = GM_NEEDS_HAMILTONIAN
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "tao2",
-        .title = "Tao 2",
-        .formula =
-            "A(h/2) B(h/2) C(h) B(h/2) A(h/2) on (q, p; x, y):\n"
-            "H(q, y) + H(x, p) + ω (|q − x|² + |p − y|²)/2;  stiff springs of frequency Ω allow ω ≤ 1/(hΩ)²",
-        .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
-        .coefficients = &gm_composition_none,
-        .order = 2,
-        TAO,
-    },
-    {
-        .name = "tao4",
-        .title = "Tao 4",
-        .formula = "three steps of Tao 2 of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2);\n"
-                   "stiff springs of frequency Ω allow ω ≤ 1/2(hΩ)²",
-        .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
-        .coefficients = &gm_composition_yoshida4,
-        .order = 4,
-        TAO,
-    },
+    {GM_TEXTS_tao2, .coefficients = &gm_composition_none, TAO},
+    {GM_TEXTS_tao4, .coefficients = &gm_composition_yoshida4, TAO},
 };
 
 const struct gm_family gm_family_extended_phase_space = {

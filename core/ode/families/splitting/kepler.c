@@ -19,6 +19,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
 
 /* s^k c_k(alpha s^2), k = 0..3, c_k(z) = 1/k! - z/(k + 2)! + z^2/(k + 4)! - ... (K. Stumpff) */
 static void stumpff(double alpha, double s, double G[4])
@@ -127,16 +128,7 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "wisdom-holman2",
-        .title = "Wisdom-Holman",
-        .formula = "p += h/2 F_W(q);  (q, p) := exact Kepler flow over h;  p += h/2 F_W(q)",
-        .reference = "J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528",
-        .family = &gm_family_kepler,
-        .order = 2,
-        .needs = GM_NEEDS_KEPLER_SPLIT,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR,
-    },
+    {GM_TEXTS_wisdom_holman2, .family = &gm_family_kepler, .needs = GM_NEEDS_KEPLER_SPLIT},
 };
 
 const struct gm_family gm_family_kepler = {

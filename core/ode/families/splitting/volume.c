@@ -7,6 +7,7 @@
 
 #include "core/basics.h"
 #include "core/ode/families/families.h"
+#include "core/ode_scheme_texts.h"
 
 enum form { SIMPLE, PALINDROME };
 static const enum form simple = SIMPLE, palindrome = PALINDROME;
@@ -55,28 +56,10 @@ static struct gm_progress loop(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "volume-splitting1",
-        .title = "volume splitting 1",
-        .formula = "y₁ = F_s(h) … F₂(h) F₁(h) y₀,  f = f₁ + … + f_s,  div fᵢ = 0",
-        .reference = "K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451",
-        .family = &gm_family_volume,
-        .coefficients = &simple,
-        .order = 1,
-        .needs = GM_NEEDS_VOLUME,
-        .claims = GM_KEEPS_VOLUME,
-    },
-    {
-        .name = "volume-splitting2",
-        .title = "volume splitting 2",
-        .formula = "y₁ = F₁(h/2) … F_s(h) … F₁(h/2) y₀,  f = f₁ + … + f_s,  div fᵢ = 0",
-        .reference = "K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; G. Strang (1968)",
-        .family = &gm_family_volume,
-        .coefficients = &palindrome,
-        .order = 2,
-        .needs = GM_NEEDS_VOLUME,
-        .claims = GM_KEEPS_VOLUME | GM_SYMMETRIC,
-    },
+    {GM_TEXTS_volume_splitting1, .family = &gm_family_volume, .coefficients = &simple,
+     .needs = GM_NEEDS_VOLUME},
+    {GM_TEXTS_volume_splitting2, .family = &gm_family_volume, .coefficients = &palindrome,
+     .needs = GM_NEEDS_VOLUME},
 };
 
 const struct gm_family gm_family_volume = {

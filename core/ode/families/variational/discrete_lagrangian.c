@@ -31,6 +31,7 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
+#include "core/ode_scheme_texts.h"
 
 /* The scratch: the basis at the points, unknowns, and their equations. */
 struct step {
@@ -383,136 +384,23 @@ static const struct gm_variational_row galerkin6 = {
 };
 
 #define VARIATIONAL .family = &gm_family_discrete_lagrangian
-#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION, .claims = GM_VARIATIONAL_CLAIMS
-#define CONSTRAINED                                                                                          \
-    VARIATIONAL, .needs = GM_NEEDS_CONSTRAINTS,                                                              \
-                 .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_MOMENTUM_MAPS |           \
-                           GM_KEEPS_CONSTRAINTS | GM_KEEPS_HIDDEN
-#define DAMPED                                                                                               \
-    VARIATIONAL, .needs = GM_NEEDS_ACTION | GM_NEEDS_FRICTION, .claims = GM_SYMMETRIC | GM_CONFORMAL
-#define MARSDEN_WEST "J.E. Marsden & M. West, Acta Numerica 10 (2001) 357"
-#define OBER_BLOBAUM "S. Ober-Blöbaum & N. Saake, Adv. Comput. Math. 41 (2015) 955"
+#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION
+#define CONSTRAINED VARIATIONAL, .needs = GM_NEEDS_CONSTRAINTS
+#define DAMPED VARIATIONAL, .needs = GM_NEEDS_ACTION | GM_NEEDS_FRICTION
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "variational-midpoint2",
-        .title = "variational midpoint",
-        .formula = "L_d = h L(t + h/2, (q₀ + q₁)/2, (q₁ − q₀)/h),  p₀ = −∂L_d/∂q₀,  p₁ = ∂L_d/∂q₁",
-        .reference = MARSDEN_WEST ", 2.6.1; Razafindralandy et al. (2018), eq. 56",
-        .coefficients = &midpoint,
-        .order = 2,
-        OF_ACTION,
-    },
-    {
-        .name = "variational-trapezoidal2",
-        .title = "variational trapezoidal",
-        .formula = "L_d = h/2 [L(t, q₀, v) + L(t + h, q₁, v)],  v = (q₁ − q₀)/h,  p₀ = −∂L_d/∂q₀,  "
-                   "p₁ = ∂L_d/∂q₁",
-        .reference = MARSDEN_WEST ", 2.6.2",
-        .coefficients = &trapezoidal,
-        .order = 2,
-        OF_ACTION,
-    },
-    {
-        .name = "variational-simpson4",
-        .title = "variational Simpson",
-        .formula = "L_d = h/6 [L(0) + 4 L(1/2) + L(1)],  q(c) of degree 2 through q₀, Q, q₁,  ∂L_d/∂Q = 0",
-        .reference = MARSDEN_WEST ", 2.6.5",
-        .coefficients = &simpson,
-        .order = 4,
-        OF_ACTION,
-    },
-    {
-        .name = "variational-galerkin2",
-        .title = "variational Galerkin 2",
-        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 1, 2 points of Gauss",
-        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
-        .coefficients = &galerkin2,
-        .order = 2,
-        OF_ACTION,
-    },
-    {
-        .name = "variational-galerkin4",
-        .title = "variational Galerkin 4",
-        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 2, 3 points of Gauss,  "
-                   "∂L_d/∂Q = 0",
-        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
-        .coefficients = &galerkin4,
-        .order = 4,
-        OF_ACTION,
-    },
-    {
-        .name = "variational-galerkin6",
-        .title = "variational Galerkin 6",
-        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 3, 4 points of Gauss,  "
-                   "∂L_d/∂Qⱼ = 0",
-        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
-        .coefficients = &galerkin6,
-        .order = 6,
-        OF_ACTION,
-    },
-    {
-        .name = "conformal-midpoint2",
-        .title = "conformal midpoint",
-        .formula = "p ← exp(−ch/2) p,  variational midpoint without friction,  p ← exp(−ch/2) p",
-        .reference = "R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276",
-        .coefficients = &damped_midpoint,
-        .order = 2,
-        DAMPED,
-    },
-    {
-        .name = "conformal-trapezoidal2",
-        .title = "conformal trapezoidal",
-        .formula = "p ← exp(−ch/2) p,  variational trapezoidal without friction,  p ← exp(−ch/2) p",
-        .reference = "R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276",
-        .coefficients = &damped_trapezoidal,
-        .order = 2,
-        DAMPED,
-    },
-    {
-        .name = "rattle2",
-        .title = "RATTLE",
-        .formula = "variational trapezoidal with G(q₀)ᵀμ₀ beside p₀,  g(q₁) = 0;  p₁ with G(q₁)ᵀμ₁,  "
-                   "G(q₁) v₁ = 0",
-        .reference = "H.C. Andersen, J. Comput. Phys. 52 (1983) 24; B. Leimkuhler & R.D. Skeel, J. Comput. "
-                     "Phys. 112 (1994) 117",
-        .coefficients = &trapezoidal,
-        .order = 2,
-        CONSTRAINED,
-    },
-    {
-        .name = "shake2",
-        .title = "SHAKE",
-        .formula = "the positions of RATTLE;  p₁ with the multiplier of the step's begin, G(q₁) v₁ ≠ 0",
-        .reference =
-            "J.-P. Ryckaert, G. Ciccotti & H.J.C. Berendsen, J. Comput. Phys. 23 (1977) 327; E. Hairer, "
-            "C. Lubich & G. Wanner (2006), VII.1.4",
-        .coefficients = &shake,
-        .order = 2,
-        .needs = GM_NEEDS_CONSTRAINTS,
-        .claims = GM_SYMPLECTIC | GM_KEEPS_MOMENTUM_MAPS | GM_KEEPS_CONSTRAINTS,
-        VARIATIONAL,
-    },
-    {
-        .name = "constrained-lobatto4",
-        .title = "constrained Lobatto IIIA-IIIB 4",
-        .formula = "variational Simpson with G(Qⱼ)ᵀμⱼ and g(Qⱼ) = 0 at its points;  p₁ with G(q₁)ᵀμ, "
-                   "G(q₁) v₁ = 0",
-        .reference = "L. Jay, SIAM J. Numer. Anal. 33 (1996) 368",
-        .coefficients = &simpson,
-        .order = 4,
-        CONSTRAINED,
-    },
-    {
-        .name = "constrained-lobatto6",
-        .title = "constrained Lobatto IIIA-IIIB 6",
-        .formula = "degree 3 at the 4 points of Lobatto with G(Qⱼ)ᵀμⱼ and g(Qⱼ) = 0;  p₁ with G(q₁)ᵀμ, "
-                   "G(q₁) v₁ = 0",
-        .reference = "L. Jay, SIAM J. Numer. Anal. 33 (1996) 368",
-        .coefficients = &lobatto6,
-        .order = 6,
-        CONSTRAINED,
-    },
+    {GM_TEXTS_variational_midpoint2, .coefficients = &midpoint, OF_ACTION},
+    {GM_TEXTS_variational_trapezoidal2, .coefficients = &trapezoidal, OF_ACTION},
+    {GM_TEXTS_variational_simpson4, .coefficients = &simpson, OF_ACTION},
+    {GM_TEXTS_variational_galerkin2, .coefficients = &galerkin2, OF_ACTION},
+    {GM_TEXTS_variational_galerkin4, .coefficients = &galerkin4, OF_ACTION},
+    {GM_TEXTS_variational_galerkin6, .coefficients = &galerkin6, OF_ACTION},
+    {GM_TEXTS_conformal_midpoint2, .coefficients = &damped_midpoint, DAMPED},
+    {GM_TEXTS_conformal_trapezoidal2, .coefficients = &damped_trapezoidal, DAMPED},
+    {GM_TEXTS_rattle2, .coefficients = &trapezoidal, CONSTRAINED},
+    {GM_TEXTS_shake2, .coefficients = &shake, CONSTRAINED},
+    {GM_TEXTS_constrained_lobatto4, .coefficients = &simpson, CONSTRAINED},
+    {GM_TEXTS_constrained_lobatto6, .coefficients = &lobatto6, CONSTRAINED},
 };
 
 const struct gm_family gm_family_discrete_lagrangian = {

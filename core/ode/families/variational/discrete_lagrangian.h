@@ -19,11 +19,6 @@ struct gm_variational_row {
     void (*tables)(const struct gm_settings *settings, double *values, double *slopes);
 };
 
-/* The claims of every discrete Lagrangian that is its own mirror image. */
-#define GM_VARIATIONAL_CLAIMS                                                                                \
-    (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                    \
-     GM_KEEPS_MOMENTUM_MAPS)
-
 /* The step of such rows, and its workspace, which free closes. */
 extern const struct gm_member_family gm_variational_members;
 void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);

@@ -16,6 +16,7 @@
 #include "core/basics.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
+#include "core/ode_scheme_texts.h"
 
 /* Writes the tables over x_0, d_0, d_1, x_1 at two points of each end. */
 static void tables(const struct gm_settings *settings, double *values, double *slopes)
@@ -34,18 +35,8 @@ static const struct gm_variational_row newmark = {
     .degree = 3, .points = 4, .b = {1, -0.5, 1, -0.5}, .c = {0, 0, 1, 1}, .tables = tables};
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "variational-newmark2",
-        .title = "variational Newmark",
-        .formula = "x₁ = x₀ + hv₀ + ½h² a(Q₀),  v₁ = v₀ + ½h [a(Q₀) + a(Q₁)],  Q = x + βh² a(Q): Newmark's "
-                   "method in Q, γ = ½",
-        .reference = "C. Kane, J.E. Marsden, M. Ortiz & M. West, Int. J. Numer. Meth. Engng 49 (2000) 1295",
-        .family = &gm_family_newmark,
-        .coefficients = &newmark,
-        .order = 2,
-        .needs = GM_NEEDS_ACTION,
-        .claims = GM_VARIATIONAL_CLAIMS,
-    },
+    {GM_TEXTS_variational_newmark2, .family = &gm_family_newmark, .coefficients = &newmark,
+     .needs = GM_NEEDS_ACTION},
 };
 
 const struct gm_family gm_family_newmark = {

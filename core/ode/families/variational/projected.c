@@ -10,6 +10,7 @@
 #include "core/basics.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
+#include "core/ode_scheme_texts.h"
 #include "core/schemes.h"
 
 /* The coefficients are the name of the scheme whose step it is. */
@@ -24,32 +25,12 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return gm_composition_open(problem, step, step);
 }
 
-#define PROJECTED(base)                                                                                      \
-    .family = &gm_family_projected, .coefficients = base,                                                    \
-    .formula = "(q, p) = Φ_h(y₀), Φ is " base ";  q₁ = q + M⁻¹Gᵀμ,  g(q₁) = 0;  p₁ = p + Gᵀν,  G v₁ = 0",    \
-    .reference = "Hairer, Lubich & Wanner (2006), IV.4; E. Hairer & G. Wanner, Solving Ordinary "            \
-                 "Differential Equations II (1996), VII.2",                                                  \
-    .needs = GM_NEEDS_CONSTRAINTS, .claims = GM_KEEPS_CONSTRAINTS | GM_KEEPS_HIDDEN
+#define PROJECTED .family = &gm_family_projected, .needs = GM_NEEDS_CONSTRAINTS
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "projected-gauss4",
-        .title = "projected Gauss 4",
-        PROJECTED("gauss4"),
-        .order = 4,
-    },
-    {
-        .name = "projected-gauss6",
-        .title = "projected Gauss 6",
-        PROJECTED("gauss6"),
-        .order = 6,
-    },
-    {
-        .name = "projected-rk4",
-        .title = "projected RK4",
-        PROJECTED("rk4"),
-        .order = 4,
-    },
+    {GM_TEXTS_projected_gauss4, .coefficients = "gauss4", PROJECTED},
+    {GM_TEXTS_projected_gauss6, .coefficients = "gauss6", PROJECTED},
+    {GM_TEXTS_projected_rk4, .coefficients = "rk4", PROJECTED},
 };
 
 const struct gm_family gm_family_projected = {
