@@ -284,6 +284,20 @@ cmp -s first.svg second.svg || fail 'again makes another picture'
 "$geomint" run double-sine-gordon half_length=1 2>err
 [ $? = 1 ] && grep -q 'ring' err || fail "double-sine-gordon on a short ring: $(cat err)"
 
+# a step that is tied to a parameter follows it, or sets it; the laws of a variable mesh belong to waves without a potential
+for words in dt=0.05 courant=0.572957795130823; do
+    "$geomint" run wave $words steps=1 --json >out 2>err || fail "wave $words: $(cat err)"
+    python3 -c 'import json, math
+given = json.loads(open("out").readline())["parameters"]
+assert abs(given["dt"] - 0.05) < 1e-15 and abs(given["courant"] - 0.05 * 72 / (2 * math.pi)) < 1e-14, given' ||
+        fail "wave $words: $(cat out)"
+done
+refused 1 'dt= and courant= are both given; one of them follows from the other' run wave dt=0.1 courant=0.5
+printf 'field: u\nV: u^2/2\nparameter: c = 0.5\nstart: u = 0, u_t = 0\ntie: dt = 2*c\n' >tied.system
+refused 1 'tie: is the step as a multiple of a parameter, as in dt = courant\*dx' run ./tied.system
+printf 'field: u\nV: u^2/2\nstart: u = 0, u_t = 0\nhook: mesh-laws\n' >hooked.system
+refused 1 'the hook "mesh-laws" is for waves without a potential, V: 0' run ./hooked.system
+
 # on a moving mesh: the scheme says so, and a picture of it is made again
 "$geomint" run phi4 scheme=multiplier-lobatto4 points=31 until=2 --measure energy_error,smallest_cell --json >out 2>err ||
     fail "phi4 on a moving mesh: $(cat err)"

@@ -6,14 +6,14 @@
 #include "core/basics.h"
 
 #define GM_HOOK(name) extern const struct gm_hook gm_hook_##name;
-#include "scenes/hooks.def"
+#include "scenes/common/system/hooks.def"
 #undef GM_HOOK
 
 bool gm_system_find_hook(struct gm_system_scene *system_scene, char *sentence)
 {
     static const struct gm_hook *const hooks[] = {
 #define GM_HOOK(name) &gm_hook_##name,
-#include "scenes/hooks.def"
+#include "scenes/common/system/hooks.def"
 #undef GM_HOOK
     };
     const char *name = system_scene->system.texts[GM_WORD_HOOK];
