@@ -3,7 +3,11 @@
 """The style guide, docs/language.md, as numbers: language.py SOURCE [--show NUMBER]
 
 Counts the words of tests/reference/words.tsv in documents, string literals, comments and files of share, and measures
-sentences, paragraphs and table cells of the documents, as that page describes. --show prints the places of an entry."""
+sentences, paragraphs and table cells of the documents. --show prints the places of an entry.
+
+Fenced and indented blocks, headings and images are no prose. A list item is a paragraph. Inline code is one word; a link
+is its text. A sentence ends at `.`, `!` or `?` before a capital, a digit or code. Adjacent string literals of C are one
+string, and strings of one word are skipped. The guide quotes what it forbids, so only its lengths are measured."""
 import glob
 import io
 import os
