@@ -8,13 +8,13 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share: explorer.c has start, loop, screen and end; actions.c the keys; input.c the
-   list and the mouse; open.c scenes and typed lines; script.c the explorer without a terminal. */
-
-/* The open scene, or a tour's step with its study, and its worker. */
+/* The state that the explorer's files share. explorer.c has start, loop and end. compose.c makes the screen, actions.c
+   handles keys, list.c the list of scenes, pointer.c the mouse, open.c scenes and typed lines. script.c is the explorer
+   without a terminal. */
 
 enum { GM_NAME = 256 };
 
+/* The open scene, or a tour's step with its study, and its worker. */
 struct gm_open {
     int wake;                   /* eventfd, written when a shot is finished */
     struct gm_display *display; /* the display, which may be painting a picture of the worker's */
@@ -154,6 +154,8 @@ void gm_explorer_close_typed(struct gm_explorer *explorer);
 void gm_explorer_key(struct gm_explorer *explorer, int key);
 /* Handles a key of the list. */
 void gm_explorer_press_list(struct gm_explorer *explorer, int key);
+/* Chooses an entry of the list; the second click on it opens it. */
+void gm_explorer_click_entry(struct gm_explorer *explorer, size_t entry);
 /* Leaves, or asks first if something would be lost. */
 void gm_explorer_quit(struct gm_explorer *explorer);
 /* Gives a scheme of the list to the selected lane, or to a copy of it; or asks for a typed one. */
