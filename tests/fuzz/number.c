@@ -40,12 +40,13 @@ static void read_options(enum gm_command command, int count, char *words[])
     if (gm_options_parse(&options, command, count, words, 0, message)) {
         require(options.look.width >= 64 && options.look.width <= 16384 && options.look.height >= 64 &&
                 options.look.height <= 16384);
-        require(options.every >= 0 && options.every <= 1000000000 && options.frames >= 0 &&
-                options.frames <= 1000000000);
-        require(options.shard <= options.shards && options.shards < 1000000);
-        require(is_number(options.fps, 0.01, 1000) && is_number(options.rate, 0, HUGE_VAL) &&
-                !isinf(options.rate) && !isinf(options.at) && !isinf(options.from));
-        require(isnan(options.at) || (options.frames == 0 && options.every == 0 && !options.movie));
+        const struct gm_pace *pace = &options.pace;
+        require(pace->every >= 0 && pace->every <= 1000000000 && pace->frames >= 0 &&
+                pace->frames <= 1000000000);
+        require(pace->shard <= pace->shards && pace->shards < 1000000);
+        require(is_number(pace->fps, 0.01, 1000) && is_number(pace->rate, 0, HUGE_VAL) &&
+                !isinf(pace->rate) && !isinf(pace->at) && !isinf(pace->from));
+        require(isnan(pace->at) || (pace->frames == 0 && pace->every == 0 && !pace->movie));
     } else {
         require(message[0] != '\0' && strlen(message) < GM_MESSAGE);
     }
