@@ -50,11 +50,8 @@ static int draw_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
 {
     char hints[64];
     const bool on = !guide->answered || guide->step + 1 < guide->tour->count;
-    snprintf(hints, sizeof hints, "%s%sa:again",
-             !on               ? ""
-             : guide->answered ? "n:next|"
-                               : "n:answer|",
-             guide->step > 0 ? "N:back|" : "");
+    const char *forward = guide->answered ? "n:next|" : "n:answer|";
+    snprintf(hints, sizeof hints, "%s%sa:again", on ? forward : "", guide->step > 0 ? "N:back|" : "");
     const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
     for (int i = gm_sheet_hints(&nothing, 1, hints) - 2; i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);

@@ -20,6 +20,13 @@ static int rows_below(const struct gm_sheet *whole)
     return whole->height >= GM_SCREEN_ROWS_OF_KEYS ? 3 : gm_screen_rows_below(whole->cells);
 }
 
+/* Returns the column where hints begin after a text: `from`, but at most `most`, which is raised to `least`. */
+static int hint_column(int from, int most, int least)
+{
+    const int last = most > least ? most : least;
+    return from < last ? from : last;
+}
+
 /* Writes the hints of the table of keys, by rank. */
 static void key_hints(const struct gm_shot *shot, char *hints, size_t size)
 {
@@ -178,7 +185,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
     }
     /* the first hint has priority over the text */
     int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - FIRST_HINT;
-    int begin = gm_sheet_hints(&last, apart ? 1 : from < most ? from : most > column ? most : column, hints);
+    int begin = gm_sheet_hints(&last, apart ? 1 : hint_column(from, most, column), hints);
     if (apart) {
         gm_sheet_cut(&sheet, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
     } else if (begin > column) {
@@ -243,12 +250,8 @@ static void draw_study(const struct gm_sheet *whole, int rows)
     if (below > 0) {
         gm_studies_status(studies, text, sizeof text);
         const int from = 1 + gm_sheet_width(&last, text) + 3, most = last.width - 10;
-        last.width = gm_sheet_hints(&last,
-                                    from < most ? from
-                                    : most > 1  ? most
-                                                : 1,
-                                    "esc:back|x:stop|p:save|b:blocks|q:quit") -
-                     2;
+        last.width =
+            gm_sheet_hints(&last, hint_column(from, most, 1), "esc:back|x:stop|p:save|b:blocks|q:quit") - 2;
         if (1 + gm_sheet_width(&last, text) > last.width && below == 2) {
             gm_screen_say_above(whole, text);
         } else {
