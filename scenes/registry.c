@@ -58,7 +58,9 @@ static const struct gm_scene *open_system(const char *name)
         gm_system_close(&system);
         return NULL;
     }
-    return gm_system_is_field(&system) ? gm_user_field_open(&system, name, NULL, false, &fault, sentence)
+    size_t others;
+    const bool elsewhere = gm_user_field_elsewhere(system.kind, system.texts[GM_WORD_SCHEMES], &others) > 0;
+    return gm_system_is_field(&system) ? gm_user_field_open(&system, name, NULL, elsewhere, &fault, sentence)
                                        : gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
 }
 

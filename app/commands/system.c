@@ -23,6 +23,7 @@
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
 #include "core/model/facts.h"
+#include "core/model/recognition.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
@@ -47,6 +48,7 @@ struct report {
     struct gm_user_system system;
     struct gm_user_model model;
     struct gm_user_evolution evolution;
+    struct gm_recognised recognised;
     struct gm_user_form form;
     struct gm_user_wave wave;
     struct gm_problem problem; /* set up with the file's values; not opened if no scheme can advance it */
@@ -323,6 +325,21 @@ static const char *linear_fact(const struct report *report, size_t i)
                                   : gm_arena_print(report->arena, "in the rate of %s: %s", name, line);
 }
 
+/* "Korteweg-de Vries, eta = 6, mu = 1" */
+static const char *equation_fact(const struct report *report)
+{
+    const struct gm_recognised *of = &report->recognised;
+    const struct gm_naming naming = gm_system_naming(&report->system);
+    const char *text = of->name;
+    for (size_t i = 0; i < GM_EQUATION_CONSTANTS && of->constants[i]; i++) {
+        char *value = gm_formula_text(&report->system.graph, of->values[i], &naming);
+        text = gm_arena_print(report->arena, "%s, %s = %.80s", text, of->constants[i],
+                              value ? (const char *)gm_arena_keep(report->arena, value, free)
+                                    : "a long formula");
+    }
+    return text;
+}
+
 /* Calls `put` for every fact of the structure; `of` is the component that it is about, or "". */
 static void each_fact(const struct report *report,
                       void (*put)(struct gm_row *row, const char *word, const char *of, bool holds,
@@ -335,6 +352,9 @@ static void each_fact(const struct report *report,
     }
     if (system->kind == GM_MATRICES) {
         put(row, "multisymplectic", "", true, form_fact);
+    }
+    if (report->recognised.name) {
+        put(row, "equation", "", true, equation_fact(report));
     }
     for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
         put(row, field_facts[i][0], "", true, field_facts[i][1]);
@@ -609,6 +629,7 @@ static bool open_field(struct report *report, const double *start)
                gm_user_wave_open(&report->problem, &report->wave, start, &any);
     }
     const bool opened =
+        gm_equation_recognise(&report->system, &report->recognised) &&
         gm_user_evolution_derive(evolution, &report->system) &&
         gm_user_evolution_open(&report->problem, evolution, start, &any, GM_SPACE_DIFFERENCES);
     const bool smooth = evolution->kink == GM_NO_NODE;
@@ -631,6 +652,11 @@ static bool open_equations(struct report *report, const double *start)
 static void tidy_all(struct report *report)
 {
     struct gm_user_system *system = &report->system;
+    for (size_t i = 0; report->recognised.name && i < GM_EQUATION_CONSTANTS; i++) {
+        if (report->recognised.constants[i]) {
+            tidy(report, &report->recognised.values[i]);
+        }
+    }
     for (size_t i = 0; i < system->n; i++) {
         tidy(report, &system->rates[i]);
         if (system->kind == GM_LAGRANGIAN && i < system->n / 2) {

@@ -155,7 +155,7 @@ struct making {
     struct gm_user_system first, system; /* the system as read, and with the values on which it is built */
     struct gm_system_value *values;
     size_t value_count;
-    bool moves;     /* a field, with schemes that move its mesh */
+    bool elsewhere; /* a field, with schemes that move its mesh or are for its equation alone */
     double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
@@ -199,9 +199,9 @@ static bool choose_words(struct making *making)
     return good;
 }
 
-/* Returns true if a scheme of moving meshes is given or, without a scheme, is the file's. Returns false
+/* Finds the kind of a field's grid by the schemes that are given or, without one, are the file's. Returns false
    with a sentence if a field would be on both kinds of grids. */
-static bool choose_mesh(struct making *making)
+static bool choose_grid(struct making *making)
 {
     const char *schemes = making->first.texts[GM_WORD_SCHEMES];
     for (int i = 1; i < making->written.count; i++) {
@@ -209,11 +209,12 @@ static bool choose_mesh(struct making *making)
         schemes = typed ? typed : schemes;
     }
     size_t others;
-    making->moves = making->first.kind == GM_FIELD && gm_user_field_moving(schemes, &others) > 0;
-    return !making->moves || others == 0 ||
+    making->elsewhere = gm_user_field_elsewhere(making->first.kind, schemes, &others) > 0;
+    return !making->elsewhere || others == 0 ||
            gm_refuse(making->message,
-                     "some of these schemes move their mesh, and others do not know how: a picture has one "
-                     "kind of them");
+                     "some of these schemes %s, and others do not know how: a picture has one "
+                     "kind of them",
+                     making->first.kind == GM_FIELD ? "move their mesh" : "are for this equation alone");
 }
 
 /* The offset of the line that a sentence "word: fault" is about: a line with the next word of the
@@ -264,10 +265,10 @@ static bool open_system(struct making *making)
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system);
     made->close = field ? gm_user_field_close : gm_system_scene_close;
-    made->scene =
-        field ? gm_user_field_open(&making->system, made->name, words, making->moves, &fault, making->message)
-              : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
-                                     making->message);
+    made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
+                                             making->message)
+                        : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
+                                               making->message);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
     }
@@ -343,14 +344,14 @@ static void make(struct making *making)
         refuse_text(making, &fault);
         return;
     } else {
-        const bool chosen = choose_mesh(making) && choose_words(making);
+        const bool chosen = choose_grid(making) && choose_words(making);
         find_largest(making);
         if (!chosen) {
             return;
         }
     }
     char *words = gm_arguments_join("", &made->words);
-    if (!words || asprintf(&made->key, "%d %s\n%s", making->moves, words, written->text) < 0) {
+    if (!words || asprintf(&made->key, "%d %s\n%s", making->elsewhere, words, written->text) < 0) {
         made->key = NULL;
     }
     free(words);

@@ -111,7 +111,7 @@ enum gm_field_facet {
     GM_NEEDS_WAVE = 1u << 1,    /* u_tt - u_xx + V'(u) = 0 */
     GM_NEEDS_BURGERS = 1u << 2, /* u_t + u u_x = nu u_xx in moving frames */
     GM_NEEDS_KDV = 1u << 3,     /* u_t + eta u u_x + mu u_xxx = 0 */
-    GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
+    GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + k |psi|^2 psi = 0 */
     GM_NEEDS_HEAT = 1u << 5,    /* u_t = nu u_xx in moving frames, u > 0 */
     GM_NEEDS_ALL = 1u << 6,     /* the multisymplectic form, and all of its components as the state */
     GM_NEEDS_PAIRS = 1u << 7,   /* an even number of points */

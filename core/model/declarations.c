@@ -186,9 +186,10 @@ static bool add_ring(struct gm_reading *reading)
                                  .read = true};
         double number = rows[i].usual;
         if (line) {
+            struct gm_span rest = line->value;
             entry.place = line->place;
-            entry.value = line->value;
-            if (!gm_reading_number(reading, line->value, &number)) {
+            gm_span_take(reading->text, &rest, ";", &entry.value);
+            if (!gm_reading_number(reading, entry.value, &number)) {
                 return false;
             }
         }
@@ -199,7 +200,7 @@ static bool add_ring(struct gm_reading *reading)
             return false;
         }
         variable->derived = rows[i].word == GM_WORD_POINTS; /* a whole number: a row of the scene */
-        variable->text = line ? gm_reading_text(reading, line->value) : NULL;
+        variable->text = line ? gm_reading_text(reading, entry.value) : NULL;
         variable->meaning = gm_arena_print(reading->system->arena, "%s", rows[i].meaning);
         variable->unit = gm_reading_text(reading, (struct gm_span){0, 0});
         if (!variable->meaning) {

@@ -100,8 +100,10 @@ static bool read_value(struct gm_reading *reading, struct gm_system_option *opti
         return true;
     case TEXT:
         return (option->text = gm_reading_text(reading, value)) != NULL;
-    case NUMBER:
-        return add_number(reading, option, value);
+    case NUMBER: /* a field's scale may depend on parameters, and have a name */
+        return option->word == GM_OPTION_SCALE && gm_system_is_field(reading->system)
+                   ? add_formula(reading, option, value, gm_span_until(reading->text, value, "=") < value.end)
+                   : add_number(reading, option, value);
     case NUMBERS:
         return is_usual(reading, value) || add_numbers(reading, option, value);
     case RANGE:
@@ -126,8 +128,9 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
     const bool some = value.begin < value.end;
     size_t row = find_row(lines, text, letters);
     const bool is_range = row == GM_OPTIONS && gm_span_until(reading->text, piece, "..") < piece.end;
-    if (row == GM_OPTION_WHILE && gm_system_is_field(reading->system)) {
-        row = GM_OPTIONS; /* an integral applies always */
+    if ((row == GM_OPTION_WHILE || row == GM_OPTION_ON) &&
+        (row == GM_OPTION_ON) != gm_system_is_field(reading->system)) {
+        row = GM_OPTIONS; /* an integral applies always, and no other quantity has a grid */
     }
     row = is_range ? find_row(lines, "range", 5) : row;
     if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY with its values */

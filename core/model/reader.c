@@ -550,7 +550,9 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
     const size_t row = (size_t)line->word - GM_WORD_HALF_LENGTH;
     double number;
     struct gm_system_item *item;
-    if (!gm_reading_number(reading, line->value, &number)) {
+    struct gm_span rest = line->value, value;
+    gm_span_take(reading->text, &rest, ";", &value);
+    if (!gm_reading_number(reading, value, &number)) {
         return false;
     }
     if (!(number >= ranges[row].low && number <= ranges[row].high) ||
@@ -559,7 +561,7 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
                              gm_system_words[line->word].word, number, ranges[row].told);
     }
     item = add_item(reading, line, (struct gm_span){0, 0});
-    return item && add_formula(reading, item, line->value);
+    return item && add_formula(reading, item, value) && gm_options_read(reading, item, rest);
 }
 
 /* Reads rows separated by |, with commas between entries. */

@@ -79,6 +79,48 @@ void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *
     }
 }
 
+/* Returns u(t) by Taylor's formula about t = 0, of `count` rates that lie apart. */
+static double taylor(const double *rates, size_t count, size_t apart, double t)
+{
+    double u = 0;
+    for (size_t k = count; k-- > 0;) {
+        u = rates[k * apart] + u * t / (double)(k + 1);
+    }
+    return u;
+}
+
+void gm_user_line_levels(const struct gm_user_line *line, const struct gm_grid1 *grid, double gap, double *y)
+{
+    const size_t points = grid->points;
+    const bool known = line->exact.outputs > 0;
+    double rates[GM_LINE_BLOCK], places[2 * GM_LINE_ROOM];
+    for (size_t first = 0, some; first < points; first += some) {
+        some = gm_user_line_block(line, grid, first, rates);
+        for (size_t i = 0; i < some; i++) {
+            y[first + i] = rates[i];
+            y[points + first + i] = known ? 0 : taylor(rates + i, line->start.outputs, some, gap);
+            places[i] = gm_grid1_node(grid, first + i);
+            places[some + i] = gap;
+        }
+        if (known) {
+            gm_tape_values(&line->exact, places, y + points + first, some);
+        }
+    }
+    y[2 * points] = gap;
+}
+
+bool gm_user_line_numbers(const struct gm_user_system *system, const gm_node_id *nodes, size_t count,
+                          const double *values, double *numbers)
+{
+    struct gm_tape tape;
+    const bool good = gm_tape_open(&tape, &system->graph, nodes, count, 0, values);
+    if (good) {
+        gm_tape_values(&tape, NULL, numbers, 1);
+    }
+    gm_tape_close(&tape);
+    return good;
+}
+
 /* Returns true if number i of a block is finite, the component and its derivatives; else false with the suffix. */
 static bool is_finite(const struct gm_user_line *line, const double *values, size_t some, size_t i,
                       size_t component, const char **suffix)
@@ -112,7 +154,8 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
             ends->high = fmax(ends->high, values[component * some + i]);
         }
     }
-    const double x[] = {grid->first, -grid->first};
+    const double right = grid->first + grid->dx * (double)grid->points,
+                 x[] = {grid->first, grid->walls ? -grid->first : right};
     gm_tape_values(&line->start, x, values, 2);
     ends->left = values[2 * component];
     ends->right = values[2 * component + 1];

@@ -43,6 +43,14 @@ size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1
 /* Writes the outputs at all nodes, [output * points + node]. */
 void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y);
 
+/* Writes two levels of one field, at t = 0 and `gap` later, and then the gap. The second is exact if the file gives
+   the exact solution; else it follows from the derivatives over t by Taylor's formula. */
+void gm_user_line_levels(const struct gm_user_line *line, const struct gm_grid1 *grid, double gap, double *y);
+
+/* Writes formulas of constants and parameters; false when out of memory. */
+bool gm_user_line_numbers(const struct gm_user_system *system, const gm_node_id *nodes, size_t count,
+                          const double *values, double *numbers);
+
 /* Between which values a component starts, and where at both ends. */
 struct gm_line_ends {
     double low, high, left, right;

@@ -45,7 +45,9 @@ double gm_observe(const struct gm_observable *observable, const struct gm_view *
 
 double gm_observable_scale(const struct gm_observable *observable, const struct gm_view *view)
 {
-    const double natural = observable->scale ? observable->scale(view->parameters) : observable->least;
+    struct gm_view asked = *view;
+    asked.observable = observable;
+    const double natural = observable->scale ? observable->scale(&asked) : observable->least;
     const bool cancels = observable->terms && view->cancelled;
     return fmax(natural, cancels ? view->cancelled[observable - view->scene->observables] : 0);
 }

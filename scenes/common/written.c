@@ -102,6 +102,7 @@ void gm_written_options(struct gm_observable *observable, const struct gm_system
 {
     observable->title = gm_system_option_text(item, GM_OPTION_TITLE, observable->title);
     observable->unit = gm_system_option_text(item, GM_OPTION_UNIT, observable->unit);
+    observable->symbol = gm_system_option_text(item, GM_OPTION_SYMBOL, observable->symbol);
     observable->missing = gm_system_option_text(item, GM_OPTION_MISSING, observable->missing);
     observable->period = gm_system_option(item, GM_OPTION_ANGLE) ? 2 * M_PI : 0;
     observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);

@@ -35,7 +35,7 @@ double gm_view_energy(const struct gm_view *view);
 double gm_view_own_energy(const struct gm_view *view);
 double gm_view_momentum(const struct gm_view *view);
 double gm_view_amplitude(const struct gm_view *view);
-double gm_unit_momentum(const void *parameters);
+double gm_unit_momentum(const struct gm_view *view);
 
 /* The energy of nodes compares schemes but does not judge them: for boxes it has an error of the grid.
    own_energy_error is a scheme's own loss. */

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A user-defined field as a scene, of four kinds:
+/* A user-defined field as a scene, of six kinds:
        u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),   on a ring or between walls,
        the same between ends that hold u, on a moving mesh,
        (M u)_t = R(u, u_x, ..),   of one field or several,
+       equations of Korteweg and de Vries and of Schroedinger, recognised by such rates, with the states of the
+       schemes for them,
        K z_t + L z_x = grad S(z).
    A kind is a row: its keys, problem, start, observables and picture. Parameters of the file are keys, with
    the ring and its grid; its conserved and observed quantities are integrals of densities. The scene is made
@@ -18,10 +20,13 @@
 #include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
+#include "core/field/families/laws/profile.h"
+#include "core/field/problems/dispersive.h"
 #include "core/field/user/form.h"
 #include "core/field/user/potential.h"
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
+#include "core/model/recognition.h"
 #include "core/model/scope.h"
 #include "core/ode/user/evolution.h"
 #include "core/schemes.h"
@@ -32,12 +37,14 @@
 #include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/written.h"
+#include "scenes/field/kdv_frame.h"
 #include "scenes/field/observed.h"
 #include "scenes/mesh/observed.h"
 #include "scenes/mesh/picture.h"
 
 enum { DT, UNTIL };
 enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_GRAPHS = 3, MOST_ROWS = 6 };
+enum { SHOW_FRAME = 4 }; /* of the schemes for Korteweg and de Vries' equation */
 enum { SAMPLES = 4096 }; /* points at which a start is examined */
 
 struct user_field;
@@ -54,14 +61,24 @@ struct kind {
     size_t graph_count;                 /* quantities of the file fill the rest */
     bool (*open)(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values);
     void (*close)(struct gm_problem *problem);
-    /* Returns true if the start is possible; else false with a sentence. */
+    /* Returns true if the start is possible; else false with a sentence. NULL: it is if it is finite. */
     bool (*closes)(const struct gm_problem *problem, char *sentence, size_t size);
+    void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    double (*value)(const struct gm_view *view,
+                    size_t node); /* what the picture shows, and its exact value */
+    double (*exact)(const struct gm_view *view, double x);
+    const char *name, *content; /* of the value (NULL: of the first field), and of the third local law */
+    const struct gm_preference *preferences;
+    void (*failure)(const struct gm_view *view, char *text, size_t size); /* NULL: tell_failure */
+    /* Returns values, then slopes, of one field after another, as the observed quantity needs them: `place`
+       has them for the state. malloc'ed; NULL when out of memory. Without the function it has the state. */
+    double *(*profile)(const struct gm_view *view);
     /* Sets the variables of a density at integration point `number`, from 0 on, and its weight; false after
        the last. NULL: the problem integrates. */
     bool (*place)(const struct gm_view *view, size_t number, double *values, double *weight);
 };
-static const struct kind waves, moving_waves, evolutions, forms;
+static const struct kind waves, moving_waves, evolutions, korteweg, schroedinger, forms;
 
 struct user_field {
     struct gm_system_scene of_file; /* first, so that a pointer to the scene is one to this */
@@ -70,7 +87,10 @@ struct user_field {
     struct gm_user_wave wave; /* only the member of the kind is used */
     struct gm_user_evolution evolution;
     struct gm_user_form form;
-    bool solved; /* an exact solution is known */
+    struct gm_line_formulas formulas;
+    struct gm_recognised equation; /* without a name: none */
+    bool elsewhere;                /* schemes are asked for that are not for the usual kind of such a field */
+    bool solved;                   /* an exact solution is known */
     double resolutions[3], errors[3];
     double low, high; /* the range of u at the start */
 };
@@ -116,21 +136,26 @@ static bool is_known(const struct gm_view *view)
     return value > 0;
 }
 
-/* Returns the largest error of all components. */
+/* Returns the largest error of all components; of a complex field that of its value. */
 static double solution_error(const struct gm_view *view)
 {
     const struct user_field *field = field_of(view);
-    if (!is_known(view)) {
-        return NAN;
-    }
     const struct gm_grid1 *grid = &view->problem->line;
-    double largest = 0;
-    for (size_t c = 0; c < gm_line_components(&field->of_file.system); c++) {
-        const double *u = view->state + c * grid->points, constant = constant_of(view, c);
-        for (size_t i = 0; i < gm_grid1_seen(grid); i++) {
-            const double there = gm_user_line_exact(line_of(view), c, gm_grid1_node(grid, i), view->t);
-            largest = gm_larger(fabs(u[i] - constant - there), largest);
+    const size_t components = gm_line_components(&field->of_file.system);
+    double constants[GM_MOST_OF_MATRICES], largest = is_known(view) ? 0 : NAN;
+    for (size_t c = 0; c < components; c++) {
+        constants[c] = constant_of(view, c);
+    }
+    const double shift = field->kind == &korteweg ? gm_kdv_shift(view) : 0;
+    for (size_t i = 0; i < gm_grid1_seen(grid) && !isnan(largest); i++) {
+        const double x = gm_grid1_node(grid, i) + shift;
+        double error = 0;
+        for (size_t c = 0; c < components; c++) {
+            const double there = gm_user_line_exact(line_of(view), c, x, view->t),
+                         by = view->state[c * grid->points + i] - constants[c] - there;
+            error = field->kind == &schroedinger ? hypot(error, by) : gm_larger(fabs(by), error);
         }
+        largest = gm_larger(error, largest);
     }
     return largest;
 }
@@ -183,12 +208,13 @@ static double crest(const struct gm_view *view)
     return gm_grid1_node(grid, top) + (bend < 0 ? grid->dx * (left - right) / (2 * bend) : 0);
 }
 
-/* Returns the number of an observable among the file's invariants and observables. */
-static size_t density_of(const struct gm_user_system *system, const char *key)
+/* Returns the line of the observed quantity, and its number among the file's invariants and observables. */
+static const struct gm_system_item *density_of(const struct gm_view *view, size_t *number)
 {
-    size_t number = 0;
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
+    const struct gm_user_system *system = &field_of(view)->of_file.system;
+    const char *key = view->observable->key;
+    const struct gm_system_item *item = system->items;
+    for (*number = 0; item < system->items + system->item_count; item++) {
         const size_t length = strlen(item->name);
         const bool kept = item->word == GM_WORD_INVARIANT;
         if (!kept && item->word != GM_WORD_OBSERVE) {
@@ -197,26 +223,46 @@ static size_t density_of(const struct gm_user_system *system, const char *key)
         if (strncmp(key, item->name, length) == 0 && strcmp(key + length, kept ? "_error" : "") == 0) {
             break;
         }
-        number++;
+        ++*number;
     }
-    return number;
+    return item;
 }
 
 static double integral_of(const struct gm_view *view, bool magnitude)
 {
     const struct user_field *field = field_of(view);
+    const struct kind *kind = field->kind;
     const struct gm_system_scene *of_file = &field->of_file;
-    if (!field->kind->place) {
-        return gm_user_evolution_integral(view->problem, density_of(&of_file->system, view->observable->key),
-                                          magnitude, view->state);
+    if (!kind->place) {
+        size_t number;
+        density_of(view, &number);
+        return gm_user_evolution_integral(view->problem, number, magnitude, view->state);
     }
-    double *values = gm_system_start_values(view->parameters, NULL), sum = values ? 0 : NAN, weight, density;
-    for (size_t i = 0; values && field->kind->place(view, i, values, &weight); i++) {
+    double *values = gm_system_start_values(view->parameters, NULL), weight, density;
+    double *profile = kind->profile ? kind->profile(view) : NULL;
+    const bool good = values && (profile || !kind->profile);
+    struct gm_view placed = *view;
+    placed.state = profile ? profile : view->state;
+    double sum = good ? 0 : NAN;
+    for (size_t i = 0; good && kind->place(&placed, i, values, &weight); i++) {
         gm_tape_values(&of_file->formulas[view->observable - of_file->observables], values, &density, 1);
         sum += weight * (magnitude ? fabs(density) : density);
     }
     free(values);
+    free(profile);
     return sum;
+}
+
+/* Returns the scale that the file names for the error of an invariant. */
+static double natural_scale(const struct gm_view *view)
+{
+    const struct gm_system_scene *of_file = &field_of(view)->of_file;
+    double *values = gm_system_start_values(view->parameters, NULL), scale = NAN;
+    if (values) {
+        gm_tape_values(&of_file->terms[view->observable - of_file->observables], values, &scale, 1);
+    }
+    free(values);
+    return scale;
 }
 
 static double integral(const struct gm_view *view)
@@ -290,7 +336,8 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 
 static void record_shown(const struct gm_view *view, double *entry)
 {
-    gm_surface_record_shown(view, ((const struct gm_system_lane *)view->parameters)->grid.show, gm_field_u,
+    const int show = ((const struct gm_system_lane *)view->parameters)->grid.show;
+    gm_surface_record_shown(view, show == SHOW_FRAME ? GM_SHOW_FIELD : show, field_of(view)->kind->value,
                             entry);
 }
 
@@ -300,25 +347,33 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const struct user_field *field = owner_of(lane);
     const struct gm_system_scene *of_file = &field->of_file;
     const struct gm_system_item *colours = gm_system_item_of(&of_file->system, GM_WORD_COLOURS, 0);
+    const struct gm_view first = gm_lane_view(lanes[0]);
     double ends[2] = {field->low, field->high};
-    if (colours) {
-        const struct gm_view view = gm_lane_view(lanes[0]);
-        gm_system_values(&of_file->of_items[colours - of_file->system.items], &view, 0, ends);
+    if (field->kind == &korteweg && lane->grid.show == SHOW_FRAME) {
+        gm_kdv_draw_frame(lanes, count, picture);
+        return;
     }
-    const bool crosses = field->kind == &forms || ends[0] < -0.2 * ends[1];
+    if (colours) {
+        gm_system_values(&of_file->of_items[colours - of_file->system.items], &first, 0, ends);
+    }
+    /* of colours that the file names only symmetric ones are those of signs */
+    const bool crosses = field->kind == &forms || ends[0] <= (colours ? -1 : -0.2) * ends[1];
     const double most = fmax(fabs(ends[0]), fabs(ends[1])), margin = colours ? 0 : 0.1 * (ends[1] - ends[0]);
     struct gm_field_look look = {
-        .value = gm_field_u,
-        .exact = field->solved ? exact_first : NULL,
-        .name = of_file->system.variables[0].name,
+        .value = field->kind->value,
+        .exact = field->solved && is_known(&first) ? field->kind->exact : NULL,
+        .name = field->kind->name ? field->kind->name : of_file->system.variables[0].name,
+        .content = field->kind->content,
         .low = crosses ? -most - margin : ends[0] - margin,
         .high = crosses ? most + margin : ends[1] + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
         .show = lane->grid.show,
     };
     const char *beyond = "";
+    bool boosted = false;
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
+        boosted |= field->kind == &korteweg && gm_kdv_of(view.problem)->lambda != 0;
         const struct gm_entries *rows = &lanes[i]->entries[0];
         if (lanes[i]->problem.line.walls && lane->grid.show == GM_SHOW_FIELD) {
             /* a kink that comes back from a wall leads to other values than it came from */
@@ -332,6 +387,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     }
     const char *subtitle = gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, "");
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, of_file->scene.title);
+    if (boosted) {
+        picture->title = gm_picture_text(picture, "%s, drawn at rest", picture->title);
+    }
     picture->subtitle = gm_picture_text(
         picture, "%s%s%ld points,  Δx = %g%s%s", subtitle, subtitle[0] ? ",  " : "", lane->grid.points,
         lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count), beyond);
@@ -390,7 +448,13 @@ static double half_length_of(const struct gm_system_lane *lane)
 /* Returns the ring, or the grid between walls. */
 static struct gm_grid1 grid_of(const struct gm_system_lane *lane)
 {
-    return (lane->grid.walls ? gm_between_walls : gm_ring)(half_length_of(lane), lane->grid.points);
+    const struct gm_system_item *item = gm_system_item_of(&lane->owner->system, GM_WORD_HALF_LENGTH, 0);
+    struct gm_grid1 grid =
+        (lane->grid.walls ? gm_between_walls : gm_ring)(half_length_of(lane), lane->grid.points);
+    if (item && gm_system_option(item, GM_OPTION_LEFT) && !lane->grid.walls) {
+        grid.first = gm_system_option_number(item, GM_OPTION_LEFT, 0);
+    }
+    return grid;
 }
 
 static bool open_wave(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
@@ -434,6 +498,8 @@ static const struct kind waves = {
     .close = gm_user_wave_close,
     .closes = gm_user_wave_closes,
     .draw = draw,
+    .value = gm_field_u,
+    .exact = exact_first,
     .place = place_wave,
 };
 
@@ -504,6 +570,7 @@ static const struct kind moving_waves = {
     .close = gm_user_mesh_close,
     .closes = gm_user_mesh_rests,
     .draw = draw_mesh,
+    .value = gm_field_u,
     .place = place_on_mesh,
 };
 
@@ -532,7 +599,226 @@ static const struct kind evolutions = {
     .open = open_evolution,
     .close = gm_user_evolution_shut,
     .closes = gm_user_evolution_closes,
+    .start = gm_user_evolution_start,
     .draw = draw,
+    .value = gm_field_u,
+    .exact = exact_first,
+};
+
+/* ---- equations that are recognised ---- */
+
+/* Returns the value of a parameter of the file; 0 if it has none of that name. */
+static double value_of(const struct gm_system_lane *lane, const char *key)
+{
+    const struct gm_parameter *row = gm_scene_parameter(&lane->owner->scene, key);
+    return row ? gm_parameter_get(row, lane) : 0;
+}
+
+/* The parameters of either equation. */
+union equation {
+    struct gm_user_line line; /* first of both */
+    struct gm_kdv kdv;
+    struct gm_nls nls;
+};
+
+static bool open_equation(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
+{
+    const struct user_field *field = owner_of(lane);
+    const struct gm_user_system *system = &field->of_file.system;
+    const bool of_kdv = field->kind == &korteweg;
+    const size_t rates = of_kdv && !field->solved;
+    union equation *equation = calloc(1, sizeof *equation);
+    double constants[GM_EQUATION_CONSTANTS] = {0};
+    *problem = of_kdv ? gm_problem_kdv : gm_problem_nls;
+    problem->parameters = equation;
+    problem->line = grid_of(lane);
+    problem->n = of_kdv ? gm_wave_size(problem->line.points) : 2 * problem->line.points;
+    const bool good =
+        equation && gm_user_line_numbers(system, field->equation.values, of_kdv ? 2 : 1, values, constants) &&
+        gm_user_line_open(&equation->line, system, field->formulas.start, system->n + rates,
+                          field->formulas.exact, values);
+    if (good && of_kdv) {
+        equation->kdv.eta = constants[0];
+        equation->kdv.mu = constants[1];
+        equation->kdv.lambda = value_of(lane, "lambda");
+        equation->kdv.frame = lane->grid.frame;
+    } else if (good) {
+        equation->nls.k = constants[0];
+    }
+    return good;
+}
+
+static void close_equation(struct gm_problem *problem)
+{
+    union equation *equation = (union equation *)problem->parameters;
+    if (equation) {
+        gm_user_line_close(&equation->line);
+    }
+    free(equation);
+    problem->parameters = NULL;
+}
+
+/* Adds the rate of one field at the start to the formulas of the start. */
+static bool derive_rate(struct gm_line_formulas *formulas, struct gm_user_system *system)
+{
+    gm_node_id *others = calloc(system->variable_count, sizeof *others), last = system->variables[0].start;
+    for (size_t i = 0; others && i < system->variable_count; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    for (size_t k = 0; others && k <= GM_MOST_DERIVATIVES && !system->graph.failed; k++) {
+        others[k == 0 ? 0 : system->velocities + k] = last;
+        last = gm_system_derivative(system, last, system->velocities);
+    }
+    formulas->start[1] = system->rates[0];
+    const bool good =
+        others && !system->graph.failed &&
+        gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
+        gm_system_place(system, &formulas->start[1], 1);
+    free(others);
+    return good;
+}
+
+static void start_line(const struct gm_problem *problem, double *y)
+{
+    gm_user_line_start(problem->parameters, &problem->line, y);
+}
+
+/* Represents the field as the scheme does, unless the line of the quantity says where. */
+static double *profile_of(const struct gm_view *view)
+{
+    const size_t points = view->problem->line.points, n = field_of(view)->of_file.system.n;
+    size_t number;
+    const char *on = gm_system_option_text(density_of(view, &number), GM_OPTION_ON, NULL);
+    struct gm_scheme scheme = *view->scheme;
+    if (on) {
+        scheme.in_cells = strcmp(on, "cells") == 0;
+        scheme.in_modes = false;
+    }
+    double *all = malloc(2 * n * points * sizeof *all);
+    for (size_t c = 0; all && c < n; c++) {
+        double *one = gm_field_profile(view->problem, &scheme, view->state + c * points);
+        for (size_t i = 0; i < 2 * points; i++) {
+            all[2 * c * points + i] = one ? one[i] : NAN;
+        }
+        free(one);
+    }
+    return all;
+}
+
+static bool place_profile(const struct gm_view *view, size_t i, double *values, double *weight)
+{
+    const struct gm_grid1 *grid = &view->problem->line;
+    const struct gm_user_system *system = &field_of(view)->of_file.system;
+    if (i == grid->points) {
+        return false;
+    }
+    for (size_t c = 0; c < system->n; c++) {
+        values[c] = view->state[2 * c * grid->points + i];
+        values[system->velocities + 1 + c] = view->state[(2 * c + 1) * grid->points + i];
+    }
+    values[system->velocities] = gm_grid1_node(grid, i);
+    *weight = grid->dx;
+    return true;
+}
+
+static double modulus(const struct gm_view *view, size_t node)
+{
+    return hypot(view->state[node], view->state[view->problem->line.points + node]);
+}
+
+static double exact_modulus(const struct gm_view *view, double x)
+{
+    return is_known(view) ? hypot(gm_user_line_exact(line_of(view), 0, x, view->t),
+                                  gm_user_line_exact(line_of(view), 1, x, view->t))
+                          : NAN;
+}
+
+static double modulus_error(const struct gm_view *view)
+{
+    const struct gm_grid1 *grid = &view->problem->line;
+    double largest = is_known(view) ? 0 : NAN;
+    for (size_t i = 0; i < grid->points && !isnan(largest); i++) {
+        largest = gm_larger(fabs(modulus(view, i) - exact_modulus(view, gm_grid1_node(grid, i))), largest);
+    }
+    return largest;
+}
+
+/* Returns the exact value in the original frame. */
+static double exact_at_rest(const struct gm_view *view, double x)
+{
+    const struct gm_kdv *kdv = gm_kdv_of(view->problem);
+    return exact_first(view, x + kdv->lambda * view->t) - kdv->lambda / kdv->eta;
+}
+
+/* Laws and frames need schemes that have them. */
+static const struct gm_preference preferences[] = {
+    {"show=energy-law", {"box"}}, {"show=momentum-law", {"box"}},           {"show=charge-law", {"box"}},
+    {"show=mass-law", {"box"}},   {"show=frame", {"evolution-projection"}}, {NULL, {NULL}}};
+#define NO_FRAME "the scheme does not step in a moving frame, or the step from here is not solved"
+#define EQUATION                                                                                             \
+    .no_walls = "boundary: the schemes for this equation alone need a ring", .preferences = preferences,     \
+    .open = open_equation, .close = close_equation, .draw = draw, .profile = profile_of,                     \
+    .place = place_profile
+
+static const char *const frames[] = {"each", "fixed", "moving", NULL},
+                         *const shown_of_mass[] = {"field",    "energy-law", "momentum-law",
+                                                   "mass-law", "frame",      NULL},
+                         *const shown_of_charge[] = {"field", "energy-law", "momentum-law", "charge-law",
+                                                     NULL};
+static const struct gm_parameter korteweg_rows[] = {
+    RING(5),
+    GM_CHOICE_ROW(
+        LANE, grid.frame, "frame", "each", frames,
+        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "
+        "moving for the invariant schemes, fixed for the others"),
+    GM_CHOICE_ROW(
+        LANE, grid.show, "show", "field", shown_of_mass,
+        "what is drawn over space and time: the field, or what each step leaves of a local law; or the "
+        "moving frame: a node with its neighbours, and where the frame carries them"),
+};
+static const struct gm_observable of_korteweg[] = {
+    GM_LOCAL_LAWS,
+    GM_LOG_OBSERVABLE("local_mass_residual", gm_view_content_residual, "residual of the local mass law",
+                      .missing = GM_NO_LAW),
+    GM_FORM_RESIDUAL,
+    GM_LOG_OBSERVABLE("boost_defect", gm_kdv_boost_defect, "defect of a step under a boost by 1/2",
+                      .missing = NO_FRAME),
+    GM_LOG_OBSERVABLE("scaling_defect", gm_kdv_scaling_defect, "defect of a step under a scaling by 1.3",
+                      .missing = NO_FRAME),
+};
+static const char *const schemes_of_korteweg[] = {"box", "zabusky-kruskal", "fourier-rk4", NULL};
+static const struct kind korteweg = {
+    ROWS(korteweg_rows),
+    OBSERVABLES(of_korteweg),
+    EQUATION,
+    .schemes = schemes_of_korteweg,
+    .graphs = {{NULL}, {"solution_error"}},
+    .graph_count = 2,
+    .value = gm_kdv_at_rest,
+    .exact = exact_at_rest,
+    .content = "mass",
+    .failure = gm_kdv_failure,
+};
+
+static const struct gm_parameter schroedinger_rows[] = {RING(3),
+                                                        GM_LAW_ROW(LANE, grid.show, shown_of_charge)};
+static const struct gm_observable of_schroedinger[] = {
+    GM_LOCAL_LAWS,
+    GM_LOG_OBSERVABLE("local_charge_residual", gm_view_content_residual, "residual of the local charge law",
+                      .missing = GM_NO_LAW),
+    GM_FORM_RESIDUAL};
+static const char *const schemes_of_schroedinger[] = {"box", "split-step2", "euler-box", NULL};
+static const struct kind schroedinger = {
+    ROWS(schroedinger_rows),
+    OBSERVABLES(of_schroedinger),
+    EQUATION,
+    .schemes = schemes_of_schroedinger,
+    .graph_count = 2,
+    .start = start_line,
+    .value = modulus,
+    .exact = exact_modulus,
+    .name = "|ψ|",
+    .content = "charge",
 };
 
 static bool open_form(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
@@ -582,7 +868,10 @@ static const struct kind forms = {
     .open = open_form,
     .close = gm_user_form_close,
     .closes = gm_user_form_closes,
+    .start = gm_user_form_start,
     .draw = draw,
+    .value = gm_field_u,
+    .exact = exact_first,
     .place = place_in_cell,
 };
 
@@ -599,12 +888,10 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
 static void start(const void *parameters, const struct gm_problem *problem, double *y)
 {
     const struct gm_system_lane *lane = parameters;
-    if (owner_of(lane)->kind == &evolutions) {
-        gm_user_evolution_start(problem, y);
-    } else if (owner_of(lane)->kind == &forms) {
-        gm_user_form_start(problem, y);
+    if (owner_of(lane)->kind->start) {
+        owner_of(lane)->kind->start(problem, y);
     } else {
-        gm_user_wave_levels(problem, lane->timing.dt, y);
+        gm_user_line_levels(problem->parameters, &problem->line, lane->timing.dt, y);
     }
 }
 
@@ -692,18 +979,34 @@ static bool has_levels(const struct gm_problem *problem, const char *name, const
                name, further, y[2 * points]);
 }
 
+static bool is_finite(const struct user_field *field, const struct gm_problem *problem, const double *y,
+                      char *sentence)
+{
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < problem->n; i++) {
+        if (!isfinite(y[i])) {
+            return gm_refuse(
+                sentence, "%.60s at the start is not finite where x = %.6g",
+                field->of_file.system.variables[i < points ? 0 : field->of_file.system.n - 1].name,
+                gm_grid1_node(&problem->line, i % points));
+        }
+    }
+    return true;
+}
+
 static bool check_start(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence)
 {
     const struct user_field *field = owner_of(lane);
     struct gm_grid1 grid;
-    if (!field->kind->closes(problem, sentence, GM_MESSAGE)) {
+    if (field->kind->closes && !field->kind->closes(problem, sentence, GM_MESSAGE)) {
         return false;
     }
     double *y = start_on(lane, problem, &grid);
     const struct gm_view view = {.problem = problem, .parameters = lane, .state = y};
     const bool written =
         field->of_file.system.variables[0].start_place > 0; /* else it is the exact solution */
-    const bool good = y ? (!field->solved || !written || begins_exactly(&view, &grid, sentence)) &&
+    const bool good = y ? (field->kind->closes || is_finite(field, problem, y, sentence)) &&
+                              (!field->solved || !written || begins_exactly(&view, &grid, sentence)) &&
                               (field->kind != &waves ||
                                has_levels(problem, field->of_file.system.variables[0].name, y, sentence))
                         : gm_refuse(sentence, "not enough memory");
@@ -756,7 +1059,7 @@ struct making {
     struct gm_user_system *system;
     const char *name;
     const char *const *words;
-    bool moves;
+    bool elsewhere;
     struct user_field *field;
     struct gm_problem problem; /* the problem of the file's own values */
 };
@@ -819,59 +1122,101 @@ static void make_rows(struct user_field *field)
     gm_parameters_reset(of_file->rows, GM_SYSTEM_ROWS, of_file->initial);
 }
 
-static void make_observables(struct user_field *field)
+/* Adds an observable, and returns it. */
+static struct gm_observable *add(struct user_field *field, struct gm_observable row)
+{
+    struct gm_system_scene *of_file = &field->of_file;
+    const size_t count = of_file->observable_count++;
+    for (size_t k = 0; k < count; k++) {
+        if (gm_observables_clash(row.key, of_file->observables[k].key)) {
+            gm_arena_refuse(field->arena, "there are two observables %s", row.key);
+        }
+    }
+    of_file->observables[count] = row;
+    return &of_file->observables[count];
+}
+
+static void add_errors(struct user_field *field)
 {
     static const struct gm_observable on_nodes[] = {GM_MESH_ERRORS},
-                                      error = GM_LOG_OBSERVABLE("solution_error", solution_error,
-                                                                "distance from the exact solution");
+                                      errors[] = {GM_LOG_OBSERVABLE("solution_error", solution_error,
+                                                                    "distance from the exact solution"),
+                                                  GM_LOG_OBSERVABLE("modulus_error", modulus_error,
+                                                                    "largest error of |ψ|")};
+    const struct gm_system_item *known = gm_system_item_of(&field->of_file.system, GM_WORD_EXACT_WHILE, 0);
+    const bool moves = field->kind == &moving_waves;
+    for (size_t i = 0; moves && i < GM_COUNT(on_nodes); i++) {
+        add(field, on_nodes[i]);
+    }
+    for (size_t i = 0; !moves && i < (field->kind == &schroedinger ? GM_COUNT(errors) : 1); i++) {
+        add(field, errors[i])->missing = known ? known->text : NULL;
+    }
+}
+
+static void add_densities(struct user_field *field)
+{
     static const char infinite[] = "its density is not finite everywhere";
     struct gm_system_scene *of_file = &field->of_file;
-    const struct gm_user_system *system = &of_file->system;
-    const struct gm_hook *hook = field->kind == &waves ? of_file->hook : NULL;
-    size_t count = hook ? hook->observable_count : field->kind->observable_count;
-    of_file->observables = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
-    of_file->formulas = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
-    of_file->terms = gm_arena_take(system->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
-    gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
-    memcpy(of_file->observables, hook ? hook->observables : field->kind->observables,
-           count * sizeof *of_file->observables);
-    if (field->solved && field->kind == &moving_waves) {
-        memcpy(of_file->observables + count, on_nodes, sizeof on_nodes);
-        count += GM_COUNT(on_nodes);
-    } else if (field->solved) {
-        const struct gm_system_item *known = gm_system_item_of(system, GM_WORD_EXACT_WHILE, 0);
-        of_file->observables[count] = error;
-        of_file->observables[count++].missing = known ? known->text : NULL;
-    }
-    const size_t first_density = count;
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
+    size_t count = 0;
+    for (size_t i = 0; i < of_file->system.item_count; i++) {
+        const struct gm_system_item *item = &of_file->system.items[i];
         const bool kept = item->word == GM_WORD_INVARIANT;
         if (!kept && item->word != GM_WORD_OBSERVE) {
             continue;
         }
-        if (count - first_density == MOST_DENSITIES) {
+        const char *on = gm_system_option_text(item, GM_OPTION_ON, "nodes");
+        if (strcmp(on, "nodes") != 0 && strcmp(on, "cells") != 0) {
+            gm_arena_refuse(field->arena, "%.60s: an integral is on nodes or on cells, not on %.60s",
+                            item->name, on);
+        }
+        if (count++ == MOST_DENSITIES) {
             gm_arena_refuse(field->arena, "a field has at most %d invariants and observables",
                             MOST_DENSITIES);
         }
         const char *key = gm_arena_print(field->arena, kept ? "%s_error" : "%s", item->name);
-        of_file->observable_count = count + 1;
-        gm_arena_need(field->arena, gm_system_open_tape(of_file, &of_file->formulas[count], item->nodes, 1));
-        for (size_t k = 0; k < count; k++) {
-            if (gm_observables_clash(key, of_file->observables[k].key)) {
-                gm_arena_refuse(field->arena, "there are two observables %s", key);
-            }
-        }
-        struct gm_observable *row = &of_file->observables[count++];
-        *row = kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(
-                          key, integral, item->name, item->name,
-                          .least = gm_system_option_number(item, GM_OPTION_SCALE, 0), .terms = terms,
-                          .missing = infinite)
-                    : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite);
+        const struct gm_system_option *scale = gm_system_option(item, GM_OPTION_SCALE);
+        struct gm_observable *row =
+            add(field,
+                kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(
+                           key, integral, item->name, item->name, .scale = scale ? natural_scale : NULL,
+                           .scale_text = scale ? scale->text : NULL, .terms = terms, .missing = infinite)
+                     : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name, .missing = infinite));
+        const size_t number = of_file->observable_count - 1;
         gm_written_options(row, item);
+        gm_arena_need(field->arena,
+                      gm_system_open_tape(of_file, &of_file->formulas[number], item->nodes, 1) &&
+                          (!scale || gm_system_open_tape(of_file, &of_file->terms[number], &scale->node, 1)));
     }
-    of_file->observable_count = of_file->scene.observable_count = count;
+}
+
+static void make_observables(struct user_field *field)
+{
+    struct gm_system_scene *of_file = &field->of_file;
+    of_file->observables =
+        gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->observables);
+    of_file->formulas = gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
+    of_file->terms = gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->terms);
+    gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
     of_file->scene.observables = of_file->observables;
+    if (field->kind->profile) { /* laws and symmetries come last */
+        add_densities(field);
+    }
+    const struct gm_hook *hook = field->kind == &waves ? of_file->hook : NULL;
+    const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
+    const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
+    for (size_t i = 0; !field->kind->profile && i < row_count; i++) {
+        add(field, rows[i]);
+    }
+    if (field->solved) {
+        add_errors(field);
+    }
+    for (size_t i = 0; field->kind->profile && i < row_count; i++) {
+        add(field, rows[i]);
+    }
+    if (!field->kind->profile) {
+        add_densities(field);
+    }
+    of_file->scene.observable_count = of_file->observable_count;
 }
 
 static void make_schemes(struct user_field *field, const struct gm_problem *problem)
@@ -879,9 +1224,9 @@ static void make_schemes(struct user_field *field, const struct gm_problem *prob
     size_t count, others;
     char sentence[GM_MESSAGE];
     const char *text = field->of_file.system.texts[GM_WORD_SCHEMES];
-    const bool elsewhere = field->kind == &moving_waves && gm_user_field_moving(text, &others) == 0;
-    if (!gm_written_schemes(elsewhere ? NULL : text, problem, field->of_file.schemes, GM_MOST_PREFERRED,
-                            &count, sentence)) {
+    const bool elsewhere = gm_user_field_elsewhere(field->of_file.system.kind, text, &others) > 0;
+    if (!gm_written_schemes(elsewhere == field->elsewhere ? text : NULL, problem, field->of_file.schemes,
+                            GM_MOST_PREFERRED, &count, sentence)) {
         gm_arena_refuse(field->arena, "%s", sentence);
     }
     field->of_file.scene.schemes = count > 0 ? field->of_file.schemes : field->kind->schemes;
@@ -942,23 +1287,45 @@ static bool on_a_mesh(const struct gm_scheme *scheme)
     return scheme->family->kind == &gm_kind_mesh;
 }
 
-size_t gm_user_field_moving(const char *schemes, size_t *others)
+static bool on_rates(const struct gm_scheme *scheme)
 {
-    size_t moving = 0;
-    char name[64];
-    for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
-        const struct gm_scheme *scheme = gm_scheme_find(name);
-        const bool moves = scheme && on_a_mesh(scheme);
-        moving += moves;
-        *others += !moves;
-    }
-    return moving;
+    return scheme->family->kind == &gm_kind_ode;
+}
+
+static bool is_for(const struct gm_scheme *scheme, unsigned facet)
+{
+    return scheme->family->kind == &gm_kind_field &&
+           !(scheme->needs & ~(unsigned)(facet | GM_NEEDS_FORM | GM_NEEDS_PAIRS));
 }
 
 static bool on_a_ring(const struct gm_scheme *scheme)
 {
-    return scheme->family->kind == &gm_kind_field &&
-           !(scheme->needs & ~(unsigned)(GM_NEEDS_WAVE | GM_NEEDS_FORM | GM_NEEDS_PAIRS));
+    return is_for(scheme, GM_NEEDS_WAVE);
+}
+
+static bool on_korteweg(const struct gm_scheme *scheme)
+{
+    return is_for(scheme, GM_NEEDS_KDV);
+}
+
+static bool on_schroedinger(const struct gm_scheme *scheme)
+{
+    return is_for(scheme, GM_NEEDS_NLS);
+}
+
+size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, size_t *others)
+{
+    const struct gm_kind *const of_rates = kind == GM_EVOLUTION ? &gm_kind_field : NULL,
+                                *const there = kind == GM_FIELD ? &gm_kind_mesh : of_rates;
+    size_t count = 0;
+    char name[64];
+    for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        const bool is_there = scheme && scheme->family->kind == there;
+        count += is_there;
+        *others += !is_there;
+    }
+    return count;
 }
 
 /* Finds the range of the field at the start. */
@@ -966,9 +1333,11 @@ static void find_range(struct user_field *field, const struct gm_problem *proble
 {
     struct gm_grid1 grid;
     const double *y = gm_arena_keep(field->arena, start_on(field->of_file.initial, problem, &grid), free);
-    field->low = field->high = y[0];
+    const struct gm_view view = {
+        .problem = problem, .scheme = gm_scheme_find(field->of_file.scene.schemes[0]), .state = y};
+    field->low = field->high = field->kind->value(&view, 0);
     for (size_t i = 0; i < grid.points; i++) {
-        gm_range_add(&field->low, &field->high, y[i]);
+        gm_range_add(&field->low, &field->high, field->kind->value(&view, i));
     }
     if (!(field->high > field->low)) {
         field->high += 1;
@@ -986,7 +1355,11 @@ static bool derive(struct user_field *field)
 {
     switch (field->of_file.system.kind) {
     case GM_EVOLUTION:
-        return gm_user_evolution_derive(&field->evolution, &field->of_file.system);
+        return field->kind == &evolutions
+                   ? gm_user_evolution_derive(&field->evolution, &field->of_file.system)
+                   : gm_line_derive(&field->formulas, &field->of_file.system) &&
+                         (field->kind != &korteweg || field->solved ||
+                          derive_rate(&field->formulas, &field->of_file.system));
     case GM_MATRICES:
         return gm_user_form_derive(&field->form, &field->of_file.system);
     default:
@@ -1008,11 +1381,18 @@ static void make(struct gm_arena *arena, void *data)
     field->arena = arena;
     *system = *making->system;
     *making->system = (struct gm_user_system){0};
-    const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->moves,
+    const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
                by_matrices = system->kind == GM_MATRICES;
-    const struct kind *const of_rates = by_matrices ? &forms : &evolutions,
+    field->elsewhere = making->elsewhere;
+    gm_arena_need(arena, gm_equation_recognise(system, &field->equation));
+    const char *const equation = field->equation.name ? field->equation.name : "";
+    const bool is_kdv = strcmp(equation, gm_problem_kdv.name) == 0,
+               known = is_kdv || strcmp(equation, gm_problem_nls.name) == 0;
+    const struct kind *const of_equation = is_kdv ? &korteweg : &schroedinger,
+                             *const of_rates = known && making->elsewhere ? of_equation : &evolutions,
+                             *const of_matrices = by_matrices ? &forms : of_rates,
                              *const of_potentials = moves ? &moving_waves : &waves,
-                             *const kind = in_potential ? of_potentials : of_rates;
+                             *const kind = in_potential ? of_potentials : of_matrices;
     field->kind = kind;
     const char *const *texts = (const char *const *)system->texts;
     if (kind->no_walls && texts[GM_WORD_BOUNDARY] && strcmp(texts[GM_WORD_BOUNDARY], "walls") == 0) {
@@ -1021,8 +1401,8 @@ static void make(struct gm_arena *arena, void *data)
     if (!gm_system_find_hook(of_file, sentence)) {
         gm_arena_refuse(arena, "%s", sentence);
     }
-    gm_arena_need(arena, derive(field));
     field->solved = gm_line_is_solved(system);
+    gm_arena_need(arena, derive(field));
     make_rows(field);
     of_file->scene = (struct gm_scene){
         .name = making->name,
@@ -1046,6 +1426,7 @@ static void make(struct gm_arena *arena, void *data)
         .work = &of_file->work,
         .asked = law,
         .asked_count = by_matrices ? GM_COUNT(law) : 0,
+        .preferences = kind->preferences,
         .variant = gm_system_variant,
         .idle = gm_system_idle,
         .settle = settle,
@@ -1054,7 +1435,7 @@ static void make(struct gm_arena *arena, void *data)
         .start = start,
         .draw = kind->draw,
         .point = point,
-        .failure = tell_failure,
+        .failure = kind->failure ? kind->failure : tell_failure,
     };
     if (moves) {
         of_file->scene.elsewhere = on_a_ring;
@@ -1062,6 +1443,9 @@ static void make(struct gm_arena *arena, void *data)
         of_file->scene.chosen = note_alpha;
     } else if (in_potential && making->words && !of_file->initial->grid.walls) {
         of_file->scene.elsewhere = on_a_mesh;
+    } else if (known && making->words) {
+        bool (*const of_this)(const struct gm_scheme *scheme) = is_kdv ? on_korteweg : on_schroedinger;
+        of_file->scene.elsewhere = kind == of_equation ? on_rates : of_this;
     }
     if (!gm_system_open_items(of_file, sentence) || !setup(of_file->initial, &making->problem, sentence)) {
         gm_arena_refuse(arena, "%s", sentence);
@@ -1081,9 +1465,9 @@ static void make(struct gm_arena *arena, void *data)
 
 /* Opens the scene of a system, which it takes. */
 static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
-                                        const char *const *words, bool moves, char *sentence)
+                                        const char *const *words, bool elsewhere, char *sentence)
 {
-    struct making making = {.system = system, .name = name, .words = words, .moves = moves};
+    struct making making = {.system = system, .name = name, .words = words, .elsewhere = elsewhere};
     struct gm_arena *arena = gm_arena_open();
     if (!gm_arena_run(arena, make, &making)) {
         gm_system_close(system);
@@ -1097,16 +1481,16 @@ static struct gm_system_scene *open_one(struct gm_user_system *system, const cha
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
                                           char *sentence)
 {
-    const bool moves = ((const struct user_field *)first)->kind == &moving_waves;
-    return open_one(system, first->scene.name, first->scene.words, moves, sentence);
+    const bool elsewhere = ((const struct user_field *)first)->elsewhere;
+    return open_one(system, first->scene.name, first->scene.words, elsewhere, sentence);
 }
 
 const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, bool moves, struct gm_fault *fault,
+                                          const char *const *words, bool elsewhere, struct gm_fault *fault,
                                           char *sentence)
 {
     const bool choices = system->choices.count > 0;
-    struct gm_system_scene *first = open_one(system, name, words, moves, sentence);
+    struct gm_system_scene *first = open_one(system, name, words, elsewhere, sentence);
     *fault = (struct gm_fault){0};
     if (first && choices &&
         !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {

@@ -6,13 +6,14 @@
 #include "scenes/common/scene.h"
 
 /* Returns a scene of a system that is a field, and takes the system, as gm_system_scene_open
-   (scenes/ode/system.h) does for all others. If `moves`, a wave equation is on a moving mesh. */
+   (scenes/ode/system.h) does for all others. If `elsewhere`, a wave equation is on a moving mesh, and an equation
+   that is recognised by its rates has the state of the schemes for it. */
 const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, bool moves, struct gm_fault *fault,
+                                          const char *const *words, bool elsewhere, struct gm_fault *fault,
                                           char *sentence);
-/* Returns how many of these schemes, separated by blanks or commas, or NULL, are on moving meshes; *others:
-   the number of the rest. */
-size_t gm_user_field_moving(const char *schemes, size_t *others);
+/* Returns how many of these schemes, separated by blanks or commas, or NULL, need that `elsewhere`; *others: the
+   number of the rest. */
+size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, size_t *others);
 void gm_user_field_close(const struct gm_scene *scene);
 
 #endif

@@ -131,9 +131,9 @@ static double energy(const struct gm_view *view)
 }
 
 /* The pendulum's energy passes zero; the oscillator's is the square of its amplitude. */
-static double natural_energy(const void *self)
+static double natural_energy(const struct gm_view *view)
 {
-    return ((const struct disc *)self)->system == PENDULUM ? 1 : 0;
+    return ((const struct disc *)view->parameters)->system == PENDULUM ? 1 : 0;
 }
 
 static const struct gm_observable observables[] = {

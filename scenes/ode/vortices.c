@@ -287,15 +287,15 @@ static double energy(const struct gm_view *view)
 }
 
 /* Returns the energy by which a pair differs if its distance grows by the factor e. */
-static double natural_energy(const void *self)
+static double natural_energy(const struct gm_view *view)
 {
-    const double strength = ((const struct gm_vortices *)self)->strength;
+    const double strength = ((const struct gm_vortices *)view->parameters)->strength;
     return strength * strength / (4 * M_PI);
 }
 
-static double radius(const void *self)
+static double radius(const struct gm_view *view)
 {
-    return (void)self, 1;
+    return (void)view, 1;
 }
 
 static const struct gm_observable observables[] = {

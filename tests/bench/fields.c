@@ -9,7 +9,6 @@
 
 #include "core/basics.h"
 #include "core/field/families/burgers.h"
-#include "core/field/problems/dispersive.h"
 #include "core/field/problems/wave.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"
@@ -17,6 +16,7 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/bench/timing.h"
+#include "tests/common/dispersive_solitons.h"
 #include "tests/common/sine_gordon.h"
 
 enum { REPEATS = 7 };
@@ -117,18 +117,14 @@ static void breather_levels(const struct gm_problem *problem, double dt, double 
 static void nls_levels(const struct gm_problem *problem, double dt, double *y)
 {
     (void)dt;
-    const size_t points = problem->line.points;
-    for (size_t i = 0; i < points; i++) {
-        gm_nls_exact(gm_nls_of(problem), &problem->line, gm_grid1_node(&problem->line, i), 0, &y[i],
-                     &y[points + i]);
-    }
+    bright_state(&(const struct bright){.amplitude = 1, .velocity = 1}, &problem->line, 0, y);
 }
 
 static void boxes(size_t points, double half_length, long steps)
 {
     static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
-    static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
-    static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
+    static const struct kdv_solution one_soliton = {
+        .initial = KDV_SOLITON, .kdv.eta = 1, .kdv.mu = 1, .velocity = 1};
     static const double ratios[] = {0.5, 2, 10, 20, 40};
     enum { COUNT = GM_COUNT(ratios) };
     const struct gm_grid1 line = {points, 2 * half_length / (double)points, -half_length, 0, false};
@@ -138,12 +134,11 @@ static void boxes(size_t points, double half_length, long steps)
     problem.n = gm_wave_size(points);
     larger_steps(&problem, ratios, COUNT, 0.05, steps, breather_levels);
     problem = gm_problem_kdv;
-    problem.parameters = &soliton;
+    problem.parameters = &one_soliton;
     problem.line = line;
     problem.n = gm_wave_size(points);
-    larger_steps(&problem, ratios, COUNT, 0.05, steps, gm_kdv_levels);
+    larger_steps(&problem, ratios, COUNT, 0.05, steps, kdv_levels);
     problem = gm_problem_nls;
-    problem.parameters = &bright;
     problem.line = line;
     problem.n = 2 * points;
     larger_steps(&problem, ratios, COUNT, 0.01, steps, nls_levels);
@@ -194,9 +189,9 @@ static void typed(size_t points)
          "start: p = sqrt(2)/cosh(x)*cos(x/2), q = sqrt(2)/cosh(x)*sin(x/2), v = 0, w = 0\n",
          0.02},
     };
-    static const struct gm_kdv soliton = {.eta = 1, .mu = 1, .velocity = 1};
+    static const struct kdv_solution one_soliton = {.kdv.eta = 1, .kdv.mu = 1, .velocity = 1};
     struct gm_problem built_in[] = {gm_problem_sine_gordon, gm_problem_kdv, gm_problem_nls};
-    built_in[1].parameters = &soliton;
+    built_in[1].parameters = &one_soliton;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct gm_user_system system;
         struct gm_user_form form;

@@ -16,6 +16,7 @@
 #include "core/field/problems/dispersive.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/kdv_solutions.h"
 #include "tests/numbers/field_runs.h"
 
 static const struct gm_settings no_settings;
@@ -93,7 +94,7 @@ static void three_korteweg_de_vries_solitons(void **unused)
     const double until = 100;
     double error[2][SOLITONS] = {{0}};
     for (int k = 0; k < 2; k++) {
-        const struct gm_kdv kdv = {.initial = GM_KDV_TWO, .eta = 1, .mu = 1};
+        const struct kdv_solution kdv = {.initial = KDV_TWO, .kdv.eta = 1, .kdv.mu = 1};
         struct gm_problem problem = gm_problem_kdv;
         const size_t points = 1000u << k;
         const double dt = ldexp(0.1, -k);

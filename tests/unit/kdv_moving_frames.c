@@ -15,6 +15,7 @@
 #include "core/field/families/kdv_moving_frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/kdv_solutions.h"
 
 static const struct gm_settings no_settings;
 static const char *const schemes[] = {"zabusky-kruskal-invariant", "evolution-projection"};
@@ -22,7 +23,7 @@ static const char *const schemes[] = {"zabusky-kruskal-invariant", "evolution-pr
 enum { POINTS = 160 };
 static const double half_length = 16;
 
-static struct gm_problem ring(const struct gm_kdv *kdv, double scale)
+static struct gm_problem ring(const struct kdv_solution *kdv, double scale)
 {
     struct gm_problem problem = gm_problem_kdv;
     problem.parameters = kdv;
@@ -38,7 +39,7 @@ static enum gm_status after(const struct gm_problem *problem, const char *scheme
 {
     const struct gm_kdv *kdv = gm_kdv_of(problem);
     double y[2 * POINTS + 1];
-    gm_kdv_levels(problem, dt, y);
+    kdv_levels(problem, dt, y);
     struct gm_run *run = gm_run_open(problem, gm_scheme_find(scheme), &no_settings, 0, dt, y);
     assert_non_null(run);
     const enum gm_status status = gm_run_until(run, until);
@@ -53,36 +54,41 @@ static enum gm_status after(const struct gm_problem *problem, const char *scheme
 static void symmetries_are_those_of_the_equation(void **unused)
 {
     (void)unused;
-    const struct gm_kdv kdv = {
-        .initial = GM_KDV_SOLITON, .eta = 1.5, .mu = 0.7, .velocity = 0.8, .position = -1, .lambda = 0.6};
+    const struct kdv_solution kdv = {.initial = KDV_SOLITON,
+                                     .kdv.eta = 1.5,
+                                     .kdv.mu = 0.7,
+                                     .velocity = 0.8,
+                                     .position = -1,
+                                     .kdv.lambda = 0.6};
     const struct gm_problem problem = ring(&kdv, 1);
     const double h = 0.02, x = 1.3, t = 0.9;
     double value[7], rate = 0;
     for (int k = -3; k <= 3; k++) {
-        value[k + 3] = gm_kdv_exact(&kdv, &problem.line, x + k * h, t);
+        value[k + 3] = kdv_exact(&kdv, &problem.line, x + k * h, t);
         rate += (k == 1 || k == -1   ? 3. / 4
                  : k == 2 || k == -2 ? -3. / 20
                                      : 1. / 60) *
                 (k > 0   ? 1
                  : k < 0 ? -1
                          : 0) *
-                gm_kdv_exact(&kdv, &problem.line, x, t + k * h);
+                kdv_exact(&kdv, &problem.line, x, t + k * h);
     }
     const double slope = (45 * (value[4] - value[2]) - 9 * (value[5] - value[1]) + value[6] - value[0]) / 60;
     const double third =
         (-13 * (value[4] - value[2]) + 8 * (value[5] - value[1]) - (value[6] - value[0])) / 8;
-    assert_true(fabs(rate / h + kdv.eta * value[3] * slope / h + kdv.mu * third / (h * h * h)) < 2e-5);
+    assert_true(fabs(rate / h + kdv.kdv.eta * value[3] * slope / h + kdv.kdv.mu * third / (h * h * h)) <
+                2e-5);
     /* a soliton of velocity c is carried to one of c + b, or of c/s^2 */
     const struct gm_kdv_symmetry symmetry = {.boost = 0.4, .scale = 1.3};
     const struct gm_event event = {.t = t, .x = x, .u = value[3]};
-    const struct gm_event carried = gm_kdv_carried(&kdv, &symmetry, event);
+    const struct gm_event carried = gm_kdv_carried(&kdv.kdv, &symmetry, event);
     const double s = symmetry.scale;
-    struct gm_kdv other = kdv;
+    struct kdv_solution other = kdv;
     other.velocity = kdv.velocity / (s * s);
     other.position = s * kdv.position;
-    other.lambda = (kdv.lambda + symmetry.boost) / (s * s);
+    other.kdv.lambda = (kdv.kdv.lambda + symmetry.boost) / (s * s);
     const struct gm_problem wide = ring(&other, s);
-    assert_true(fabs(carried.u - gm_kdv_exact(&other, &wide.line, carried.x, carried.t)) < 1e-13);
+    assert_true(fabs(carried.u - kdv_exact(&other, &wide.line, carried.x, carried.t)) < 1e-13);
 }
 
 /* Each node's step in its own frame: the levels are carried there, the scheme of the equation without
@@ -90,8 +96,8 @@ static void symmetries_are_those_of_the_equation(void **unused)
 static void leapfrog_is_made_in_its_frames(void **unused)
 {
     (void)unused;
-    const struct gm_kdv kdv = {
-        .initial = GM_KDV_TWO, .eta = 1.3, .mu = 0.6, .lambda = 0.7, .frame = GM_FRAME_MOVING};
+    const struct kdv_solution kdv = {
+        .initial = KDV_TWO, .kdv.eta = 1.3, .kdv.mu = 0.6, .kdv.lambda = 0.7, .kdv.frame = GM_FRAME_MOVING};
     const struct gm_problem problem = ring(&kdv, 1);
     const double dt = 0.002, h = problem.line.dx;
     double y[2 * POINTS + 1];
@@ -112,17 +118,17 @@ static void leapfrog_is_made_in_its_frames(void **unused)
         const struct gm_kdv_symmetry frame = {.boost = boosts[j], .scale = 1}, back = {-boosts[j], 1};
         for (size_t i = 0; i < 5; i++) {
             const struct gm_event event = {.x = ((double)i - 2) * h, .u = y[(j + i + POINTS - 2) % POINTS]};
-            u[i] = gm_kdv_carried(&kdv, &frame, event).u;
+            u[i] = gm_kdv_carried(&kdv.kdv, &frame, event).u;
         }
         assert_true(fabs(u[1] + u[2] + u[3]) < 1e-14); /* the cross-section */
         const struct gm_event past = gm_kdv_carried(
-            &kdv, &frame, (struct gm_event){.t = -dt, .x = -kdv.lambda * dt, .u = y[POINTS + j]});
+            &kdv.kdv, &frame, (struct gm_event){.t = -dt, .x = -kdv.kdv.lambda * dt, .u = y[POINTS + j]});
         /* du/dt along the way from -x to x is u_t + (x/dt) u_x */
         const double along = -past.x / dt * (u[3] - u[1]) / (2 * h);
-        const double dispersion = kdv.mu * (u[4] - 2 * u[3] + 2 * u[1] - u[0]) / (2 * h * h * h);
+        const double dispersion = kdv.kdv.mu * (u[4] - 2 * u[3] + 2 * u[1] - u[0]) / (2 * h * h * h);
         const struct gm_event next = {.t = dt, .x = -past.x, .u = past.u + 2 * dt * (along - dispersion)};
-        const struct gm_event arrived = gm_kdv_carried(&kdv, &back, next);
-        assert_true(fabs(arrived.x - kdv.lambda * dt) < 1e-15);
+        const struct gm_event arrived = gm_kdv_carried(&kdv.kdv, &back, next);
+        assert_true(fabs(arrived.x - kdv.kdv.lambda * dt) < 1e-15);
         assert_true(fabs(arrived.u - gm_run_state(run)[j]) < 1e-13);
     }
     gm_run_close(run);
@@ -145,10 +151,13 @@ static double neville(const double values[6], double at)
 static void projections_solve_their_equations(void **unused)
 {
     (void)unused;
-    const struct gm_kdv kdv = {
-        .initial = GM_KDV_SOLITON, .eta = 1.3, .mu = 0.6, .lambda = -0.9, .frame = GM_FRAME_MOVING};
+    const struct kdv_solution kdv = {.initial = KDV_SOLITON,
+                                     .kdv.eta = 1.3,
+                                     .kdv.mu = 0.6,
+                                     .kdv.lambda = -0.9,
+                                     .kdv.frame = GM_FRAME_MOVING};
     const struct gm_problem problem = ring(&kdv, 1);
-    const double dt = 0.3, h = problem.line.dx, half = kdv.mu * dt / 2;
+    const double dt = 0.3, h = problem.line.dx, half = kdv.kdv.mu * dt / 2;
     double y[2 * POINTS + 1], boosts[POINTS], rest[POINTS];
     for (size_t j = 0; j < POINTS; j++) {
         y[j] = 0.5 + sin(M_PI * gm_grid1_node(&problem.line, j) / half_length);
@@ -171,7 +180,7 @@ static void projections_solve_their_equations(void **unused)
                 continue;
             }
             /* the frame's boost is -eta w, and where the node arrives in it, it left */
-            const double left = (double)j + (kdv.lambda + boosts[j]) * dt / h;
+            const double left = (double)j + (kdv.kdv.lambda + boosts[j]) * dt / h;
             const double below = floor(left) - 2;
             double there[6], value[6];
             for (int i = 0; i < 6; i++) {
@@ -180,7 +189,7 @@ static void projections_solve_their_equations(void **unused)
                 value[i] = y[at];
             }
             assert_true(fabs(v[j] + half * third - neville(there, left - below)) < 1e-12);
-            assert_true(fabs(-boosts[j] / kdv.eta - (neville(value, left - below) + v[j]) / 2) < 1e-12);
+            assert_true(fabs(-boosts[j] / kdv.kdv.eta - (neville(value, left - below) + v[j]) / 2) < 1e-12);
         }
     }
     gm_run_close(run);
@@ -193,28 +202,28 @@ static void runs_do_not_depend_on_the_frame(void **unused)
     (void)unused;
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
         const double dt = s == 0 ? 0.002 : 0.05;
-        struct gm_kdv kdv = {
-            .initial = GM_KDV_SOLITON, .eta = 1.5, .mu = 0.7, .velocity = 0.8, .position = -2};
+        struct kdv_solution kdv = {
+            .initial = KDV_SOLITON, .kdv.eta = 1.5, .kdv.mu = 0.7, .velocity = 0.8, .position = -2};
         struct gm_problem problem = ring(&kdv, 1);
         double rest[POINTS], moving[POINTS];
         assert_int_equal(after(&problem, schemes[s], dt, 4, rest), GM_OK);
         double error = 0;
         for (size_t j = 0; j < POINTS; j++) {
-            error = fmax(
-                error, fabs(rest[j] - gm_kdv_exact(&kdv, &problem.line, gm_grid1_node(&problem.line, j), 4)));
+            error = fmax(error,
+                         fabs(rest[j] - kdv_exact(&kdv, &problem.line, gm_grid1_node(&problem.line, j), 4)));
         }
         assert_true(error < 0.05);
         static const double velocities[] = {-3, 0.7, 5};
         for (size_t i = 0; i < GM_COUNT(velocities); i++) {
-            kdv.lambda = velocities[i];
+            kdv.kdv.lambda = velocities[i];
             assert_int_equal(after(&problem, schemes[s], dt, 4, moving), GM_OK);
             for (size_t j = 0; j < POINTS; j++) {
                 assert_true(fabs(moving[j] - rest[j]) < 1e-12);
             }
         }
         const double scale = 1.3;
-        struct gm_kdv wide = kdv;
-        wide.lambda = 0;
+        struct kdv_solution wide = kdv;
+        wide.kdv.lambda = 0;
         wide.velocity /= scale * scale;
         wide.position *= scale;
         const struct gm_problem scaled = ring(&wide, scale);
@@ -225,11 +234,12 @@ static void runs_do_not_depend_on_the_frame(void **unused)
         }
     }
     /* on nodes at rest, over which the frame travels by 40 */
-    struct gm_kdv kdv = {.initial = GM_KDV_SOLITON, .eta = 1.5, .mu = 0.7, .velocity = 0.8, .position = -2};
+    struct kdv_solution kdv = {
+        .initial = KDV_SOLITON, .kdv.eta = 1.5, .kdv.mu = 0.7, .velocity = 0.8, .position = -2};
     struct gm_problem problem = ring(&kdv, 1);
     double rest[POINTS], moving[POINTS], apart = 0;
     assert_int_equal(after(&problem, "zabusky-kruskal", 0.002, 4, rest), GM_OK);
-    kdv.lambda = 2;
+    kdv.kdv.lambda = 2;
     assert_int_equal(after(&problem, "zabusky-kruskal", 0.002, 4, moving), GM_OK);
     for (size_t j = 0; j < POINTS; j++) {
         apart = fmax(apart, fabs(moving[(j + 40) % POINTS] - rest[j]));
@@ -241,7 +251,7 @@ static void runs_do_not_depend_on_the_frame(void **unused)
 static void meeting_neighbours_are_a_failure(void **unused)
 {
     (void)unused;
-    const struct gm_kdv kdv = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 4};
+    const struct kdv_solution kdv = {.initial = KDV_SOLITON, .kdv.eta = 1, .kdv.mu = 1, .velocity = 4};
     const struct gm_problem problem = ring(&kdv, 1);
     double u[POINTS];
     assert_int_equal(after(&problem, "evolution-projection", 2, 8, u), GM_NO_CONVERGENCE);

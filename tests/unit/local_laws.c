@@ -12,9 +12,9 @@
 #include <cmocka.h>
 
 #include "core/field/families/dispersive/form.h"
-#include "core/field/problems/dispersive.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/dispersive_solitons.h"
 
 enum { POINTS = 151, LAWS = 3 };
 
@@ -176,13 +176,14 @@ static void expect_laws(struct gm_run *run, bool complex_valued)
 static void kdv_tells_its_laws(void **unused)
 {
     (void)unused;
-    static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1.5, .mu = 0.8, .velocity = 1};
+    static const struct kdv_solution other = {
+        .initial = KDV_SOLITON, .kdv.eta = 1.5, .kdv.mu = 0.8, .velocity = 1};
     double y[2 * POINTS + 1];
     struct gm_problem problem = gm_problem_kdv;
-    problem.parameters = &soliton;
+    problem.parameters = &other;
     problem.line = (struct gm_grid1){POINTS, 40.0 / POINTS, -20, 0, false};
     problem.n = gm_wave_size(POINTS);
-    gm_kdv_levels(&problem, 0.1, y);
+    kdv_levels(&problem, 0.1, y);
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.1, y);
     assert_non_null(run);
     for (int k = 0; k < 10; k++) {
@@ -194,16 +195,12 @@ static void kdv_tells_its_laws(void **unused)
 static void nls_tells_its_laws(void **unused)
 {
     (void)unused;
-    static const struct gm_nls bright = {
-        .initial = GM_NLS_COLLISION, .amplitude = 1, .velocity = 1, .position = -2};
+    static const struct bright pair = {.amplitude = 1, .velocity = 1, .position = -2, .collides = true};
     double y[2 * POINTS];
     struct gm_problem problem = gm_problem_nls;
-    problem.parameters = &bright;
     problem.line = (struct gm_grid1){POINTS, 30.0 / POINTS, -15, 0, false};
     problem.n = 2 * POINTS;
-    for (size_t i = 0; i < POINTS; i++) {
-        gm_nls_exact(&bright, &problem.line, gm_grid1_node(&problem.line, i), 0, &y[i], &y[POINTS + i]);
-    }
+    bright_state(&pair, &problem.line, 0, y);
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.02, y);
     assert_non_null(run);
     for (int k = 0; k < 10; k++) {

@@ -20,9 +20,11 @@
 #include "core/field/problems/wave.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"
+#include "core/model/recognition.h"
 #include "core/ode/user/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/dispersive_solitons.h"
 #include "tests/common/lane.h"
 #include "tests/common/sine_gordon.h"
 
@@ -106,7 +108,7 @@ static void typed_again_it_is_the_built_in_equation(void **unused)
         for (size_t s = 0; s < GM_COUNT(all); s++) {
             const double dt = strcmp(all[s], "midpoint-box") == 0 ? 0.05 : 0.1;
             double ours[SIZE], theirs[SIZE];
-            gm_user_wave_levels(&typed.problem, dt, ours);
+            gm_user_line_levels(typed.problem.parameters, &typed.problem.line, dt, ours);
             gm_sine_gordon_levels(&built_in, 0, dt, theirs);
             assert_true(distance(ours, theirs) < 1e-13);
             advance(&typed.problem, all[s], dt, 60, ours, NULL);
@@ -170,6 +172,93 @@ static void the_scene_has_the_known_solutions(void **unused)
     }
 }
 
+/* The built-in file of Korteweg and de Vries' equation, too, from a moving frame and with the cosine's Euler step. */
+static void the_korteweg_scene_has_the_known_solutions(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words;
+        struct kdv_solution solution;
+    } cases[] = {
+        {"initial=soliton", {{.eta = 1, .mu = 1}, KDV_SOLITON, 1, -5}},
+        {"initial=soliton eta=1.5 mu=0.7 velocity=0.8 position=2 lambda=1.2 frame=fixed",
+         {{.eta = 1.5, .mu = 0.7, .lambda = 1.2}, KDV_SOLITON, 0.8, 2}},
+        {"initial=soliton half_length=3", {{.eta = 1, .mu = 1}, KDV_SOLITON, 1, -5}},
+        {"dt=0.05", {{.eta = 1, .mu = 1}, KDV_TWO, 1, -5}},
+        {"eta=2 mu=0.5 half_length=40 lambda=-0.5", {{.eta = 2, .mu = 0.5, .lambda = -0.5}, KDV_TWO, 1, -5}},
+        {"initial=cosine", {{.eta = 1, .mu = 0.022 * 0.022}, KDV_COSINE, 1, -5}},
+        {"initial=cosine lambda=0.3 mu=1e-3", {{.eta = 1, .mu = 1e-3, .lambda = 0.3}, KDV_COSINE, 1, -5}},
+    };
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
+        char words[200];
+        double levels[SIZE];
+        const struct kdv_solution *solution = &cases[i].solution;
+        snprintf(words, sizeof words, "kdv scheme=box points=%d %s", POINTS, cases[i].words);
+        struct gm_lane *lane = test_lane(words);
+        struct gm_problem problem = lane->problem;
+        problem.parameters = solution;
+        kdv_levels(&problem, lane->run->dt, levels);
+        if (!(distance(gm_lane_view(lane).state, levels) < 1e-12)) {
+            fail_msg("%s starts %.3g away", words, distance(gm_lane_view(lane).state, levels));
+        }
+        assert_int_equal(gm_run_advance(lane->run, 20), GM_OK);
+        const double t = lane->run->t, *u = gm_lane_view(lane).state;
+        double largest = 0;
+        for (size_t j = 0; j < POINTS; j++) {
+            const double x = gm_grid1_node(&problem.line, j);
+            largest = fmax(largest, fabs(u[j] - kdv_exact(solution, &problem.line, x, t)));
+        }
+        const double error = test_observed(lane, "solution_error");
+        const bool known = kdv_is_known(solution, &problem.line, t);
+        if (known != !isnan(error) || (known && !(fabs(error - largest) < 1e-11))) {
+            fail_msg("%s at t = %g: %.3g, not %.3g", words, t, error, known ? largest : NAN);
+        }
+        gm_lane_close(lane);
+    }
+}
+
+/* The built-in file of Schroedinger's equation, too: its start, its errors, and when no solution is known. */
+static void the_schroedinger_scene_has_the_known_solitons(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words;
+        struct bright solution;
+        bool known; /* after the start */
+    } cases[] = {
+        {"initial=soliton", {1, 1, -5, false}, true},
+        {"initial=soliton amplitude=0.7 velocity=-2 position=3", {0.7, -2, 3, false}, true},
+        {"initial=soliton half_length=6", {1, 1, -5, false}, false},
+        {"initial=collision velocity=0.5", {1, 0.5, -5, true}, false},
+    };
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
+        char words[200];
+        double exact[2 * POINTS];
+        snprintf(words, sizeof words, "nls scheme=box points=%d dt=0.02 %s", POINTS, cases[i].words);
+        struct gm_lane *lane = test_lane(words);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(gm_run_until(lane->run, 2.0 * k), GM_OK);
+            const double *y = gm_lane_view(lane).state;
+            double largest = 0, of_modulus = 0;
+            bright_state(&cases[i].solution, &lane->problem.line, lane->run->t, exact);
+            for (size_t j = 0; j < POINTS; j++) {
+                const double re = exact[j], im = exact[POINTS + j];
+                largest = fmax(largest, hypot(y[j] - re, y[POINTS + j] - im));
+                of_modulus = fmax(of_modulus, fabs(hypot(y[j], y[POINTS + j]) - hypot(re, im)));
+            }
+            const double errors[] = {test_observed(lane, "solution_error"),
+                                     test_observed(lane, "modulus_error")};
+            assert_true(k > 0 || largest < 1e-13);
+            assert_true(cases[i].known || k == 0 || (isnan(errors[0]) && isnan(errors[1])));
+            if ((cases[i].known || k == 0) &&
+                !(fabs(errors[0] - largest) < 1e-12 && fabs(errors[1] - of_modulus) < 1e-12)) {
+                fail_msg("%s: %.3g, %.3g, not %.3g, %.3g", words, errors[0], errors[1], largest, of_modulus);
+            }
+        }
+        gm_lane_close(lane);
+    }
+}
+
 #define PHI4 "field: u\nV: (u^2 - 1)^2/4\nstart: u = 1 + exp(-x^2)/2, u_t = x*exp(-x^2)\n"
 
 /* u + d u at the start and behind one step, of phi^4: Taylor's formula with derivatives by hand. */
@@ -190,7 +279,7 @@ static void phi4_moves_as_written_by_hand(void **unused)
     const double dt = 0.05, dx = 2 * HALF / POINTS;
     for (int conserving = 0; conserving < 2; conserving++) {
         double y[SIZE], past[POINTS], now[POINTS], next[POINTS];
-        gm_user_wave_levels(&typed.problem, dt, y);
+        gm_user_line_levels(typed.problem.parameters, &typed.problem.line, dt, y);
         for (size_t i = 0; i < POINTS; i++) {
             const double x = -HALF + (double)i * dx;
             past[i] = phi4_start(x, 0);
@@ -288,7 +377,7 @@ static void double_sine_gordon_moves_as_written_by_hand(void **unused)
     open_typed(&typed, DOUBLE);
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         double y[SIZE], past[POINTS], now[POINTS], next[POINTS], error = 0;
-        gm_user_wave_levels(&typed.problem, 0.05, y);
+        gm_user_line_levels(typed.problem.parameters, &typed.problem.line, 0.05, y);
         memcpy(past, y, sizeof past);
         memcpy(now, y + POINTS, sizeof now);
         for (int step = 1; step < 60; step++) {
@@ -316,7 +405,7 @@ static void the_multisymplectic_law_holds(void **unused)
     for (size_t s = 0; s < GM_COUNT(all); s++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(all[s], &typed.problem);
         double y[SIZE];
-        gm_user_wave_levels(&typed.problem, 0.05, y);
+        gm_user_line_levels(typed.problem.parameters, &typed.problem.line, 0.05, y);
         double residual;
         advance(&typed.problem, all[s], 0.05, 20, y, &residual);
         const bool claims = scheme->claims & GM_MULTISYMPLECTIC;
@@ -394,7 +483,7 @@ static void the_energy_is_of_the_potential_as_written(void **unused)
         struct typed typed;
         double y[SIZE];
         open_typed(&typed, texts[i]);
-        gm_user_wave_levels(&typed.problem, 0.05, y);
+        gm_user_line_levels(typed.problem.parameters, &typed.problem.line, 0.05, y);
         const double energy = i == 0 ? 0 : 3 * 2 * HALF;
         assert_true(fabs(gm_wave_energy(&typed.problem, y) - energy) < 1e-12);
         assert_true(fabs(gm_wave_cell_energy(&typed.problem, y) - energy) < 1e-12);
@@ -620,7 +709,7 @@ static void open_grids(struct grids *grids, const struct typed *typed, double dt
         problem->line.dx = 2 * HALF / (double)points;
         problem->n = gm_wave_size(points);
         double *start = malloc(problem->n * sizeof *start);
-        gm_user_wave_levels(problem, ldexp(dt, -(int)k), start);
+        gm_user_line_levels(problem->parameters, &problem->line, ldexp(dt, -(int)k), start);
         grids->system[k] = (struct gm_certified_system){.problem = problem,
                                                         .start = start,
                                                         .dt = ldexp(dt, -(int)k),
@@ -808,9 +897,62 @@ static void wrong_schemes_are_found_out(void **unused)
     close_typed(&typed);
 }
 
+/* Well-known equations are found whatever the order of their terms; not where a coefficient depends on x or u, nor with a
+   term more. */
+static void equations_are_recognised(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *rates, *name;
+        double constants[2]; /* with a = 2 */
+    } cases[] = {
+        {"u = -6*u*u_x - u_xxx", "Korteweg-de Vries", {6, 1}},
+        {"u = -u_xxx/a - 2*u_x*(a + 1)*u", "Korteweg-de Vries", {6, 0.5}},
+        {"u = -((u + u_x)^2 - u^2 - u_x^2)/2 - 3*u_xxx", "Korteweg-de Vries", {1, 3}},
+        {"u = 0.1*u_xx", "heat", {0.1}},
+        {"u = a*u_xx - u_x*u", "Burgers", {2}},
+        {"u = -2*u*u_x + u_xx", NULL, {0}},
+        {"u = -x*u*u_x - u_xxx", NULL, {0}},
+        {"u = -u^2*u_x - u_xxx", NULL, {0}},
+        {"u = -u*u_x - (1 + u^2)*u_xxx", NULL, {0}},
+        {"u = -u*u_x - u_xxx + u_xx", NULL, {0}},
+        {"u = -u_xxx", NULL, {0}},
+        {"p = -3*q*(q*q + p^2) - q_xx, q = p_xx + 3*(p^2 + q^2)*p", "nonlinear Schrödinger", {3}},
+        {"p = -q_xx - (p^2 + q^2)*q, q = p_xx + 2*(p^2 + q^2)*p", NULL, {0}},
+    };
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
+        char text[400];
+        struct gm_user_system system;
+        struct gm_recognised found;
+        struct gm_fault fault;
+        const bool two = cases[i].rates[0] == 'p';
+        snprintf(text, sizeof text, "field: %s\nparameter: a = 2\nrate: %s\nstart: %s\n", two ? "p q" : "u",
+                 cases[i].rates, two ? "p = cos(x), q = 0" : "u = cos(x)");
+        if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
+            fail_msg("%s: %s", text, fault.sentence);
+        }
+        assert_true(gm_equation_recognise(&system, &found));
+        if (!found.name != !cases[i].name || (found.name && strcmp(found.name, cases[i].name) != 0)) {
+            fail_msg("%s: %s", cases[i].rates, found.name ? found.name : "none");
+        }
+        double *start = gm_equations_start(&system, NULL);
+        double *values = malloc((system.graph.count + (size_t)1) * sizeof *values);
+        gm_formula_evaluate(&system.graph, system.graph.count, start, values);
+        for (size_t k = 0; found.name && k < GM_EQUATION_CONSTANTS && found.constants[k]; k++) {
+            assert_true(fabs(values[found.values[k]] - cases[i].constants[k]) < 1e-14);
+        }
+        free(values);
+        free(start);
+        gm_system_close(&system);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equations_are_recognised),
+        cmocka_unit_test(the_korteweg_scene_has_the_known_solutions),
+        cmocka_unit_test(the_schroedinger_scene_has_the_known_solitons),
         cmocka_unit_test(typed_again_it_is_the_built_in_equation),
         cmocka_unit_test(the_scene_has_the_known_solutions),
         cmocka_unit_test(phi4_moves_as_written_by_hand),

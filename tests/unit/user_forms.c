@@ -23,6 +23,7 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/kdv_solutions.h"
 
 static const struct gm_settings no_settings;
 static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4"};
@@ -155,7 +156,7 @@ static void typed_again_they_are_the_built_in_equations(void **unused)
         agree(&typed, &wave, 0, 1, 0.05, true);
         close_typed(&typed);
     }
-    static const struct gm_kdv soliton = {.eta = 1, .mu = 1, .velocity = 1, .position = -5};
+    static const struct kdv_solution soliton = {.kdv.eta = 1, .kdv.mu = 1, .velocity = 1, .position = -5};
     struct gm_problem kdv = gm_problem_kdv;
     open_typed(&typed, KDV, POINTS, 40);
     kdv.parameters = &soliton;

@@ -74,7 +74,7 @@ static double error_of(const char *scheme, size_t nodes, double dt, double *ener
     open_walled(&walled, KINK, nodes);
     const struct gm_grid1 *line = &walled.problem.line;
     double *y = malloc(walled.problem.n * sizeof *y), error = 0;
-    gm_user_wave_levels(&walled.problem, dt, y);
+    gm_user_line_levels(walled.problem.parameters, &walled.problem.line, dt, y);
     struct gm_run *run =
         gm_run_open(&walled.problem, gm_scheme_find_for(scheme, &walled.problem), &no_settings, 0, dt, y);
     assert_non_null(run);
@@ -121,7 +121,7 @@ static void leapfrog_steps_as_with_ghost_nodes(void **unused)
                 NODES);
     const double dt = 0.05, dx = 0.2;
     double *y = malloc(walled.problem.n * sizeof *y), past[NODES], now[NODES], next[NODES];
-    gm_user_wave_levels(&walled.problem, dt, y);
+    gm_user_line_levels(walled.problem.parameters, &walled.problem.line, dt, y);
     memcpy(past, y, sizeof past);
     memcpy(now, y + walled.problem.line.points, sizeof now);
     struct gm_run *run =

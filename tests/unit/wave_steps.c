@@ -34,7 +34,7 @@ static void nodes_solve_the_whole_system(void **unused)
         const bool centred = s == 1;
         struct gm_problem problem = kdv_problem(POINTS);
         double y[2 * POINTS + 1], u[3][POINTS], phi[3][POINTS + 1] = {{0}}, v[POINTS], w[POINTS];
-        gm_kdv_levels(&problem, dt, y);
+        kdv_levels(&problem, dt, y);
         memcpy(u[0], y, sizeof u[0]);
         memcpy(u[1], y + POINTS, sizeof u[1]);
         struct gm_run *run =
@@ -88,15 +88,6 @@ static void nodes_do_not_claim_too_much(void **unused)
     }
 }
 
-/* The state of the bright soliton. */
-static void nls_levels(const struct gm_problem *nls, double *y)
-{
-    const size_t points = nls->line.points;
-    for (size_t i = 0; i < points; i++) {
-        gm_nls_exact(&bright, &nls->line, gm_grid1_node(&nls->line, i), 0, &y[i], &y[points + i]);
-    }
-}
-
 /* The linear limits of the schemes of nodes: just below them a run stays bounded, just above it does not. */
 static void nodes_are_stable_below_their_limits(void **unused)
 {
@@ -118,9 +109,9 @@ static void nodes_are_stable_below_their_limits(void **unused)
             /* backwards as well */
             const double dt = (k % 2 ? 1.06 : 0.94) * cases[c].limit * (k < 2 ? 1 : -1);
             if (cases[c].problem == &kdv) {
-                gm_kdv_levels(&kdv, dt, y);
+                kdv_levels(&kdv, dt, y);
             } else {
-                nls_levels(&nls, y);
+                bright_state(&bright, &nls.line, 0, y);
             }
             struct gm_run *run =
                 gm_run_open(cases[c].problem, gm_scheme_find_for(cases[c].name, cases[c].problem),
@@ -192,17 +183,17 @@ static void boxes_of_first_order_take_large_steps(void **unused)
     double y[2 * POINTS + 1];
     const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
     for (double dt = 1; dt <= 4; dt *= 2) {
-        gm_kdv_levels(&kdv, dt, y);
-        const double mass = gm_kdv_mass(&kdv, y);
+        kdv_levels(&kdv, dt, y);
+        const double mass = kdv_mass(&kdv, y);
         struct gm_run *run = gm_run_open(&kdv, gm_scheme_find_for("box", &kdv), &no_settings, 0, dt, y);
         assert_int_equal(gm_run_advance(run, 20), GM_OK);
-        assert_true(fabs(gm_kdv_mass(&kdv, gm_run_state(run)) - mass) < 1e-11 * mass);
+        assert_true(fabs(kdv_mass(&kdv, gm_run_state(run)) - mass) < 1e-11 * mass);
         gm_run_close(run);
-        nls_levels(&nls, y);
-        const double charge = gm_nls_charge(&nls, y);
+        bright_state(&bright, &nls.line, 0, y);
+        const double charge = nls_charge(&nls, y);
         run = gm_run_open(&nls, gm_scheme_find_for("box", &nls), &no_settings, 0, dt, y);
         assert_int_equal(gm_run_advance(run, 20), GM_OK);
-        assert_true(fabs(gm_nls_charge(&nls, gm_run_state(run)) - charge) < 1e-12 * charge);
+        assert_true(fabs(nls_charge(&nls, gm_run_state(run)) - charge) < 1e-12 * charge);
         gm_run_close(run);
     }
 }

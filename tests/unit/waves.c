@@ -345,25 +345,21 @@ static void the_form_is_kept_or_not(void **unused)
     gm_sine_gordon_levels(&even, 0, 0.1, y);
     expect_law(&even, "box", 0.1, y, true);
     even = kdv_problem(60);
-    gm_kdv_levels(&even, 0.05, y);
+    kdv_levels(&even, 0.05, y);
     expect_law(&even, "box", 0.05, y, true);
     even = nls_problem(60);
-    for (size_t i = 0; i < 60; i++) {
-        gm_nls_exact(&bright, &even.line, gm_grid1_node(&even.line, i), 0, &y[i], &y[60 + i]);
-    }
+    bright_state(&bright, &even.line, 0, y);
     expect_law(&even, "box", 0.02, y, true);
     const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
-    gm_kdv_levels(&kdv, 0.05, y);
+    kdv_levels(&kdv, 0.05, y);
     expect_law(&kdv, "box", 0.05, y, true);
-    gm_kdv_levels(&kdv, 0.01, y);
+    kdv_levels(&kdv, 0.01, y);
     expect_law(&kdv, "euler-box", 0.01, y, true);
     expect_law(&kdv, "midpoint-box", 0.01, y, true);
-    gm_kdv_levels(&kdv, -0.01, y);
+    kdv_levels(&kdv, -0.01, y);
     expect_law(&kdv, "euler-box", -0.01, y, true);
     expect_law(&kdv, "midpoint-box", -0.01, y, true);
-    for (size_t i = 0; i < POINTS; i++) {
-        gm_nls_exact(&bright, &nls.line, gm_grid1_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
-    }
+    bright_state(&bright, &nls.line, 0, y);
     expect_law(&nls, "box", 0.02, y, true);
     expect_law(&nls, "euler-box", 0.02, y, true);
     expect_law(&nls, "euler-box", -0.02, y, true);
@@ -414,7 +410,7 @@ static double box_square(const struct gm_problem *problem, const double *y)
 {
     double *profile = gm_field_profile(problem, gm_scheme_find("box"), y);
     assert_non_null(profile);
-    const double square = gm_kdv_square(problem, profile);
+    const double square = kdv_square(problem, profile);
     free(profile);
     return square;
 }
@@ -424,7 +420,13 @@ static double box_energy(const struct gm_problem *problem, const double *y)
     double *re = gm_field_profile(problem, gm_scheme_find("box"), y);
     double *im = gm_field_profile(problem, gm_scheme_find("box"), y + problem->line.points);
     assert_true(re && im);
-    const double energy = gm_nls_energy(problem, re, im);
+    const size_t points = problem->line.points;
+    double energy = 0;
+    for (size_t i = 0; i < points; i++) {
+        const double square = re[i] * re[i] + im[i] * im[i];
+        energy += problem->line.dx *
+                  (re[points + i] * re[points + i] + im[points + i] * im[points + i] - square * square / 2);
+    }
     free(re);
     free(im);
     return energy;
@@ -465,19 +467,19 @@ static void dispersive_levels_agree(void **unused)
     double y[2 * REFERENCE_POINTS + 1] = {0};
     memcpy(y, level("kdv_one_soliton_level_0"), bytes);
     y[2 * REFERENCE_POINTS] = 0.05;
-    expect_number(gm_kdv_mass(&problem, y), kdv_box_invariants[0], 1e-13);
+    expect_number(kdv_mass(&problem, y), kdv_box_invariants[0], 1e-13);
     expect_number(box_square(&problem, y), kdv_box_invariants[1], 1e-13);
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
     expect_level(gm_run_state(run), level("kdv_box_level_20"), 1e-12 + 100 * 4.6e-15, "kdv box");
-    expect_number(gm_kdv_mass(&problem, gm_run_state(run)), kdv_box_invariants[2], 1e-12);
+    expect_number(kdv_mass(&problem, gm_run_state(run)), kdv_box_invariants[2], 1e-12);
     expect_number(box_square(&problem, gm_run_state(run)), kdv_box_invariants[3], 1e-11);
     gm_run_close(run);
 
-    const struct gm_kdv cosine = {.initial = GM_KDV_COSINE, .eta = 1, .mu = 0.022 * 0.022};
+    const struct kdv_solution cosine = {.initial = KDV_COSINE, .kdv.eta = 1, .kdv.mu = 0.022 * 0.022};
     problem.parameters = &cosine;
     problem.line = (struct gm_grid1){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0, false};
-    gm_kdv_levels(&problem, 1e-3, y);
+    kdv_levels(&problem, 1e-3, y);
     expect_level(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), 1e-15, "second level of the cosine");
     memcpy(y, level("kdv_cosine_level_0"), bytes);
     memcpy(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), bytes);
@@ -485,20 +487,20 @@ static void dispersive_levels_agree(void **unused)
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
     expect_level(gm_run_state(run), level("kdv_zabusky_kruskal_level_20"), 1e-12 + 100 * 2.5e-15,
                  "zabusky-kruskal");
-    assert_true(fabs(gm_kdv_mass(&problem, gm_run_state(run))) < 1e-13);
+    assert_true(fabs(kdv_mass(&problem, gm_run_state(run))) < 1e-13);
     gm_run_close(run);
 
     problem = nls_problem(REFERENCE_POINTS);
     memcpy(y, level("nls_one_soliton_level_0_re"), bytes);
     memcpy(y + REFERENCE_POINTS, level("nls_one_soliton_level_0_im"), bytes);
-    expect_number(gm_nls_charge(&problem, y), nls_box_invariants[0], 1e-13);
+    expect_number(nls_charge(&problem, y), nls_box_invariants[0], 1e-13);
     expect_number(box_energy(&problem, y), nls_box_invariants[1], 1e-13);
     run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
     expect_level(gm_run_state(run), level("nls_box_level_20_re"), 1e-12 + 100 * 1.1e-14, "nls box");
     expect_level(gm_run_state(run) + REFERENCE_POINTS, level("nls_box_level_20_im"), 1e-12 + 100 * 1.1e-14,
                  "nls box");
-    expect_number(gm_nls_charge(&problem, gm_run_state(run)), nls_box_invariants[2], 1e-12);
+    expect_number(nls_charge(&problem, gm_run_state(run)), nls_box_invariants[2], 1e-12);
     expect_number(box_energy(&problem, gm_run_state(run)), nls_box_invariants[3], 1e-11);
     gm_run_close(run);
 }
@@ -564,9 +566,9 @@ static double derivative(double (*u)(double x, double t), double x, double t, in
 
 static double two_kdv_solitons(double x, double t)
 {
-    static const struct gm_kdv two = {.initial = GM_KDV_TWO, .eta = 1, .mu = 1};
+    static const struct kdv_solution two = {.initial = KDV_TWO, .kdv.eta = 1, .kdv.mu = 1};
     static const struct gm_grid1 ring = {1000, 0.1, -50, 0, false};
-    return gm_kdv_exact(&two, &ring, x, t);
+    return kdv_exact(&two, &ring, x, t);
 }
 
 /* The sum over the images of the two solitons on the line, which holds while none meets another's image. */
@@ -628,10 +630,8 @@ static void short_rings_have_no_exact_waves(void **unused)
 {
     (void)unused;
     const struct gm_grid1 wide = {100, 0.4, -20, 0, false}, narrow = {100, 0.1, -5, 0, false};
-    const struct gm_kdv one = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
-    const struct gm_nls bright_one = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
-    assert_true(gm_kdv_is_known(&one, &wide, 1) && !gm_kdv_is_known(&one, &narrow, 1));
-    assert_true(gm_nls_is_known(&bright_one, &wide, 1) && !gm_nls_is_known(&bright_one, &narrow, 1));
+    const struct kdv_solution one = {.initial = KDV_SOLITON, .kdv.eta = 1, .kdv.mu = 1, .velocity = 1};
+    assert_true(kdv_is_known(&one, &wide, 1) && !kdv_is_known(&one, &narrow, 1));
     assert_true(gm_sine_gordon_is_known(&parting, 20, 1000) && !gm_sine_gordon_is_known(&parting, 5, 1000));
     /* two that hardly move part for a while, until their images pull as hard */
     const struct gm_sine_gordon slow = {.initial = GM_KINK_ANTIKINK, .velocity = 1e-6};

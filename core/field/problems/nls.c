@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The nonlinear Schroedinger equation i psi_t + psi_xx + |psi|^2 psi = 0 in multisymplectic form, psi = p + i
-   q, s = (p, q, v, w):
-        q_t - v_x = |psi|^2 p
-       -p_t - w_x = |psi|^2 q
+/* The nonlinear Schroedinger equation i psi_t + psi_xx + k |psi|^2 psi = 0 in multisymplectic form,
+   psi = p + i q, s = (p, q, v, w):
+        q_t - v_x = k |psi|^2 p
+       -p_t - w_x = k |psi|^2 q
         p_x       = v
         q_x       = w
-       S = (p^2 + q^2)^2/4 + (v^2 + w^2)/2
+       S = k (p^2 + q^2)^2/4 + (v^2 + w^2)/2
    A.L. Islas, D.A. Karpeev & C.M. Schober, J. Comput. Phys. 173 (2001) 116. (S as printed in Razafindralandy
    et al. (2018) is another one.) */
-#include <complex.h>
 #include <math.h>
 
 #include "core/field/multisymplectic.h"
@@ -26,22 +25,23 @@ static double dispersion(const struct gm_problem *problem)
 static void nonlinear(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count)
 {
-    (void)problem;
+    const double factor = gm_nls_of(problem)->k;
     for (size_t i = 0; i < count; i++) {
-        const double square = re[i] * re[i] + im[i] * im[i];
+        const double square = factor * (re[i] * re[i] + im[i] * im[i]);
         g_re[i] = square * re[i];
         g_im[i] = square * im[i];
     }
 }
 
-/* 2 |m|^2 f + m^2 conj f */
+/* k (2 |m|^2 f + m^2 conj f) */
 static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
                        size_t count)
 {
-    (void)problem;
+    const double factor = gm_nls_of(problem)->k;
     for (size_t i = 0; i < count; i++) {
         const double re = base[i], im = base[count + i], f_re = f[i], f_im = f[count + i];
-        const double square = 2 * (re * re + im * im), twice_re = re * re - im * im, twice_im = 2 * re * im;
+        const double square = factor * (2 * (re * re + im * im)), twice_re = factor * (re * re - im * im),
+                     twice_im = factor * (2 * re * im);
         g[i] = square * f_re + twice_re * f_re + twice_im * f_im;
         g[count + i] = square * f_im + twice_im * f_re - twice_re * f_im;
     }
@@ -90,9 +90,8 @@ static void complete(const struct gm_problem *problem, double dt, const double *
 
 static double potential(const struct gm_problem *problem, double re, double im)
 {
-    (void)problem;
     const double square = re * re + im * im;
-    return square * square / 4;
+    return gm_nls_of(problem)->k * (square * square / 4);
 }
 
 /* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is the derivative
@@ -116,67 +115,6 @@ static void content(const struct gm_problem *problem, double dt, double *means, 
     }
 }
 
-/* Adds one soliton; on the ring its phase follows it. */
-static void add_soliton(const struct gm_nls *nls, const struct gm_grid1 *grid, double c, double x0, double x,
-                        double t, double *re, double *im)
-{
-    const double period = grid->dx * (double)grid->points, a = nls->amplitude;
-    double away = x - x0 - c * t;
-    away -= period * floor(away / period + 0.5);
-    const double size = sqrt(2) * a / cosh(a * away), phase = c * away / 2 + (a * a + c * c / 4) * t;
-    *re += size * cos(phase);
-    *im += size * sin(phase);
-}
-
-void gm_nls_exact(const struct gm_nls *nls, const struct gm_grid1 *grid, double x, double t, double *re,
-                  double *im)
-{
-    *re = *im = nls->initial == GM_NLS_COLLISION && t != 0 ? NAN : 0;
-    add_soliton(nls, grid, nls->velocity, nls->position, x, t, re, im);
-    if (nls->initial == GM_NLS_COLLISION) {
-        add_soliton(nls, grid, -nls->velocity, -nls->position, x, t, re, im);
-    }
-}
-
-bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_grid1 *grid, double t)
-{
-    const double half = grid->dx * (double)grid->points / 2;
-    return t == 0 || (nls->initial == GM_NLS_SOLITON && 2 * exp(-nls->amplitude * half) <= 1e-3);
-}
-
-double gm_nls_charge(const struct gm_problem *problem, const double *y)
-{
-    const size_t points = problem->line.points;
-    double sum = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t right = i + 1 < points ? i + 1 : 0;
-        const double re = (y[i] + y[right]) / 2, im = (y[points + i] + y[points + right]) / 2;
-        sum += re * re + im * im;
-    }
-    return problem->line.dx * sum;
-}
-
-double gm_nls_energy(const struct gm_problem *problem, const double *re, const double *im)
-{
-    const size_t points = problem->line.points;
-    const double *re_slope = re + points, *im_slope = im + points;
-    double sum = 0;
-    for (size_t i = 0; i < points; i++) {
-        const double square = re[i] * re[i] + im[i] * im[i];
-        sum += re_slope[i] * re_slope[i] + im_slope[i] * im_slope[i] - square * square / 2;
-    }
-    return problem->line.dx * sum;
-}
-
-double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
-{
-    double sum = 0;
-    for (size_t i = 0; i < 2 * problem->line.points; i++) {
-        sum += y[i] * y[i];
-    }
-    return problem->line.dx * sum;
-}
-
 static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
@@ -189,6 +127,7 @@ static const struct gm_dispersive dispersive = {.power = 2,
                                                 .complete = complete};
 
 const struct gm_problem gm_problem_nls = {
+    .parameters = &(const struct gm_nls){.k = 1},
     .name = "nonlinear Schrödinger",
     .kind = &gm_kind_field,
     .facets = &(const struct gm_field){.form = &form, .dispersive = &dispersive, .equation = GM_NEEDS_NLS},

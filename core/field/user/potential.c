@@ -136,18 +136,6 @@ static const struct gm_wave formulas = {
     .quotient_slope = quotient_slope,
 };
 
-static bool jump_of(const struct gm_user_system *system, const gm_node_id *node, const double *values,
-                    double *jump)
-{
-    struct gm_tape tape;
-    const bool good = gm_tape_open(&tape, &system->graph, node, 1, 0, values);
-    if (good) {
-        gm_tape_values(&tape, NULL, jump, 1);
-    }
-    gm_tape_close(&tape);
-    return good;
-}
-
 /* Returns the problem whose loops compute V = 0 or V = 1 - cos(u); NULL for other potentials. */
 static const struct gm_problem *known_potential(const struct gm_user_system *system)
 {
@@ -190,7 +178,7 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
            gm_tape_open(&self->curvature, &system->graph, &wave->by_u[1], 1, 1, values) &&
            gm_user_line_open(&self->line, system, wave->start, gm_wave_start_count(wave), &wave->exact,
                              values) &&
-           (!jump || jump_of(system, jump->nodes, values, &problem->line.jump));
+           (!jump || gm_user_line_numbers(system, jump->nodes, 1, values, &problem->line.jump));
 }
 
 void gm_user_wave_close(struct gm_problem *problem)
@@ -205,39 +193,6 @@ void gm_user_wave_close(struct gm_problem *problem)
     }
     free(self);
     problem->parameters = problem->facets = NULL;
-}
-
-/* ---- the start ---- */
-
-/* u(t) by Taylor's formula about t = 0, of rates that lie apart. */
-static double taylor(const double *rates, size_t apart, double t)
-{
-    double u = 0;
-    for (size_t k = GM_TYPED_START; k-- > 0;) {
-        u = rates[k * apart] + u * t / (double)(k + 1);
-    }
-    return u;
-}
-
-void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y)
-{
-    const struct own *self = own_of(problem);
-    const size_t points = problem->line.points;
-    const bool known = self->line.exact.outputs > 0;
-    double rates[GM_LINE_BLOCK], places[2 * GM_LINE_ROOM];
-    for (size_t first = 0, some; first < points; first += some) {
-        some = gm_user_line_block(&self->line, &problem->line, first, rates);
-        for (size_t i = 0; i < some; i++) {
-            y[first + i] = rates[i];
-            y[points + first + i] = known ? 0 : taylor(rates + i, some, gap);
-            places[i] = gm_grid1_node(&problem->line, first + i);
-            places[some + i] = gap;
-        }
-        if (known) {
-            gm_tape_values(&self->line.exact, places, y + points + first, some);
-        }
-    }
-    y[2 * points] = gap;
 }
 
 bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size)

@@ -13,10 +13,6 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
                        const struct gm_grid1 *grid);
 void gm_user_wave_close(struct gm_problem *problem);
 
-/* Writes the state of a wave problem: the level at t = 0, and the level at `gap`, which is exact if the
-   exact solution is given. */
-void gm_user_wave_levels(const struct gm_problem *problem, double gap, double *y);
-
 /* Returns true if the field closes on the problem's line: it is finite everywhere; u at the ends differs
    by the jump, up to a thousandth of its range; and V' has the jump as a period. Walls need no closure and
    have no jump. Else `sentence` is the reason. */

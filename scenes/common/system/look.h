@@ -114,6 +114,7 @@ struct gm_line_keys {
     long points;
     int space; /* enum gm_derivatives */
     int walls;
+    int frame;    /* enum gm_frame_nodes, for the schemes of Korteweg and de Vries' equation */
     double alpha; /* only on a moving mesh */
     int density;  /* enum gm_mesh_density */
 };

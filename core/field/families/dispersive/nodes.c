@@ -99,16 +99,17 @@ static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const
                               const double *q, double *tangent_p, double *tangent_q)
 {
     const struct gm_grid1 *grid = &problem->line;
+    const double k = gm_nls_of(problem)->k;
     for (size_t i = 0; i < grid->points; i++) {
         const double p = p_new[i];
-        tangent_p[i] =
-            (tangent_p[i] - dt * (second(tangent_q, i, 1, grid) + (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
-            (1 + 2 * dt * q[i] * p);
+        tangent_p[i] = (tangent_p[i] -
+                        dt * (second(tangent_q, i, 1, grid) + k * (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
+                       (1 + 2 * dt * k * q[i] * p);
     }
     for (size_t i = 0; i < grid->points; i++) {
         const double p = p_new[i];
-        tangent_q[i] += dt * (second(tangent_p, i, 1, grid) + (3 * p * p + q[i] * q[i]) * tangent_p[i] +
-                              2 * q[i] * p * tangent_q[i]);
+        tangent_q[i] += dt * (second(tangent_p, i, 1, grid) + k * (3 * p * p + q[i] * q[i]) * tangent_p[i] +
+                              2 * k * q[i] * p * tangent_q[i]);
     }
 }
 

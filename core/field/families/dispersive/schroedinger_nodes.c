@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Euler box for the nonlinear Schroedinger equation, psi = p + i q, all but the field eliminated, with
    the state p^{n-1} and q^n (d2 is the second difference in x):
-       (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
-       (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
+       (p^n - p^{n-1})/dt + d2 q^n + k (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
+       (q^{n+1} - q^n)/dt - d2 p^n - k (p^n p^n + q^n q^n) p^n = 0
    stable for dt < dx^2/2. B. Moore & S. Reich, Numer. Math. 95 (2003) 625. There is no midpoint scheme
    for Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
    amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the limit of linear
@@ -14,6 +14,7 @@
 #include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
+#include "core/field/problems/dispersive.h"
 
 static double second(const double *u, size_t i, const struct gm_grid1 *grid)
 {
@@ -21,12 +22,14 @@ static double second(const double *u, size_t i, const struct gm_grid1 *grid)
     return (u[(i + 1) % points] - 2 * u[i] + u[(i + points - 1) % points]) / (grid->dx * grid->dx);
 }
 
-/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; returns false without a real p'. */
-static bool nls_first(const struct gm_grid1 *grid, double dt, double *p, const double *q)
+/* p := p - dt [d2 q + k (p'^2 + q^2) q] with the new p' inside; returns false without a real p'. */
+static bool nls_first(const struct gm_problem *problem, double dt, double *p, const double *q)
 {
+    const struct gm_grid1 *grid = &problem->line;
+    const double k = gm_nls_of(problem)->k;
     for (size_t i = 0; i < grid->points; i++) {
-        const double free = p[i] - dt * (second(q, i, grid) + q[i] * q[i] * q[i]);
-        const double discriminant = 1 + 4 * dt * q[i] * free;
+        const double free = p[i] - dt * (second(q, i, grid) + k * (q[i] * q[i] * q[i]));
+        const double discriminant = 1 + 4 * dt * k * q[i] * free;
         if (discriminant < 0) {
             return false;
         }
@@ -35,10 +38,12 @@ static bool nls_first(const struct gm_grid1 *grid, double dt, double *p, const d
     return true;
 }
 
-static void nls_second(const struct gm_grid1 *grid, double dt, const double *p, double *q)
+static void nls_second(const struct gm_problem *problem, double dt, const double *p, double *q)
 {
+    const struct gm_grid1 *grid = &problem->line;
+    const double k = gm_nls_of(problem)->k;
     for (size_t i = 0; i < grid->points; i++) {
-        q[i] += dt * (second(p, i, grid) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
+        q[i] += dt * (second(p, i, grid) + k * (p[i] * p[i] + q[i] * q[i]) * p[i]);
     }
 }
 
@@ -50,11 +55,11 @@ static struct gm_progress advance(const struct gm_task *task)
     memcpy(p, task->y, 2 * grid->points * sizeof *p);
     for (int64_t k = 0; k < task->steps; k++) {
         progress.iterations++;
-        if (!nls_first(grid, task->dt, p, q)) {
+        if (!nls_first(task->problem, task->dt, p, q)) {
             progress.status = GM_NO_CONVERGENCE;
             return progress;
         }
-        nls_second(grid, task->dt, p, q);
+        nls_second(task->problem, task->dt, p, q);
         progress.evaluations++;
         if (!gm_field_stepped(task, &progress, p, 2 * grid->points)) {
             return progress;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Split-step Fourier method for i psi_t + psi_xx + |psi|^2 psi = 0: both parts exactly,
-       psi   := exp(i |psi|^2 dt/2) psi
-       psi_k := exp(-i k^2 dt) psi_k
-       psi   := exp(i |psi|^2 dt/2) psi
+/* Split-step Fourier method for i psi_t + psi_xx + k |psi|^2 psi = 0: both parts exactly,
+       psi   := exp(i k |psi|^2 dt/2) psi
+       psi_m := exp(-i m^2 dt) psi_m
+       psi   := exp(i k |psi|^2 dt/2) psi
    R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423; J.A.C. Weideman & B.M. Herbst, SIAM J. Numer. Anal. 23
    (1986) 485: stable for dt < dx^2/pi on a plane wave's background. */
 #include <complex.h>
@@ -12,13 +12,14 @@
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/problems/dispersive.h"
 #include "core/linear/fourier.h"
 
 struct work {
     size_t points;
     struct gm_fourier *fourier;
     double *psi;   /* pairs of real and imaginary part */
-    double *turns; /* exp(-i k^2 dt), pairs */
+    double *turns; /* exp(-i m^2 dt), pairs */
 };
 
 static void workspace_close(void *workspace)
@@ -63,6 +64,7 @@ static struct gm_progress advance(const struct gm_task *task)
     const size_t points = work->points;
     const double period = task->problem->line.dx * (double)points;
     double *psi = work->psi;
+    const double half = gm_nls_of(task->problem)->k * (task->dt / 2);
     struct gm_progress progress = {.status = GM_OK};
     for (size_t i = 0; i < points; i++) {
         const double k = 2 * M_PI / period * (i <= points / 2 ? (double)i : (double)i - (double)points);
@@ -72,13 +74,13 @@ static struct gm_progress advance(const struct gm_task *task)
         psi[2 * i + 1] = task->y[points + i];
     }
     for (int64_t step = 0; step < task->steps; step++) {
-        nonlinear_half(psi, points, task->dt / 2);
+        nonlinear_half(psi, points, half);
         gm_fourier_forward(work->fourier, (double complex *)(void *)psi);
         for (size_t i = 0; i < points; i++) {
             turn(psi + 2 * i, work->turns[2 * i], work->turns[2 * i + 1]);
         }
         gm_fourier_inverse(work->fourier, (double complex *)(void *)psi);
-        nonlinear_half(psi, points, task->dt / 2);
+        nonlinear_half(psi, points, half);
         progress.evaluations++;
         if (!gm_field_stepped(task, &progress, psi, 2 * points)) {
             return progress;
