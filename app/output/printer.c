@@ -110,8 +110,10 @@ bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct g
         return no_memory(look, message);
     }
     if (print->format != GM_FORMAT_PNG) {
-        const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
-            path, look, picture, texts, count, &print->fields, message);
+        struct gm_drawing drawing = {.look = look, .picture = picture, .texts = texts, .count = count};
+        const bool drawn =
+            (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(path, &drawing, message);
+        print->fields = drawing.fields;
         if (!drawn && errno == ENOMEM) {
             gm_memory_refused(); /* possibly Cairo's, which does not report it otherwise */
         }
@@ -120,7 +122,13 @@ bool gm_printer_write(struct gm_printer *press, struct gm_print *print, struct g
     if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
         return no_memory(look, message);
     }
-    return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
+    const struct gm_png image = {.width = look->width,
+                                 .height = look->height,
+                                 .dpi = look->dpi,
+                                 .pixels = press->rgb,
+                                 .texts = texts,
+                                 .text_count = count};
+    return gm_png_write(path, &image, message);
 }
 
 int gm_printer_fail(const char *path, const char *message)
