@@ -66,8 +66,11 @@ static bool write_file(struct gm_print *print, struct gm_picture *picture, struc
         return false;
     }
     if (!canvas) {
-        const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
-            path, look, picture, provenance->texts, provenance->count, &print->fields, message);
+        struct gm_drawing drawing = {
+            .look = look, .picture = picture, .texts = provenance->texts, .count = provenance->count};
+        const bool drawn =
+            (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(path, &drawing, message);
+        print->fields = drawing.fields;
         if (!drawn && errno == ENOMEM) {
             gm_memory_refused(); /* possibly Cairo's, which does not report it otherwise */
         }
@@ -76,8 +79,13 @@ static bool write_file(struct gm_print *print, struct gm_picture *picture, struc
     if (!gm_canvas_paint(canvas, picture, rgb)) {
         gm_memory_refused();
     }
-    return !gm_memory_was_short() && gm_png_write(path, look->width, look->height, look->dpi, rgb,
-                                                  provenance->texts, provenance->count, message);
+    const struct gm_png image = {.width = look->width,
+                                 .height = look->height,
+                                 .dpi = look->dpi,
+                                 .pixels = rgb,
+                                 .texts = provenance->texts,
+                                 .text_count = provenance->count};
+    return !gm_memory_was_short() && gm_png_write(path, &image, message);
 }
 
 /* The painter of a canvas, or the writer of a drawing. */

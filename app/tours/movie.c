@@ -129,8 +129,13 @@ static bool write_page(struct show *show, const char *suffix)
     if (gm_provenance_make(&provenance, &session->log, &output->look, gm_canvas_backend(show->canvas)) &&
         gm_provenance_take_lanes(&provenance, (const struct gm_lane *const *)session->lanes, session->count,
                                  false)) {
-        show->failed = !gm_png_write(path, output->look.width, output->look.height, output->look.dpi,
-                                     show->rgb, provenance.texts, provenance.count, show->message);
+        const struct gm_png image = {.width = output->look.width,
+                                     .height = output->look.height,
+                                     .dpi = output->look.dpi,
+                                     .pixels = show->rgb,
+                                     .texts = provenance.texts,
+                                     .text_count = provenance.count};
+        show->failed = !gm_png_write(path, &image, show->message);
     } else {
         fail(show, "not enough memory");
     }

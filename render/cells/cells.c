@@ -74,21 +74,36 @@ static void paint_text(struct painter *painter, const struct gm_label *label, in
     gm_cells_text(painter->cells, column, row, -1, label->text, &look);
 }
 
-/* Draws grid and axes as dots of the raster, beneath the marks; the dots must be as fine as a hairline. */
-static void paint_dotted_grid(struct gm_raster *raster, const struct gm_axes *axes)
+/* A cell on the screen; NULL beyond its edges. */
+static struct gm_cell *cell_at(const struct gm_cells *cells, int column, int row)
+{
+    return column >= 0 && row >= 0 && column < cells->columns && row < cells->rows
+               ? &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column]
+               : NULL;
+}
+
+/* Draws the grid and the axes as rules from (x0, y0) to (x1, y1). */
+static void paint_rules(const struct gm_axes *axes,
+                        void (*rule)(void *self, const double from_to[4], bool axis), void *self)
 {
     const struct gm_box *box = &axes->box;
-    double right = box->x + box->width, bottom = box->y + box->height;
+    const double right = box->x + box->width, bottom = box->y + box->height;
     for (size_t i = 0; i < axes->x_tick_count; i++) {
-        double x = axes->x_ticks[i].position;
-        gm_marks_rule(raster, (const double[]){x, box->y, x, bottom}, GM_GRID, 2);
+        const double x = axes->x_ticks[i].position;
+        rule(self, (const double[]){x, box->y, x, bottom}, false);
     }
     for (size_t i = 0; i < axes->y_tick_count; i++) {
-        double y = axes->y_ticks[i].position;
-        gm_marks_rule(raster, (const double[]){box->x, y, right, y}, GM_GRID, 2);
+        const double y = axes->y_ticks[i].position;
+        rule(self, (const double[]){box->x, y, right, y}, false);
     }
-    gm_marks_rule(raster, (const double[]){box->x, box->y, box->x, bottom}, GM_SECONDARY, 1);
-    gm_marks_rule(raster, (const double[]){box->x, bottom, right, bottom}, GM_SECONDARY, 1);
+    rule(self, (const double[]){box->x, bottom, right, bottom}, true);
+    rule(self, (const double[]){box->x, box->y, box->x, bottom}, true);
+}
+
+/* Draws a rule as dots of the raster, beneath the marks; the dots must be as fine as a hairline. */
+static void dotted_rule(void *raster, const double from_to[4], bool axis)
+{
+    gm_marks_rule(raster, from_to, axis ? GM_SECONDARY : GM_GRID, axis ? 1 : 2);
 }
 
 /* The arms of characters for grid and axes, in cells that the marks left blank: thinner than any block. */
@@ -97,11 +112,10 @@ enum { RULE_LEFT = 1, RULE_RIGHT = 2, RULE_UP = 4, RULE_DOWN = 8 };
 static void rule_cell(const struct painter *painter, int column, int row, unsigned arms, enum gm_role role)
 {
     static const uint16_t drawn[16] = {[3] = 0x2500, [12] = 0x2502, [15] = 0x253C, [6] = 0x2514};
-    if (column < 0 || row < 0 || column >= painter->cells->columns || row >= painter->cells->rows) {
+    struct gm_cell *cell = cell_at(painter->cells, column, row);
+    if (!cell) {
         return;
     }
-    struct gm_cell *cell =
-        &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
     bool crosses = cell->role == GM_GRID && cell->glyph != ' ' && role == GM_GRID;
     if (cell->glyph != ' ' && cell->role != GM_GRID) {
         return;
@@ -120,36 +134,26 @@ static int cell_of(double position, int size)
     return (int)floor(position / size);
 }
 
-static void rule(const struct painter *painter, double x0, double y0, double x1, double y1, enum gm_role role)
+static void thin_rule(void *painter, const double from_to[4], bool axis)
 {
-    int left = cell_of(x0, CELL_WIDTH), right = cell_of(x1, CELL_WIDTH);
-    int top = cell_of(y0, CELL_HEIGHT), bottom = cell_of(y1, CELL_HEIGHT);
+    const int left = cell_of(from_to[0], CELL_WIDTH), right = cell_of(from_to[2], CELL_WIDTH);
+    const int top = cell_of(from_to[1], CELL_HEIGHT), bottom = cell_of(from_to[3], CELL_HEIGHT);
+    const unsigned arms = from_to[1] == from_to[3] ? RULE_LEFT | RULE_RIGHT : RULE_UP | RULE_DOWN;
     for (int row = top; row <= bottom; row++) {
         for (int column = left; column <= right; column++) {
-            rule_cell(painter, column, row, y0 == y1 ? RULE_LEFT | RULE_RIGHT : RULE_UP | RULE_DOWN, role);
+            rule_cell(painter, column, row, arms, axis ? GM_SECONDARY : GM_GRID);
         }
     }
 }
 
-static void paint_thin_grid(const struct painter *painter, const struct gm_axes *axes)
+static void paint_thin_grid(struct painter *painter, const struct gm_axes *axes)
 {
     const struct gm_box *box = &axes->box;
-    double right = box->x + box->width, bottom = box->y + box->height;
-    for (size_t i = 0; i < axes->x_tick_count; i++) {
-        rule(painter, axes->x_ticks[i].position, box->y, axes->x_ticks[i].position, bottom, GM_GRID);
-    }
-    for (size_t i = 0; i < axes->y_tick_count; i++) {
-        rule(painter, box->x, axes->y_ticks[i].position, right, axes->y_ticks[i].position, GM_GRID);
-    }
-    rule(painter, box->x, bottom, right, bottom, GM_SECONDARY);
-    rule(painter, box->x, box->y, box->x, bottom, GM_SECONDARY);
-    int column = cell_of(box->x, CELL_WIDTH), row = cell_of(bottom, CELL_HEIGHT);
-    if (row < painter->cells->rows && column < painter->cells->columns && row >= 0 && column >= 0) {
-        struct gm_cell *corner =
-            &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
-        if (corner->role == GM_SECONDARY) {
-            corner->glyph = painter->ascii ? '+' : 0x2514;
-        }
+    paint_rules(axes, thin_rule, painter);
+    struct gm_cell *corner =
+        cell_at(painter->cells, cell_of(box->x, CELL_WIDTH), cell_of(box->y + box->height, CELL_HEIGHT));
+    if (corner && corner->role == GM_SECONDARY) {
+        corner->glyph = painter->ascii ? '+' : 0x2514;
     }
 }
 
@@ -163,14 +167,15 @@ static void paint_tips(const struct painter *painter, const struct gm_axes *axes
     for (int end = 0; end < 2; end++) {
         const int row = cell_of(places[end], CELL_HEIGHT);
         for (int column = cell_of(bar->x, CELL_WIDTH);
-             field && axes->bar_tip[end] > 0 && row >= 0 && row < painter->cells->rows && column >= 0 &&
-             column < painter->cells->columns && column * CELL_WIDTH < bar->x + bar->width;
-             column++) {
-            painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column] =
-                (struct gm_cell){.glyph = painter->ascii ? letters[end] : glyphs[end],
-                                 .foreground = gm_colour_map_at(field->map, painter->theme, end),
-                                 .background = gm_theme_colour(painter->theme, GM_PAPER),
-                                 .role = GM_INK};
+             field && axes->bar_tip[end] > 0 && column * CELL_WIDTH < bar->x + bar->width; column++) {
+            struct gm_cell *cell = cell_at(painter->cells, column, row);
+            if (!cell) {
+                break;
+            }
+            *cell = (struct gm_cell){.glyph = painter->ascii ? letters[end] : glyphs[end],
+                                     .foreground = gm_colour_map_at(field->map, painter->theme, end),
+                                     .background = gm_theme_colour(painter->theme, GM_PAPER),
+                                     .role = GM_INK};
         }
     }
 }
@@ -210,7 +215,7 @@ static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout
             continue;
         }
         if (axes->panel->axes && taking.grid) {
-            paint_dotted_grid(raster, axes);
+            paint_rules(axes, dotted_rule, raster);
         }
         for (const struct gm_mark *mark = axes->panel->first; ok && mark; before = mark, mark = mark->next) {
             if (!taking.outlines || !mark->next || !is_outline(mark, mark->next)) {

@@ -60,9 +60,6 @@ void gm_raster_close(struct gm_raster *raster);
 /* Clips marks to this box of the surface. */
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box);
 
-/* Rounds towards zero, within the bounds; NaN becomes the lower one. */
-int gm_raster_clamp(double value, int low, int high);
-
 /* A place on the raster, in sub-pixels. */
 struct gm_raster_place {
     double x, y;

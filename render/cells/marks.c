@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "render/grow.h"
+
 /* fmin and fmax are calls, because they handle NaN; no NaN comes here. */
 static double smaller(double a, double b)
 {
@@ -208,20 +210,15 @@ static void add_edge(const struct gm_raster *raster, struct scan *scan, struct g
                      struct gm_raster_place b)
 {
     double low = smaller(a.y, b.y) * scan->fine - 0.5, high = larger(a.y, b.y) * scan->fine - 0.5;
-    int first = gm_raster_clamp(ceil(low), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
-    int end = gm_raster_clamp(ceil(high), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    int first = gm_clamp(ceil(low), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    int end = gm_clamp(ceil(high), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
     if (first >= end || scan->failed) {
         return;
     }
-    size_t wanted = scan->count + (size_t)(end - first);
-    if (wanted > scan->capacity) {
-        struct crossing *more = realloc(scan->crossings, 2 * wanted * sizeof *more);
-        if (!more) {
-            scan->failed = true;
-            return;
-        }
-        scan->crossings = more;
-        scan->capacity = 2 * wanted;
+    if (!gm_grow(&scan->crossings, &scan->capacity, scan->count + (size_t)(end - first),
+                 sizeof *scan->crossings)) {
+        scan->failed = true;
+        return;
     }
     double slope = (b.x - a.x) / (b.y - a.y);
     for (int i = first; i < end; i++) {
@@ -255,8 +252,8 @@ static void fill_crossings(struct gm_raster *raster, const struct scan *scan, do
                 i++;
             }
         }
-        int end = gm_raster_clamp(ceil(right), raster->clip_left, raster->clip_right);
-        for (int x = gm_raster_clamp(floor(left), raster->clip_left, raster->clip_right); x < end; x++) {
+        int end = gm_clamp(ceil(right), raster->clip_left, raster->clip_right);
+        for (int x = gm_clamp(floor(left), raster->clip_left, raster->clip_right); x < end; x++) {
             if (row[x] > 0) {
                 gm_raster_cover(raster, x, y, row[x]);
             }
@@ -307,57 +304,20 @@ static void set_field(struct gm_raster *raster, int x, int y, struct gm_rgb colo
         (struct gm_subpixel){colour, GM_LEVEL_FIELD, GM_INK};
 }
 
-static double map_position(const struct gm_mark *mark, double value)
+static void put_value(void *self, const struct gm_mark *mark, int x, int y, double value)
 {
-    return mark->high > mark->low ? (value - mark->low) / (mark->high - mark->low) : 0.5;
-}
-
-static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark,
-                          const struct gm_raster_place corner[3], const double value[3])
-{
-    double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
-                  (corner[2].x - corner[0].x) * (corner[1].y - corner[0].y);
-    if (area == 0) {
-        return;
-    }
-    double low_x = smaller(corner[0].x, smaller(corner[1].x, corner[2].x));
-    double low_y = smaller(corner[0].y, smaller(corner[1].y, corner[2].y));
-    double high_x = larger(corner[0].x, larger(corner[1].x, corner[2].x));
-    double high_y = larger(corner[0].y, larger(corner[1].y, corner[2].y));
-    int left = gm_raster_clamp(floor(low_x), raster->clip_left, raster->clip_right);
-    int right = gm_raster_clamp(ceil(high_x), raster->clip_left, raster->clip_right);
-    int top = gm_raster_clamp(floor(low_y), raster->clip_top, raster->clip_bottom);
-    int bottom = gm_raster_clamp(ceil(high_y), raster->clip_top, raster->clip_bottom);
-    for (int y = top; y < bottom; y++) {
-        for (int x = left; x < right; x++) {
-            double px = x + 0.5 - corner[0].x, py = y + 0.5 - corner[0].y;
-            double b = (px * (corner[2].y - corner[0].y) - (corner[2].x - corner[0].x) * py) / area;
-            double c = ((corner[1].x - corner[0].x) * py - px * (corner[1].y - corner[0].y)) / area;
-            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) {
-                continue;
-            }
-            double here = value[0] + b * (value[1] - value[0]) + c * (value[2] - value[0]);
-            set_field(raster, x, y, gm_colour_map_at(mark->map, raster->theme, map_position(mark, here)));
-        }
-    }
+    struct gm_raster *raster = self;
+    const double place = mark->high > mark->low ? (value - mark->low) / (mark->high - mark->low) : 0.5;
+    set_field(raster, x, y, gm_colour_map_at(mark->map, raster->theme, place));
 }
 
 static void draw_mesh(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
-    for (size_t i = 0; i < mark->triangle_count; i++) {
-        struct gm_raster_place corner[3];
-        double value[3];
-        bool drawn = true;
-        for (size_t k = 0; k < 3; k++) {
-            size_t vertex = (size_t)mark->triangles[3 * i + k];
-            corner[k] = gm_raster_place(raster, axes, &mark->points[2 * vertex]);
-            value[k] = mark->values[vertex];
-            drawn = drawn && gm_raster_is_place(corner[k]) && isfinite(value[k]);
-        }
-        if (drawn) {
-            mesh_triangle(raster, mark, corner, value);
-        }
-    }
+    const struct gm_pixel_grid pixels = {
+        .across = 1 / raster->unit_x,
+        .down = 1 / raster->unit_y,
+        .clip = {raster->clip_left, raster->clip_top, raster->clip_right, raster->clip_bottom}};
+    gm_mesh_walk(axes, mark, &pixels, put_value, raster);
 }
 
 static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
@@ -373,17 +333,16 @@ static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, con
         if (v < 0 || v > 1) {
             continue;
         }
-        size_t row = (size_t)gm_raster_clamp(v * (double)mark->rows, 0, (int)mark->rows - 1);
+        size_t row = (size_t)gm_clamp(v * (double)mark->rows, 0, (int)mark->rows - 1);
         for (int x = raster->clip_left; x < raster->clip_right; x++) {
             double u = (x + 0.5 - low.x) / (high.x - low.x);
             if (u < 0 || u > 1) {
                 continue;
             }
-            size_t column = (size_t)gm_raster_clamp(u * (double)mark->columns, 0, (int)mark->columns - 1);
+            size_t column = (size_t)gm_clamp(u * (double)mark->columns, 0, (int)mark->columns - 1);
             double value = mark->values[row * mark->columns + column];
             if (isfinite(value)) {
-                set_field(raster, x, y,
-                          gm_colour_map_at(mark->map, raster->theme, map_position(mark, value)));
+                put_value(raster, mark, x, y, value);
             }
         }
     }

@@ -43,23 +43,14 @@ void gm_raster_close(struct gm_raster *raster)
     raster->mask = NULL;
 }
 
-int gm_raster_clamp(double value, int low, int high)
-{
-    if (!(value > low)) {
-        return low;
-    }
-    return value < high ? (int)value : high;
-}
-
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
 {
     /* A sub-pixel belongs to the box if its middle does. The one after the end belongs too, so that a mark on
        the edge is visible. */
-    raster->clip_left = gm_raster_clamp(floor(box->x / raster->unit_x), 0, raster->width);
-    raster->clip_top = gm_raster_clamp(floor(box->y / raster->unit_y), 0, raster->height);
-    raster->clip_right = gm_raster_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
-    raster->clip_bottom =
-        gm_raster_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
+    raster->clip_left = gm_clamp(floor(box->x / raster->unit_x), 0, raster->width);
+    raster->clip_top = gm_clamp(floor(box->y / raster->unit_y), 0, raster->height);
+    raster->clip_right = gm_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
+    raster->clip_bottom = gm_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
 }
 
 struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_axes *axes,

@@ -3,28 +3,15 @@
 #include "render/drawing/pen.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "render/grow.h"
 
 bool gm_polyline_reserve(struct gm_polyline *line, size_t count)
 {
     line->count = 0;
-    if (count <= line->capacity) {
-        return true;
-    }
-    size_t capacity = line->capacity > 0 ? line->capacity : 256;
-    while (capacity < count && capacity < SIZE_MAX / 4 / sizeof *line->points) {
-        capacity *= 2;
-    }
-    struct gm_point *points = capacity < count ? NULL : malloc(capacity * sizeof *points);
-    if (!points) {
-        return false;
-    }
-    free(line->points);
-    line->points = points;
-    line->capacity = capacity;
-    return true;
+    return gm_grow(&line->points, &line->capacity, count, sizeof *line->points);
 }
 
 void gm_polyline_free(struct gm_polyline *line)

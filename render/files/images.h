@@ -13,11 +13,26 @@ struct gm_png_text {
     const char *key, *text;
 };
 
-/* Writes rgb (height rows of width * 3 bytes, top first) to path. A killed program leaves no half file. dpi
-   is the file's resolution in pixels per inch, 0: none. Returns false on failure, with one sentence in
+/* The contents of a file: height rows of width pixels, top first, of three bytes for red, green and blue, or,
+   with a palette of red, green, blue and opacity, of one byte, the number of a colour. */
+enum { GM_PALETTE = 256 };
+struct gm_png {
+    int width, height;
+    double dpi; /* resolution in pixels per inch; 0: none */
+    const unsigned char *pixels;
+    const uint8_t (*palette)[4]; /* GM_PALETTE colours, for the shortest file; NULL: none */
+    const struct gm_png_text *texts;
+    size_t text_count;
+};
+
+/* Returns a PNG in memory and its bytes in *size. The caller frees it; NULL with a reason of
+   GM_PNG_REASON bytes. */
+enum { GM_PNG_REASON = 96 };
+unsigned char *gm_png_pack(const struct gm_png *image, size_t *size, char *reason);
+
+/* Writes a PNG to path. A killed program leaves no half file. Returns false on failure, with one sentence in
    message (GM_MESSAGE bytes). */
-bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
-                  const struct gm_png_text *texts, size_t count, char *message);
+bool gm_png_write(const char *path, const struct gm_png *image, char *message);
 
 /* Reads the first text of each of these keys, in one walk over the chunks that unpacks nothing else. The
    caller frees texts[i], which is NULL for a missing key; together they have at most GM_PNG_TEXTS_MOST bytes.
@@ -33,15 +48,6 @@ bool gm_png_tells(const char *path, const char *key, const char *text);
 
 /* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first); false with a sentence. */
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
-
-/* PNG of numbered colours in memory, the shortest for terminals. */
-
-enum { GM_PALETTE = 256 };
-
-/* Returns a PNG in memory and its bytes in *size. Pixels are numbers of colours (rows of `columns` bytes, top
-   first); palette[] has red, green, blue and opacity. The caller frees it; NULL when out of memory. */
-unsigned char *gm_palette_png(const uint8_t *pixels, int columns, int rows,
-                              const uint8_t palette[GM_PALETTE][4], size_t *size);
 
 /* Returns the characters that `size` bytes become, padded. */
 size_t gm_base64_size(size_t size);

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/grow.h"
+
 enum {
     SIXEL = 6,
     TILE_COLUMNS = 24, /* cells of a Kitty tile, about square */
@@ -50,21 +52,11 @@ static int least(int a, int b)
 
 static void put(struct gm_inline *image, const char *bytes, size_t size)
 {
-    if (image->failed) {
-        return;
+    image->failed = image->failed || !gm_grow(&image->out, &image->capacity, image->length + size, 1);
+    if (!image->failed) {
+        memcpy(image->out + image->length, bytes, size);
+        image->length += size;
     }
-    if (image->length + size > image->capacity) {
-        size_t capacity = 2 * (image->length + size);
-        char *more = realloc(image->out, capacity);
-        if (!more) {
-            image->failed = true;
-            return;
-        }
-        image->out = more;
-        image->capacity = capacity;
-    }
-    memcpy(image->out + image->length, bytes, size);
-    image->length += size;
 }
 
 __attribute__((format(printf, 2, 3))) static void put_format(struct gm_inline *image, const char *format, ...)

@@ -1,21 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG files: written to a temporary name and renamed. */
+/* PNG files, made in memory. */
 #include "render/files/images.h"
 #include "render/files/png_memory.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <libdeflate.h>
 #include <math.h>
 #include <png.h>
-#include <pthread.h>
-#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "render/files/temporary.h"
 
@@ -31,64 +26,44 @@
    so that a filter would make the usual picture larger and take twice the time. */
 
 enum {
-    SIGNATURE = 8, /* bytes */
-    CHECKSUM = 4,
-    LEVEL = 1,
+    LEVEL = 1,               /* level of libdeflate for pixels */
+    BEST = 9,                /* and for numbered colours */
     LONGEST_CHUNK = 1 << 30, /* the format allows 2^31 - 1 */
 };
 
-static void ignore_warning(png_structp png, png_const_charp text)
+static bool is_ascii(const char *text)
 {
-    (void)png;
-    (void)text;
-}
-
-/* The state of libpng's callbacks while it reads or writes. */
-struct stream {
-    FILE *file;
-    int error;       /* errno of the call that failed, 0 if none did */
-    char reason[96]; /* libpng's message, if libpng found the fault */
-};
-
-static void note_error(png_structp png, png_const_charp text)
-{
-    struct stream *stream = png_get_error_ptr(png);
-    snprintf(stream->reason, sizeof stream->reason, "%s", text);
-    png_longjmp(png, 1);
-}
-
-static void write_bytes(png_structp png, png_bytep bytes, size_t size)
-{
-    struct stream *stream = png_get_io_ptr(png);
-    errno = 0;
-    if (fwrite(bytes, 1, size, stream->file) != size) {
-        stream->error = errno ? errno : EIO;
-        png_error(png, "write error");
+    for (; *text; text++) {
+        if ((unsigned char)*text > 126) {
+            return false;
+        }
     }
+    return true;
 }
 
-/* fclose reports failures of what is left in the buffer */
-static void flush_bytes(png_structp png)
+/* Returns the rows, each after its filter's number, in zlib's format; the caller frees them. Rows of a
+   palette are differences to the row above, because the fields of colours are smooth. */
+static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
 {
-    (void)png;
-}
-
-/* Returns the rows, each after its filter's number (0: none), in zlib's format; the caller frees them. */
-static unsigned char *deflate_rows(int width, int height, const unsigned char *rgb, size_t *size)
-{
-    size_t row = (size_t)width * 3;
-    size_t total = (row + 1) * (size_t)height;
+    const bool differences = image->palette != NULL;
+    const size_t row = (size_t)image->width * (differences ? 1 : 3), height = (size_t)image->height;
+    const size_t total = (row + 1) * height;
     unsigned char *rows = malloc(total);
     gm_deflate_prepare();
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
-    size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, total) : 0;
+    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(differences ? BEST : LEVEL);
+    const size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, total) : 0;
     unsigned char *packed = bound ? malloc(bound) : NULL;
     *size = 0;
-    if (rows && packed) {
-        for (size_t y = 0; y < (size_t)height; y++) {
-            rows[y * (row + 1)] = PNG_FILTER_VALUE_NONE;
-            memcpy(rows + y * (row + 1) + 1, rgb + y * row, row);
+    for (size_t y = 0; rows && packed && y < height; y++) {
+        const unsigned char *from = image->pixels + y * row;
+        unsigned char *to = rows + y * (row + 1);
+        *to++ = differences ? PNG_FILTER_VALUE_UP : PNG_FILTER_VALUE_NONE;
+        memcpy(to, from, row);
+        for (size_t x = 0; differences && y > 0 && x < row; x++) {
+            to[x] = (unsigned char)(from[x] - from[x - row]);
         }
+    }
+    if (rows && packed) {
         *size = libdeflate_zlib_compress(compressor, rows, total, packed, bound);
     }
     if (compressor) {
@@ -102,53 +77,58 @@ static unsigned char *deflate_rows(int width, int height, const unsigned char *r
     return packed;
 }
 
-static bool is_ascii(const char *text)
+static void set_palette(png_structp png, png_infop info, const uint8_t palette[GM_PALETTE][4])
 {
-    for (; *text; text++) {
-        if ((unsigned char)*text > 126) {
-            return false;
-        }
+    png_color colours[GM_PALETTE];
+    png_byte opacities[GM_PALETTE];
+    for (size_t i = 0; i < GM_PALETTE; i++) {
+        colours[i] = (png_color){palette[i][0], palette[i][1], palette[i][2]};
+        opacities[i] = palette[i][3];
     }
-    return true;
+    png_set_PLTE(png, info, colours, GM_PALETTE);
+    png_set_tRNS(png, info, opacities, GM_PALETTE, NULL);
 }
 
-struct image {
-    int width, height;
-    double dpi; /* pixels per inch; 0: none */
-    const unsigned char *packed;
+/* The image data of a file, and the texts as libpng takes them. */
+struct contents {
+    unsigned char *packed;
     size_t packed_size;
     png_text *texts;
-    int text_count;
 };
 
 /* Only the two structures outlive the jump out of libpng's errors. */
-static bool write_structure(struct stream *stream, const struct image *image)
+static bool write_structure(FILE *out, const struct gm_png *image, const struct contents *contents,
+                            int *error, char *reason)
 {
-    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning,
-                                                &stream->error, gm_png_take, gm_png_give_back);
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, gm_png_note_error,
+                                                gm_png_ignore_warning, error, gm_png_take, gm_png_give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_write_struct(&png, NULL);
-        stream->error = ENOMEM;
+        *error = ENOMEM;
         return false;
     }
     if (setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
         return false;
     }
-    png_set_write_fn(png, stream, write_bytes, flush_bytes);
+    png_init_io(png, out);
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                 image->palette ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (image->palette) {
+        set_palette(png, info, image->palette);
+    }
     if (image->dpi > 0) {
         const png_uint_32 per_metre = (png_uint_32)lround(image->dpi / 0.0254);
         png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
     }
-    png_set_text(png, info, image->texts, image->text_count);
+    png_set_text(png, info, contents->texts, (int)image->text_count);
     png_write_info(png, info);
-    for (size_t at = 0; at < image->packed_size; at += LONGEST_CHUNK) {
-        size_t left = image->packed_size - at;
-        png_write_chunk(png, (png_const_bytep) "IDAT", image->packed + at,
+    for (size_t at = 0; at < contents->packed_size; at += LONGEST_CHUNK) {
+        size_t left = contents->packed_size - at;
+        png_write_chunk(png, (png_const_bytep) "IDAT", contents->packed + at,
                         left < LONGEST_CHUNK ? left : LONGEST_CHUNK);
     }
     /* png_write_end fails: libpng itself has written no image data */
@@ -157,96 +137,48 @@ static bool write_structure(struct stream *stream, const struct image *image)
     return true;
 }
 
-/* Writes to the descriptor and closes it. Returns false with an errno or a reason. */
-static bool write_descriptor(int descriptor, struct stream *stream, const struct image *image)
+unsigned char *gm_png_pack(const struct gm_png *image, size_t *size, char *reason)
 {
-    stream->file = fdopen(descriptor, "wb");
-    if (!stream->file) {
-        stream->error = errno;
-        close(descriptor);
-        return false;
-    }
-    bool written = write_structure(stream, image);
-    if (fclose(stream->file) != 0 && written) {
-        stream->error = errno;
-        written = false;
-    }
-    return written;
-}
-
-static bool write_directly(const char *path, struct stream *stream, const struct image *image)
-{
-    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0) {
-        stream->error = errno;
-        return false;
-    }
-    return write_descriptor(descriptor, stream, image);
-}
-
-static bool write_aside(const char *path, struct stream *stream, const struct image *image)
-{
-    char *temporary = gm_temporary_name(path, ".tmp");
-    int descriptor = temporary ? open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
-    if (descriptor < 0) {
-        stream->error = temporary ? errno : ENOMEM;
-        free(temporary);
-        return false;
-    }
-    bool written = write_descriptor(descriptor, stream, image);
-    if (written && rename(temporary, path) != 0) {
-        stream->error = errno;
-        written = false;
-    }
-    if (!written) {
-        unlink(temporary);
-    }
-    free(temporary);
-    return written;
-}
-
-static bool write_and_rename(const char *path, struct stream *stream, const struct image *image)
-{
-    /* a signal that ends the process would leave a half file; packing, which takes long, is over */
-    sigset_t ends, unblocked;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGINT);
-    sigaddset(&ends, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &ends, &unblocked);
-    const bool written = write_aside(path, stream, image);
-    pthread_sigmask(SIG_SETMASK, &unblocked, NULL);
-    return written;
-}
-
-bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
-                  const struct gm_png_text *texts, size_t count, char *message)
-{
-    if (width < 1 || height < 1 || (size_t)height > SIZE_MAX / 4 / (size_t)width) {
-        return gm_temporary_refuse(message, path, "a picture has at least one pixel, and fits in memory");
-    }
-    struct image image = {.width = width, .height = height, .dpi = dpi, .text_count = (int)count};
-    image.texts = calloc(count ? count : 1, sizeof *image.texts);
-    unsigned char *packed = deflate_rows(width, height, rgb, &image.packed_size);
-    if (!image.texts || !packed) {
-        free(image.texts);
-        free(packed);
-        return gm_temporary_refuse(message, path, strerror(ENOMEM));
-    }
-    image.packed = packed;
-    for (size_t i = 0; i < count; i++) {
-        image.texts[i] = (png_text){
-            .compression = is_ascii(texts[i].text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
+    struct contents contents = {.texts = calloc(image->text_count + 1, sizeof *contents.texts)};
+    int error = 0;
+    char *bytes = NULL;
+    bool written = false;
+    contents.packed = contents.texts ? deflate_rows(image, &contents.packed_size) : NULL;
+    for (size_t i = 0; contents.texts && i < image->text_count; i++) {
+        const struct gm_png_text *text = &image->texts[i];
+        contents.texts[i] = (png_text){
+            .compression = is_ascii(text->text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE,
             /* libpng's struct is not const; it copies both */
-            .key = (char *)texts[i].key,
-            .text = (char *)texts[i].text,
-            .text_length = strlen(texts[i].text),
+            .key = (char *)text->key,
+            .text = (char *)text->text,
+            .text_length = strlen(text->text),
         };
     }
-    struct stream stream = {.error = 0};
-    bool written = gm_temporary_fits(path) ? write_and_rename(path, &stream, &image)
-                                           : write_directly(path, &stream, &image);
-    free(packed);
-    free(image.texts);
-    return written ||
-           gm_temporary_refuse(message, path, stream.error ? strerror(stream.error) : stream.reason);
+    FILE *out = contents.packed ? open_memstream(&bytes, size) : NULL;
+    if (out) {
+        written = write_structure(out, image, &contents, &error, reason);
+        error = ferror(out) ? ENOMEM : error;
+        written = fclose(out) == 0 && written;
+    }
+    free(contents.packed);
+    free(contents.texts);
+    if (!out || error) {
+        snprintf(reason, GM_PNG_REASON, "%s", strerror(ENOMEM));
+    }
+    if (!written) {
+        free(bytes);
+    }
+    return written ? (unsigned char *)bytes : NULL;
+}
+
+bool gm_png_write(const char *path, const struct gm_png *image, char *message)
+{
+    char reason[GM_PNG_REASON] = "a picture has at least one pixel, and fits in memory";
+    size_t size = 0;
+    const bool fits = image->width >= 1 && image->height >= 1 &&
+                      (size_t)image->height <= SIZE_MAX / 4 / (size_t)image->width;
+    unsigned char *bytes = fits ? gm_png_pack(image, &size, reason) : NULL;
+    const int error = bytes ? gm_temporary_write(path, bytes, size) : 0;
+    free(bytes);
+    return (bytes && error == 0) || gm_temporary_refuse(message, path, error ? strerror(error) : reason);
 }

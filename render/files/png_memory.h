@@ -11,6 +11,11 @@
 png_voidp gm_png_take(png_structp png, png_alloc_size_t size);
 void gm_png_give_back(png_structp png, png_voidp block);
 
+/* The handlers of libpng's faults, whose pointer is a reason of GM_PNG_REASON bytes (images.h). The first jumps to
+   png_jmpbuf, the second ignores a warning. */
+void gm_png_note_error(png_structp png, png_const_charp text);
+void gm_png_ignore_warning(png_structp png, png_const_charp text);
+
 /* Must be called before libdeflate's first allocation. */
 void gm_deflate_prepare(void);
 

@@ -94,7 +94,14 @@ struct search {
     const char *const *keys;
     char **texts;
     size_t count, limit;
+    bool all; /* checks all chunks, not only those of texts */
 };
+
+static bool is_text(const char *type)
+{
+    return memcmp(type, "tEXt", TYPE) == 0 || memcmp(type, "zTXt", TYPE) == 0 ||
+           memcmp(type, "iTXt", TYPE) == 0;
+}
 
 /* Returns the index of a chunk's key among those still missing; their number if it is not among them. */
 static size_t wanted(const struct search *search, const unsigned char *data, size_t size)
@@ -109,8 +116,8 @@ static size_t wanted(const struct search *search, const unsigned char *data, siz
     return i;
 }
 
-/* Reads a chunk of text; `length` bytes and a checksum are left of it in the file. */
-static bool take_text(FILE *file, const char *type, size_t length, struct search *search, char *reason)
+/* Checks a chunk, and reads its text; `length` bytes and a checksum are left of it in the file. */
+static bool take_chunk(FILE *file, const char *type, size_t length, struct search *search, char *reason)
 {
     errno = 0;
     unsigned char *bytes = malloc(TYPE + length + CHECKSUM);
@@ -118,7 +125,7 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
     if (good) {
         memcpy(bytes, type, TYPE);
         const struct chunk chunk = {bytes + TYPE, length, search->limit};
-        const size_t i = wanted(search, chunk.data, length);
+        const size_t i = is_text(type) ? wanted(search, chunk.data, length) : search->count;
         good = libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
         if (good && i < search->count) {
             char *text = text_of(&chunk, type, strlen(search->keys[i]));
@@ -151,21 +158,19 @@ static bool find_texts(FILE *file, size_t left, struct search *search, char *rea
             break;
         }
         left -= length;
-        if (memcmp(type, "IEND", TYPE) == 0) {
+        const bool text = is_text(type), ends = memcmp(type, "IEND", TYPE) == 0;
+        if (text && length > unread) {
+            snprintf(reason, GM_REGULAR_REASON, "its texts have more than %d MB", GM_PNG_TEXTS_MOST >> 20);
+            return false;
+        }
+        unread -= text ? length : 0;
+        if ((text || search->all) && !take_chunk(file, type, length, search, reason)) {
+            return false;
+        }
+        if (ends) {
             return true;
         }
-        if (memcmp(type, "tEXt", TYPE) == 0 || memcmp(type, "zTXt", TYPE) == 0 ||
-            memcmp(type, "iTXt", TYPE) == 0) {
-            if (length > unread) {
-                snprintf(reason, GM_REGULAR_REASON, "its texts have more than %d MB",
-                         GM_PNG_TEXTS_MOST >> 20);
-                return false;
-            }
-            unread -= length;
-            if (!take_text(file, type, length, search, reason)) {
-                return false;
-            }
-        } else if (fseeko(file, (off_t)(length + CHECKSUM), SEEK_CUR) != 0) {
+        if (!text && !search->all && fseeko(file, (off_t)(length + CHECKSUM), SEEK_CUR) != 0) {
             break;
         }
     }
@@ -173,30 +178,34 @@ static bool find_texts(FILE *file, size_t left, struct search *search, char *rea
     return false;
 }
 
-bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
+static bool read_texts(const char *path, struct search *search, char *message)
 {
     char reason[GM_REGULAR_REASON] = "it is not a PNG file";
     unsigned char signature[SIGNATURE];
     size_t size = 0;
-    struct search search = {keys, texts, count, GM_PNG_TEXTS_MOST};
-    for (size_t i = 0; i < count; i++) {
-        texts[i] = NULL;
-    }
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
     const bool good = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
                       png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
-                      find_texts(file, size - SIGNATURE, &search, reason);
+                      find_texts(file, size - SIGNATURE, search, reason);
     if (file) {
         fclose(file);
     }
     if (!good) {
-        for (size_t i = 0; i < count; i++) {
-            free(texts[i]);
-            texts[i] = NULL;
+        for (size_t i = 0; i < search->count; i++) {
+            free(search->texts[i]);
+            search->texts[i] = NULL;
         }
         gm_refuse(message, "cannot read %.360s: %s", path, reason);
     }
     return good;
+}
+
+bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
+{
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = NULL;
+    }
+    return read_texts(path, &(struct search){keys, texts, count, GM_PNG_TEXTS_MOST, false}, message);
 }
 
 char *gm_png_read_text(const char *path, const char *key, char *message)
@@ -208,57 +217,21 @@ char *gm_png_read_text(const char *path, const char *key, char *message)
     return text;
 }
 
-/* Returns true if a tEXt chunk's data are this key and this text. */
-static bool is_text(const unsigned char *data, size_t size, const char *key, const char *text)
-{
-    const size_t front = strlen(key) + 1, length = strlen(text);
-    return size == front + length && memcmp(data, key, front) == 0 && memcmp(data + front, text, length) == 0;
-}
-
 bool gm_png_tells(const char *path, const char *key, const char *text)
 {
-    size_t size = 0;
-    char reason[GM_REGULAR_REASON];
-    unsigned char *bytes = (unsigned char *)gm_regular_read(path, LARGEST, &size, reason);
-    bool told = false, whole = false;
-    if (bytes && size >= SIGNATURE && png_sig_cmp(bytes, 0, SIGNATURE) == 0) {
-        size_t at = SIGNATURE;
-        while (!whole && size - at >= LENGTH + TYPE + CHECKSUM) {
-            const size_t length = png_get_uint_32(bytes + at);
-            if (length > size - at - (LENGTH + TYPE + CHECKSUM)) {
-                break;
-            }
-            const unsigned char *type = bytes + at + LENGTH, *data = type + TYPE;
-            if (libdeflate_crc32(0, type, TYPE + length) != png_get_uint_32(data + length)) {
-                break;
-            }
-            told = told || (memcmp(type, "tEXt", TYPE) == 0 && is_text(data, length, key, text));
-            whole = memcmp(type, "IEND", TYPE) == 0;
-            at += LENGTH + TYPE + length + CHECKSUM;
-        }
-    }
-    free(bytes);
-    return told && whole;
-}
-
-static void note_error(png_structp png, png_const_charp text)
-{
-    snprintf(png_get_error_ptr(png), GM_REGULAR_REASON, "%s", text);
-    png_longjmp(png, 1);
-}
-
-static void ignore_warning(png_structp png, png_const_charp text)
-{
-    (void)png;
-    (void)text;
+    char *found = NULL, message[GM_MESSAGE];
+    const bool told = read_texts(path, &(struct search){&key, &found, 1, GM_PNG_TEXTS_MOST, true}, message) &&
+                      found && strcmp(found, text) == 0;
+    free(found);
+    return told;
 }
 
 /* Only the two structures outlive the jump out of libpng's errors. libpng's simple reader has its own memory
    and reports no refusal. */
 static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
 {
-    png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
-                                               error, gm_png_take, gm_png_give_back);
+    png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, gm_png_note_error,
+                                               gm_png_ignore_warning, error, gm_png_take, gm_png_give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_read_struct(&png, NULL, NULL);

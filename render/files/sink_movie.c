@@ -387,16 +387,16 @@ static int first_pass(struct movie_sink *self, int input)
     struct command command = begin();
     ADD(&command, "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size", size, "-framerate", rate);
     ADD(&command, "-i", "pipe:0", "-fflags", "+bitexact");
-    switch (self->format) {
-    case MP4:
+    if (self->format != GIF) {
         ADD(&command, "-vf", filters, "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
             "bt709");
+    }
+    switch (self->format) {
+    case MP4:
         ADD(&command, "-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-movflags", "+faststart");
         ADD(&command, "-f", "mp4", self->temporary);
         break;
     case WEBM:
-        ADD(&command, "-vf", filters, "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
-            "bt709");
         ADD(&command, "-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "7", "-row-mt", "1");
         ADD(&command, "-crf", "24", "-b:v", "0", "-f", "webm", self->temporary);
         break;

@@ -68,7 +68,13 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
         for (size_t i = 0; i < count; i++) {
             all[self->text_count + i] = texts[i];
         }
-        written = gm_png_write(path, self->width, self->height, self->dpi, rgb, all, total, message);
+        const struct gm_png image = {.width = self->width,
+                                     .height = self->height,
+                                     .dpi = self->dpi,
+                                     .pixels = rgb,
+                                     .texts = all,
+                                     .text_count = total};
+        written = gm_png_write(path, &image, message);
     } else {
         gm_refuse(message, "not enough memory for a frame");
     }

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/grow.h"
+
 enum { COLOURS = 256, BAND = 6, SHIFT = 2, SIDE_BITS = 8 - SHIFT, CELLS = 1 << 3 * SIDE_BITS };
 
 /* A cell of the grid of colours: the pixels in it. */
@@ -220,17 +222,7 @@ static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t 
 /* Makes room for `more` bytes; false when out of memory. */
 static bool make_room(struct gm_sixel *sixel, size_t more)
 {
-    if (sixel->length + more <= sixel->capacity) {
-        return true;
-    }
-    size_t capacity = 2 * (sixel->length + more);
-    char *out = realloc(sixel->out, capacity);
-    if (!out) {
-        return false;
-    }
-    sixel->out = out;
-    sixel->capacity = capacity;
-    return true;
+    return gm_grow(&sixel->out, &sixel->capacity, sixel->length + more, 1);
 }
 
 static void put_number(struct gm_sixel *sixel, unsigned number)
@@ -311,26 +303,13 @@ static bool put_band(struct gm_sixel *sixel, const uint8_t *pixels, int width, i
     return true;
 }
 
-static bool grow(uint8_t **bytes, size_t *capacity, size_t wanted)
-{
-    if (wanted > *capacity) {
-        uint8_t *more = realloc(*bytes, wanted);
-        if (!more) {
-            return false;
-        }
-        *bytes = more;
-        *capacity = wanted;
-    }
-    return true;
-}
-
 bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
                      const char **bytes, size_t *size)
 {
     enum { HEAD = 64 + COLOURS * 24, TAIL = 2 };
     sixel->length = 0;
-    if (!grow(&sixel->pixels, &sixel->pixel_room, (size_t)width * (size_t)height) ||
-        !grow(&sixel->bands, &sixel->band_room, (size_t)width * COLOURS) || !make_room(sixel, HEAD)) {
+    if (!gm_grow(&sixel->pixels, &sixel->pixel_room, (size_t)width * (size_t)height, 1) ||
+        !gm_grow(&sixel->bands, &sixel->band_room, (size_t)width, COLOURS) || !make_room(sixel, HEAD)) {
         return false;
     }
     count_colours(sixel, rgb, stride, width, height);

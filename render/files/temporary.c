@@ -4,7 +4,6 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -80,32 +79,31 @@ bool gm_temporary_refuse(char *message, const char *path, const char *reason)
     return gm_refuse(message, "cannot write %.360s: %s", standard ? "standard output" : path, reason);
 }
 
-static int write_all(const char *path, int flags, const void *bytes, size_t size)
+/* The contents of a file. */
+struct contents {
+    bool (*write)(FILE *file, const void *context);
+    const void *context;
+    bool synced; /* on the disk before the file gets its name */
+};
+
+/* Returns 0 or an errno. */
+static int write_file(const char *path, const char *mode, const struct contents *contents)
 {
-    const int descriptor = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    FILE *file = fopen(path, mode);
     if (!file) {
-        const int error = errno;
-        if (descriptor >= 0) {
-            close(descriptor);
-        }
-        return error;
+        return errno;
     }
     errno = 0;
-    int error = fwrite(bytes, 1, size, file) == size ? 0 : errno ? errno : EIO;
-    if (fclose(file) != 0 && error == 0) {
-        error = errno;
-    }
-    return error;
+    const bool written = contents->write(file, contents->context) && fflush(file) == 0 &&
+                         (!contents->synced || fsync(fileno(file)) == 0);
+    const int error = written ? 0 : errno ? errno : EIO;
+    return fclose(file) != 0 && written ? errno : error;
 }
 
-int gm_temporary_write(const char *path, const void *bytes, size_t size)
+static int replace(const char *path, const struct contents *contents)
 {
-    if (!gm_temporary_fits(path)) {
-        return write_all(path, O_TRUNC, bytes, size);
-    }
     char *temporary = gm_temporary_name(path, ".tmp");
-    int error = temporary ? write_all(temporary, O_EXCL, bytes, size) : ENOMEM;
+    int error = temporary ? write_file(temporary, "wbxe", contents) : ENOMEM;
     if (error == 0 && rename(temporary, path) != 0) {
         error = errno;
     }
@@ -114,6 +112,40 @@ int gm_temporary_write(const char *path, const void *bytes, size_t size)
     }
     free(temporary);
     return error;
+}
+
+struct bytes {
+    const void *at;
+    size_t size;
+};
+
+static bool write_bytes(FILE *file, const void *context)
+{
+    const struct bytes *bytes = context;
+    return fwrite(bytes->at, 1, bytes->size, file) == bytes->size;
+}
+
+int gm_temporary_write(const char *path, const void *bytes, size_t size)
+{
+    const struct contents contents = {.write = write_bytes, .context = &(struct bytes){bytes, size}};
+    if (!gm_temporary_fits(path)) {
+        return write_file(path, "wbe", &contents);
+    }
+    /* a signal that ends the process would leave a half file */
+    sigset_t ends, unblocked;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    sigaddset(&ends, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ends, &unblocked);
+    const int error = replace(path, &contents);
+    pthread_sigmask(SIG_SETMASK, &unblocked, NULL);
+    return error;
+}
+
+bool gm_temporary_make(const char *path, bool (*write)(FILE *file, const void *context), const void *context)
+{
+    errno = replace(path, &(struct contents){.write = write, .context = context, .synced = true});
+    return errno == 0;
 }
 
 bool gm_temporary_is_stale(const char *name)
@@ -150,26 +182,4 @@ void gm_temporary_sweep(const char *path)
         closedir(entries);
     }
     free(folder);
-}
-
-bool gm_temporary_make(const char *path, bool (*write)(FILE *file, const void *context), const void *context)
-{
-    char *temporary = gm_temporary_name(path, ".tmp");
-    FILE *file = temporary ? fopen(temporary, "wbxe") : NULL;
-    bool good = file && write(file, context) && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    int why = errno;
-    if (file && fclose(file) != 0 && good) {
-        why = errno;
-        good = false;
-    }
-    if (good && rename(temporary, path) != 0) {
-        why = errno;
-        good = false;
-    }
-    if (file && !good) {
-        unlink(temporary);
-    }
-    free(temporary);
-    errno = why;
-    return good;
 }

@@ -10,9 +10,9 @@ struct gm_backend {
     void *(*load)(char *message, size_t size);                /* the library, or NULL */
     void *(*open)(void *library, char *message, size_t size); /* the context, made current, or NULL */
     void (*close)(void *self);
-    bool (*use)(void *self);
-    void (*release)(void *self);
-    gm_library_function (*find)(void *self, const char *name);
+    bool (*use)(void *self);     /* makes the context current in the calling thread, which has no other one */
+    void (*release)(void *self); /* makes it current in none */
+    gm_library_function (*find)(void *self, const char *name); /* a GL function, or NULL */
 };
 
 extern const struct gm_backend gm_backend_osmesa, gm_backend_egl;

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "render/address_space.h"
-#include "render/gl/backend.h"
 #include "render/message.h"
 
 static const struct gm_backend *const backends[GM_CONTEXT_KINDS] = {
@@ -21,11 +20,6 @@ static const struct gm_backend *const backends[GM_CONTEXT_KINDS] = {
 #ifdef GM_HAVE_EGL
     [GM_CONTEXT_EGL] = &gm_backend_egl,
 #endif
-};
-
-struct gm_context {
-    const struct gm_backend *backend;
-    void *self;
 };
 
 static void *load(enum gm_context_kind kind, char *message, size_t size)
@@ -43,45 +37,12 @@ bool gm_context_load(enum gm_context_kind kind, char *message, size_t size)
     return load(kind, message, size) != NULL;
 }
 
-struct gm_context *gm_context_open(enum gm_context_kind kind, char *message, size_t size)
+bool gm_context_open(struct gm_context *context, enum gm_context_kind kind, char *message, size_t size)
 {
-    struct gm_context *context = malloc(sizeof *context);
-    if (!context) {
-        snprintf(message, size, "there is not enough memory for it");
-        return NULL;
-    }
     void *library = load(kind, message, size);
     *context = (struct gm_context){.backend = backends[kind],
                                    .self = library ? backends[kind]->open(library, message, size) : NULL};
-    if (!context->self) {
-        free(context);
-        return NULL;
-    }
-    return context;
-}
-
-void gm_context_close(struct gm_context *context)
-{
-    if (!context) {
-        return;
-    }
-    context->backend->close(context->self);
-    free(context);
-}
-
-bool gm_context_use(const struct gm_context *context)
-{
-    return context->backend->use(context->self);
-}
-
-void gm_context_release(const struct gm_context *context)
-{
-    context->backend->release(context->self);
-}
-
-gm_library_function gm_context_find(const struct gm_context *context, const char *name)
-{
-    return context->backend->find(context->self, name);
+    return context->self != NULL;
 }
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};

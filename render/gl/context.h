@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_GL_CONTEXT_H
 #define GM_RENDER_GL_CONTEXT_H
 
-#include "render/gl/library.h"
+#include "render/gl/backend.h"
 
 /* An OpenGL 3.3 core context without a screen. Painters draw into a framebuffer object. Libraries are loaded
    when the first context is opened, so a program that paints nothing starts fast, and runs without Mesa. */
@@ -12,21 +12,16 @@ enum gm_context_kind { GM_CONTEXT_OSMESA, GM_CONTEXT_EGL, GM_CONTEXT_KINDS };
 /* Bytes of address space that Mesa and its libraries take. */
 enum { GM_CONTEXT_TAKES = 512 << 20 };
 
-struct gm_context;
+struct gm_context {
+    const struct gm_backend *backend;
+    void *self; /* NULL: not open */
+};
 
 /* Loads the library of a kind for good. Returns false with the reason. */
 bool gm_context_load(enum gm_context_kind kind, char *message, size_t size);
 
-/* Opens a context and makes it current. Returns NULL with the reason on failure. */
-struct gm_context *gm_context_open(enum gm_context_kind kind, char *message, size_t size);
-void gm_context_close(struct gm_context *context);
-
-/* The first makes the context current in the calling thread, which has no other one; the second in none. */
-bool gm_context_use(const struct gm_context *context);
-void gm_context_release(const struct gm_context *context);
-
-/* Returns a GL function, or NULL if the name does not exist. */
-gm_library_function gm_context_find(const struct gm_context *context, const char *name);
+/* Opens a context and makes it current in the calling thread. Returns false with the reason on failure. */
+bool gm_context_open(struct gm_context *context, enum gm_context_kind kind, char *message, size_t size);
 
 /* A program calls answer_crashes once, for all contexts. A crash between guard and unguard then ends it with
    one sentence on standard error, and exit status 5 if memory is limited: Mesa crashes when memory is

@@ -16,7 +16,7 @@ enum { MAP_STEPS = 16 * 255 + 1 /* as in the rasteriser */, MAP_ROWS = 2 };
 
 /* The state that all pictures of a kind share: setting it up takes longer than drawing one. */
 struct engine {
-    struct gm_context *context; /* NULL until it is opened */
+    struct gm_context context;
     struct gm_gl gl;
     struct gm_stream stream;
     char name[GM_MESSAGE];
@@ -101,12 +101,21 @@ static void textures_open(struct gm_opengl *opengl)
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 
+static bool use(const struct engine *engine)
+{
+    return engine->context.self && engine->context.backend->use(engine->context.self);
+}
+
 static bool complete(struct engine *engine, char *message)
 {
-    const char *missing = gm_gl_load(&engine->gl, engine->context);
-    if (missing) {
-        return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
+    const struct gm_context *context = &engine->context;
+#define FIND(name)                                                                                           \
+    engine->gl.name = (__typeof__(engine->gl.name))context->backend->find(context->self, "gl" #name);        \
+    if (!engine->gl.name) {                                                                                  \
+        return gm_refuse(message, "This OpenGL lacks the function gl%s.", #name);                            \
     }
+    GM_GL_FUNCTIONS(FIND)
+#undef FIND
     const char *version = (const char *)engine->gl.GetString(GL_VERSION);
     const char *renderer = (const char *)engine->gl.GetString(GL_RENDERER);
     const char *mesa = strstr(version, "Mesa");
@@ -118,21 +127,21 @@ static bool complete(struct engine *engine, char *message)
 static bool engine_open(struct engine *engine, char *message)
 {
     char reason[GM_MESSAGE / 2];
-    engine->context = gm_context_open((enum gm_context_kind)(engine - engines), reason, sizeof reason);
-    if (!engine->context) {
+    struct gm_context *context = &engine->context;
+    if (!gm_context_open(context, (enum gm_context_kind)(engine - engines), reason, sizeof reason)) {
         return gm_refuse(message, "No OpenGL context could be opened: %s.", reason);
     }
     if (!complete(engine, message)) {
-        gm_context_close(engine->context);
-        engine->context = NULL;
+        context->backend->close(context->self);
+        context->self = NULL;
     }
-    return engine->context;
+    return context->self;
 }
 
 static void close_alone(struct gm_opengl *opengl)
 {
     const struct engine *engine = opengl->engine;
-    if (engine->context && gm_context_use(engine->context)) {
+    if (use(engine)) {
         const struct gm_gl *gl = &engine->gl;
         gl->DeleteTextures(1, &opengl->atlas);
         gl->DeleteTextures(1, &opengl->maps);
@@ -181,7 +190,7 @@ static bool draw_alone(struct gm_opengl *opengl, const struct gm_batch *batch, c
                        unsigned char *rgba)
 {
     struct engine *engine = opengl->engine;
-    if (!gm_context_use(engine->context)) {
+    if (!use(engine)) {
         return false;
     }
     bind_textures(opengl, atlas);
@@ -204,8 +213,8 @@ static void take_turn(void)
 
 static void end_turn(const struct engine *engine)
 {
-    if (engine->context) {
-        gm_context_release(engine->context);
+    if (engine->context.self) {
+        engine->context.backend->release(engine->context.self);
     }
     gm_context_unguard();
     pthread_mutex_unlock(&turn);
@@ -225,8 +234,7 @@ static bool is_here(char *message)
 /* Makes the engine current; the first call opens it. */
 static bool use_alone(struct engine *engine, char *message)
 {
-    return is_here(message) &&
-           (engine->context ? gm_context_use(engine->context) : engine_open(engine, message));
+    return is_here(message) && (engine->context.self ? use(engine) : engine_open(engine, message));
 }
 
 bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size)

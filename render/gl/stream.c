@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "render/grow.h"
 #include "render/message.h"
 
 /* Bits of the stencil: the upper one for inside and outside, the others number groups painted once. */
@@ -65,13 +66,8 @@ static bool bind_image(struct gm_stream *stream, const struct gm_mark *mark)
     const size_t limit = (size_t)most, row_stride = (mark->rows - 1) / limit + 1,
                  column_stride = (mark->columns - 1) / limit + 1;
     const size_t rows = (mark->rows - 1) / row_stride + 1, columns = (mark->columns - 1) / column_stride + 1;
-    if (stream->texel_capacity < rows * columns) {
-        float *texels = realloc(stream->texels, rows * columns * sizeof *texels);
-        if (!texels) {
-            return false;
-        }
-        stream->texels = texels;
-        stream->texel_capacity = rows * columns;
+    if (!gm_grow(&stream->texels, &stream->texel_capacity, rows * columns, sizeof *stream->texels)) {
+        return false;
     }
     const double factor = 1.0 / (mark->high - mark->low);
     for (size_t row = 0; row < rows; row++) {

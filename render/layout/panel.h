@@ -84,6 +84,21 @@ double gm_axes_y(const struct gm_axes *axes, double value);
    the middles of the cells. */
 double gm_image_value(const struct gm_mark *image, double across, double up);
 
+/* Rounds towards zero, within the bounds; NaN becomes the lower one. */
+int gm_clamp(double value, int low, int high);
+
+/* Pixels from a place of the surface on; `across` and `down` are their numbers in a unit of it. */
+struct gm_pixel_grid {
+    double left, top, across, down;
+    int clip[4]; /* {left, top, right, bottom}: the pixels that are wanted */
+};
+typedef void gm_pixel_put(void *self, const struct gm_mark *mark, int x, int y, double value);
+
+/* Calls `put` for every pixel whose middle is in a triangle of a mesh, or on an edge of it, with the value
+   there, which is linear in the triangle. */
+void gm_mesh_walk(const struct gm_axes *axes, const struct gm_mark *mark, const struct gm_pixel_grid *pixels,
+                  gm_pixel_put *put, void *self);
+
 /* Returns true if boxes overlap. Neighbours in a line need air, lines may touch, and empty boxes overlap
    nothing. */
 bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air);

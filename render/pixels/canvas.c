@@ -170,22 +170,11 @@ __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char
 }
 #endif
 
-/* Packs the other pixels as three words; the shifts need a processor with the low byte first. */
 static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t count)
 {
     size_t i = 0;
 #ifdef __x86_64__
     i = __builtin_cpu_supports("ssse3") ? shuffle_alpha(rgba, rgb, count) : 0;
-#endif
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    for (; i + 4 <= count; i += 4) {
-        uint32_t in[4], out[3];
-        memcpy(in, rgba + 4 * i, sizeof in);
-        out[0] = (in[0] & 0xffffff) | in[1] << 24;
-        out[1] = (in[1] >> 8 & 0xffff) | in[2] << 16;
-        out[2] = (in[2] >> 16 & 0xff) | in[3] << 8;
-        memcpy(rgb + 3 * i, out, sizeof out);
-    }
 #endif
     for (; i < count; i++) {
         memcpy(rgb + 3 * i, rgba + 4 * i, 3);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/grow.h"
+
 void gm_batch_free(struct gm_batch *batch)
 {
     free(batch->vertices);
@@ -22,47 +24,18 @@ void gm_batch_clear(struct gm_batch *batch)
     batch->image = NULL;
 }
 
-void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height)
-{
-    const int scissor[4] = {x, y, width, height};
-    memcpy(batch->scissor, scissor, sizeof scissor);
-}
-
 void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil)
 {
     batch->program = program;
     batch->stencil = stencil;
 }
 
-void gm_batch_image(struct gm_batch *batch, const struct gm_mark *image)
+static bool room_for(struct gm_batch *batch, void *block, size_t *capacity, size_t wanted, size_t size)
 {
-    batch->image = image;
-}
-
-void gm_batch_once(struct gm_batch *batch)
-{
-    batch->once++;
-}
-
-/* Makes room for `more` elements. When out of memory it returns false, and the block stays valid. */
-static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t count, size_t more,
-                 size_t size)
-{
-    if (more <= *capacity - count) {
-        return true;
-    }
-    size_t wanted = *capacity > 0 ? 2 * *capacity : 4096;
-    while (wanted - count < more && wanted < SIZE_MAX / 4 / size) {
-        wanted *= 2;
-    }
-    void *bigger = wanted - count < more ? NULL : realloc(*block, wanted * size);
-    if (!bigger) {
-        batch->short_of_memory = true;
-        return false;
-    }
-    *block = bigger;
-    *capacity = wanted;
-    return true;
+    const size_t first = 4096;
+    const bool grown = gm_grow(block, capacity, wanted > first ? wanted : first, size);
+    batch->short_of_memory = batch->short_of_memory || !grown;
+    return grown;
 }
 
 /* Returns the call for the current state, a new one if the last differs, or NULL. */
@@ -76,8 +49,7 @@ static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
             return last;
         }
     }
-    if (!grow(batch, (void **)&batch->calls, &batch->call_capacity, batch->call_count, 1,
-              sizeof *batch->calls)) {
+    if (!room_for(batch, &batch->calls, &batch->call_capacity, batch->call_count + 1, sizeof *batch->calls)) {
         return NULL;
     }
     struct gm_draw_call *call = &batch->calls[batch->call_count++];
@@ -94,8 +66,8 @@ static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
 struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
 {
     const size_t joint = 2; /* vertices of the degenerate triangles between two strips */
-    if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count + joint,
-              sizeof *batch->vertices)) {
+    if (!room_for(batch, &batch->vertices, &batch->vertex_capacity, batch->vertex_count + count + joint,
+                  sizeof *batch->vertices)) {
         return NULL;
     }
     struct gm_draw_call *call = call_for(batch, false);
@@ -115,6 +87,15 @@ struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
     return strip;
 }
 
+void gm_batch_quad(struct gm_batch *batch, const struct gm_vertex corners[4])
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip) {
+        memcpy(strip, corners, 4 * sizeof *strip);
+        gm_batch_end(batch, 0);
+    }
+}
+
 void gm_batch_end(struct gm_batch *batch, size_t unused)
 {
     batch->vertex_count -= unused;
@@ -126,10 +107,10 @@ void gm_batch_end(struct gm_batch *batch, size_t unused)
 
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices)
 {
-    if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count,
-              sizeof *batch->vertices) ||
-        !grow(batch, (void **)&batch->indices, &batch->index_capacity, batch->index_count, index_count,
-              sizeof *batch->indices)) {
+    if (!room_for(batch, &batch->vertices, &batch->vertex_capacity, batch->vertex_count + count,
+                  sizeof *batch->vertices) ||
+        !room_for(batch, &batch->indices, &batch->index_capacity, batch->index_count + index_count,
+                  sizeof *batch->indices)) {
         return NULL;
     }
     struct gm_draw_call *call = call_for(batch, true);

@@ -11,19 +11,14 @@ void gm_brush_free(struct gm_brush *brush)
     gm_polyline_free(&brush->dash);
 }
 
-static void set_state(struct gm_brush *brush, enum gm_program program, enum gm_stencil stencil)
-{
-    gm_batch_state(&brush->batch, program, stencil);
-}
-
 static void clip(void *self, int left, int top, int width, int height)
 {
-    gm_batch_scissor(&((struct gm_brush *)self)->batch, left, top, width, height);
+    memcpy(((struct gm_brush *)self)->batch.scissor, (const int[]){left, top, width, height}, sizeof(int[4]));
 }
 
 static void box(void *self, float left, float top, float right, float bottom, struct gm_ink ink)
 {
-    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     gm_stroke_box(&((struct gm_brush *)self)->batch, left, top, right, bottom, gm_rgba_of(ink, 1.0));
 }
 
@@ -51,50 +46,47 @@ static void line(void *self, const struct gm_polyline *line, const struct gm_str
     const struct gm_rgba ink = gm_rgba_of(stroke->ink, fminf(stroke->width, 1.0f));
     const bool has_whole_pixels = half > 0.75f;
     if (ink.colour[3] < 255 && has_whole_pixels && gm_stroke_breaks(line, half) > 0) {
-        gm_batch_once(&brush->batch);
-        set_state(brush, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
+        brush->batch.once++;
+        gm_batch_state(&brush->batch, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
         draw_line(brush, line, stroke, half, ink);
-        set_state(brush, GM_PROGRAM_INK, GM_STENCIL_ONCE);
+        gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_ONCE);
         draw_line(brush, line, stroke, half, ink);
     } else {
-        set_state(brush, GM_PROGRAM_INK, GM_STENCIL_NONE);
+        gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
         draw_line(brush, line, stroke, half, ink);
     }
 }
 
 static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
 {
-    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     gm_stroke_disc(&((struct gm_brush *)self)->batch, centre, 0.5f * fmaxf(width, 1.0f),
                    gm_rgba_of(ink, fminf(width * width, 1.0f)));
 }
 
 static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
 {
-    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     gm_fill_polygon(&((struct gm_brush *)self)->batch, line, gm_rgba_of(ink, 1.0));
 }
 
 static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
                        const struct gm_letter *letter, struct gm_rgba ink)
 {
-    struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (!strip) {
-        return;
-    }
+    struct gm_vertex corners[4];
     for (int i = 0; i < 4; i++) {
         const int u = i % 2 == 0 ? 0 : letter->width, v = i < 2 ? 0 : letter->height;
         const double along = letter->x + u, down = letter->y + v;
-        strip[i] = (struct gm_vertex){
+        corners[i] = (struct gm_vertex){
             .x = (float)(upwards ? x + down : x + along),
             .y = (float)(upwards ? y - along : y + down),
             .across = (float)(letter->atlas_x + u),
             .along = (float)(letter->atlas_y + v),
             .half = 1,
         };
-        memcpy(strip[i].colour, ink.colour, sizeof strip[i].colour);
+        memcpy(corners[i].colour, ink.colour, sizeof corners[i].colour);
     }
-    gm_batch_end(batch, 0);
+    gm_batch_quad(batch, corners);
 }
 
 /* Baselines are on whole pixels, letters along them at quarters of a pixel. */
@@ -105,7 +97,7 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
     const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
     double pen = writing->upwards ? y - writing->y : writing->x - x;
     struct gm_letter letter;
-    set_state(brush, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
+    gm_batch_state(&brush->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
     while (gm_glyphs_next(brush->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
         if (letter.width > 0) {
             put_letter(&brush->batch, writing->upwards, x, y, &letter, gm_rgba_of(writing->ink, 1.0));
@@ -143,27 +135,15 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_axes *axes, const
     }
 }
 
-static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
-{
-    struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (!strip) {
-        return;
-    }
-    for (int i = 0; i < 4; i++) {
-        strip[i] = corners[i];
-    }
-    gm_batch_end(batch, 0);
-}
-
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_brush *brush = self;
     gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     const double right = box.x + box.width, bottom = box.y + box.height;
-    put_quad(&brush->batch, (struct gm_vertex[4]){vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
-                                                  vertex(right, box.y, 1.0, 0.0, 1.0, map),
-                                                  vertex(box.x, bottom, 0.0, 0.0, 1.0, map),
-                                                  vertex(right, bottom, 0.0, 0.0, 1.0, map)});
+    gm_batch_quad(&brush->batch, (struct gm_vertex[4]){vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
+                                                       vertex(right, box.y, 1.0, 0.0, 1.0, map),
+                                                       vertex(box.x, bottom, 0.0, 0.0, 1.0, map),
+                                                       vertex(right, bottom, 0.0, 0.0, 1.0, map)});
     gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
@@ -173,12 +153,12 @@ static void paint_image(struct gm_brush *brush, const struct gm_axes *axes, cons
     const double bottom = gm_axes_y(axes, mark->points[1]), top = gm_axes_y(axes, mark->points[3]);
     const double alpha = mark->style.alpha;
     gm_batch_state(&brush->batch, GM_PROGRAM_IMAGE, GM_STENCIL_NONE);
-    gm_batch_image(&brush->batch, mark);
-    put_quad(&brush->batch, (struct gm_vertex[4]){vertex(left, bottom, 0.0, 0.0, alpha, mark->map),
-                                                  vertex(right, bottom, 1.0, 0.0, alpha, mark->map),
-                                                  vertex(left, top, 0.0, 1.0, alpha, mark->map),
-                                                  vertex(right, top, 1.0, 1.0, alpha, mark->map)});
-    gm_batch_image(&brush->batch, NULL);
+    brush->batch.image = mark;
+    gm_batch_quad(&brush->batch, (struct gm_vertex[4]){vertex(left, bottom, 0.0, 0.0, alpha, mark->map),
+                                                       vertex(right, bottom, 1.0, 0.0, alpha, mark->map),
+                                                       vertex(left, top, 0.0, 1.0, alpha, mark->map),
+                                                       vertex(right, top, 1.0, 1.0, alpha, mark->map)});
+    brush->batch.image = NULL;
     gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 

@@ -179,30 +179,24 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
 
 void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_rgba ink)
 {
-    struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (!strip) {
-        return;
-    }
+    struct gm_vertex corners[4];
     const float reach = radius + fringe;
     for (int i = 0; i < 4; i++) {
         const float x = i % 2 == 0 ? -reach : reach, y = i < 2 ? -reach : reach;
-        strip[i] = vertex((struct gm_point){centre.x + x, centre.y + y}, x, y, radius, ink);
+        corners[i] = vertex((struct gm_point){centre.x + x, centre.y + y}, x, y, radius, ink);
     }
-    gm_batch_end(batch, 0);
+    gm_batch_quad(batch, corners);
 }
 
 void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
                    struct gm_rgba ink)
 {
-    struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (!strip) {
-        return;
-    }
+    struct gm_vertex corners[4];
     for (int i = 0; i < 4; i++) {
-        strip[i] =
+        corners[i] =
             vertex((struct gm_point){i % 2 == 0 ? left : right, i < 2 ? top : bottom}, 0.0f, 0.0f, 1.0f, ink);
     }
-    gm_batch_end(batch, 0);
+    gm_batch_quad(batch, corners);
 }
 
 /* Returns true if all turns have one sign and add up to one round, so that x rises and falls once. */
@@ -262,6 +256,23 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
                              line->points[i].y + scale * (a.y + b.y)};
 }
 
+/* The inside of a polygon whose corners are moved inwards. */
+static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, float inwards, float half,
+                        struct gm_rgba ink)
+{
+    const size_t n = line->count;
+    struct gm_vertex *strip = gm_batch_strip(batch, n);
+    if (!strip) {
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = zigzag(i, n);
+        strip[i] =
+            vertex(inwards == 0.0f ? line->points[k] : shifted(line, k, inwards), 0.0f, 0.0f, half, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
 static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
                         struct gm_rgba ink)
 {
@@ -277,28 +288,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
         ring[2 * i + 1] = vertex(shifted(line, k, 0.5f * outwards), 1.0f, 0.0f, 0.5f, ink);
     }
     gm_batch_end(batch, 0);
-    struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (!strip) {
-        return;
-    }
-    for (size_t i = 0; i < n; i++) {
-        const struct gm_point corner = shifted(line, zigzag(i, n), -0.5f * outwards);
-        strip[i] = vertex(corner, 0.0f, 0.0f, 0.5f, ink);
-    }
-    gm_batch_end(batch, 0);
-}
-
-static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink)
-{
-    const size_t n = line->count;
-    struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (!strip) {
-        return;
-    }
-    for (size_t i = 0; i < n; i++) {
-        strip[i] = vertex(line->points[zigzag(i, n)], 0.0f, 0.0f, 1.0f, ink);
-    }
-    gm_batch_end(batch, 0);
+    put_polygon(batch, line, -0.5f * outwards, 0.5f, ink);
 }
 
 static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink)
@@ -312,7 +302,7 @@ static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, str
         bounds.bottom = fmaxf(bounds.bottom, line->points[i].y);
     }
     gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_INVERT);
-    put_polygon(batch, line, ink);
+    put_polygon(batch, line, 0.0f, 1.0f, ink);
     gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_OUTSIDE);
     rim.closed = true;
     gm_stroke_line(batch, &rim, 0.0f, ink);
@@ -333,7 +323,7 @@ void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, str
     if (convex(line) && thick) {
         fill_convex(batch, line, area > 0.0f ? -1.0f : 1.0f, ink);
     } else if (convex(line)) {
-        put_polygon(batch, line, ink);
+        put_polygon(batch, line, 0.0f, 1.0f, ink);
     } else {
         fill_any(batch, line, ink);
     }

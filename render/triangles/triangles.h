@@ -36,7 +36,7 @@ struct gm_vertex {
 
 enum gm_stencil {
     GM_STENCIL_NONE,
-    GM_STENCIL_ONCE,    /* a pixel is painted once after gm_batch_once */
+    GM_STENCIL_ONCE,    /* a pixel is painted once in each group */
     GM_STENCIL_INVERT,  /* no colour: each triangle turns inside to outside and back */
     GM_STENCIL_OUTSIDE, /* paints where the inversions left the outside */
     GM_STENCIL_INSIDE,  /* paints the inside and clears it */
@@ -61,11 +61,12 @@ struct gm_batch {
     struct gm_draw_call *calls;
     size_t call_count, call_capacity;
     size_t join; /* index where a strip's first vertex must be doubled; 0: none */
+    /* the state of later triangles */
     int scissor[4];
     int once; /* number of the current group of GM_STENCIL_ONCE */
     enum gm_program program;
     enum gm_stencil stencil;
-    const struct gm_mark *image;
+    const struct gm_mark *image; /* lives until the batch is drawn */
     bool short_of_memory;
 };
 
@@ -73,16 +74,14 @@ struct gm_batch {
 void gm_batch_free(struct gm_batch *batch);
 
 void gm_batch_clear(struct gm_batch *batch);
-/* Sets the state of later triangles. An image must live until the batch is drawn. */
-void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height);
 void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil);
-void gm_batch_image(struct gm_batch *batch, const struct gm_mark *image);
-void gm_batch_once(struct gm_batch *batch);
 
 /* Returns room for a strip of at most count vertices, not connected to the strip before; NULL when out of
    memory. gm_batch_end ends the strip and drops its last `unused` vertices. */
 struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count);
 void gm_batch_end(struct gm_batch *batch, size_t unused);
+/* Adds a strip of four vertices. */
+void gm_batch_quad(struct gm_batch *batch, const struct gm_vertex corners[4]);
 
 /* Returns room for vertices and the triangles among them (indices count from the first of these); NULL when
    out of memory. */

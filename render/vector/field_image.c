@@ -18,65 +18,12 @@ void gm_field_image_close(struct gm_field_image *field)
     field->pixels = NULL;
 }
 
-/* Rounds towards zero, within the bounds; NaN becomes the lower one. */
-static int clamp(double value, int low, int high)
+static void put(void *self, const struct gm_mark *mark, int x, int y, double value)
 {
-    return value > low ? (value < high ? (int)value : high) : low;
-}
-
-static void put(struct gm_field_image *field, int x, int y, const struct gm_mark *mark, double value)
-{
+    const struct gm_field_image *field = self;
     const double place = (value - mark->low) / (mark->high - mark->low);
     field->pixels[(size_t)y * (size_t)field->columns + (size_t)x] =
-        (uint8_t)clamp(place * (GM_FIELD_COLOURS - 1) + 0.5, 0, GM_FIELD_COLOURS - 1);
-}
-
-struct corner {
-    double x, y, value; /* x and y in pixels of the field */
-};
-
-/* Paints every pixel whose middle is in the triangle, or on an edge of it. */
-static void paint_triangle(struct gm_field_image *field, const struct gm_mark *mark, const struct corner c[3])
-{
-    const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
-    const double rounding = 1e-9;
-    if (!(fabs(area) > 0.0) || !isfinite(area)) {
-        return;
-    }
-    const int left = clamp(fmin(c[0].x, fmin(c[1].x, c[2].x)), 0, field->columns);
-    const int right = clamp(fmax(c[0].x, fmax(c[1].x, c[2].x)) + 1.0, 0, field->columns);
-    const int top = clamp(fmin(c[0].y, fmin(c[1].y, c[2].y)), 0, field->rows);
-    const int bottom = clamp(fmax(c[0].y, fmax(c[1].y, c[2].y)) + 1.0, 0, field->rows);
-    for (int y = top; y < bottom; y++) {
-        for (int x = left; x < right; x++) {
-            const double px = x + 0.5 - c[0].x, py = y + 0.5 - c[0].y;
-            const double second = (px * (c[2].y - c[0].y) - (c[2].x - c[0].x) * py) / area;
-            const double third = ((c[1].x - c[0].x) * py - px * (c[1].y - c[0].y)) / area;
-            if (second >= -rounding && third >= -rounding && second + third <= 1.0 + rounding) {
-                put(field, x, y, mark,
-                    c[0].value + second * (c[1].value - c[0].value) + third * (c[2].value - c[0].value));
-            }
-        }
-    }
-}
-
-static void paint_mesh(struct gm_field_image *field, const struct gm_axes *axes, const struct gm_mark *mark,
-                       int fine)
-{
-    for (size_t i = 0; i < mark->triangle_count; i++) {
-        struct corner corners[3];
-        bool known = true;
-        for (size_t k = 0; k < 3; k++) {
-            const size_t vertex = (size_t)mark->triangles[3 * i + k];
-            corners[k] = (struct corner){fine * (gm_axes_x(axes, mark->points[2 * vertex]) - field->left),
-                                         fine * (gm_axes_y(axes, mark->points[2 * vertex + 1]) - field->top),
-                                         mark->values[vertex]};
-            known = known && isfinite(corners[k].value);
-        }
-        if (known) {
-            paint_triangle(field, mark, corners);
-        }
-    }
+        (uint8_t)gm_clamp(place * (GM_FIELD_COLOURS - 1) + 0.5, 0, GM_FIELD_COLOURS - 1);
 }
 
 static void paint_image(struct gm_field_image *field, const struct gm_axes *axes, const struct gm_mark *mark,
@@ -91,7 +38,7 @@ static void paint_image(struct gm_field_image *field, const struct gm_axes *axes
             const double value =
                 u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 ? gm_image_value(mark, u, v) : (double)NAN;
             if (isfinite(value)) {
-                put(field, x, y, mark, value);
+                put(field, mark, x, y, value);
             }
         }
     }
@@ -109,7 +56,9 @@ static bool paint(struct gm_field_image *field, const struct gm_axes *axes, cons
     }
     memset(field->pixels, GM_FIELD_NONE, size);
     if (mark->kind == GM_MARK_MESH) {
-        paint_mesh(field, axes, mark, fine);
+        const struct gm_pixel_grid pixels = {
+            field->left, field->top, fine, fine, {0, 0, field->columns, field->rows}};
+        gm_mesh_walk(axes, mark, &pixels, put, field);
     } else {
         paint_image(field, axes, mark, fine);
     }
@@ -145,10 +94,10 @@ bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *ax
         low_y = fmin(low_y, y);
         high_y = fmax(high_y, y);
     }
-    const int left = clamp(floor(low_x), clip[0], clip[0] + clip[2]);
-    const int right = clamp(ceil(high_x), clip[0], clip[0] + clip[2]);
-    const int top = clamp(floor(low_y), clip[1], clip[1] + clip[3]);
-    const int bottom = clamp(ceil(high_y), clip[1], clip[1] + clip[3]);
+    const int left = gm_clamp(floor(low_x), clip[0], clip[0] + clip[2]);
+    const int right = gm_clamp(ceil(high_x), clip[0], clip[0] + clip[2]);
+    const int top = gm_clamp(floor(low_y), clip[1], clip[1] + clip[3]);
+    const int bottom = gm_clamp(ceil(high_y), clip[1], clip[1] + clip[3]);
     *field = (struct gm_field_image){.left = left, .top = top};
     if (right <= left || bottom <= top || !(mark->high > mark->low)) {
         return true;

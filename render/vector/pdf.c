@@ -4,17 +4,12 @@
 #include "render/vector/cairo.h"
 #include "render/vector/vector.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <fontconfig/fontconfig.h>
-
-#include "render/cells/text.h"
-#include "render/drawing/pen.h"
-#include "render/files/temporary.h"
 
 enum { STOPS = 64 };
 
@@ -221,27 +216,9 @@ static const struct gm_pen pen = {.clip = clip,
 
 /* ---- the page ---- */
 
-/* A file in memory. */
-struct bytes {
-    char *at;
-    size_t size, capacity;
-};
-
-static cairo_status_t take_bytes(void *closure, const unsigned char *data, unsigned length)
+static cairo_status_t take_bytes(void *out, const unsigned char *data, unsigned length)
 {
-    struct bytes *bytes = closure;
-    if (bytes->size + length > bytes->capacity) {
-        const size_t capacity = 2 * (bytes->size + length);
-        char *more = realloc(bytes->at, capacity);
-        if (!more) {
-            return CAIRO_STATUS_NO_MEMORY;
-        }
-        bytes->at = more;
-        bytes->capacity = capacity;
-    }
-    memcpy(bytes->at + bytes->size, data, length);
-    bytes->size += length;
-    return CAIRO_STATUS_SUCCESS;
+    return fwrite(data, 1, length, out) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
 /* Sets the metadata: the subject has the texts that reproduce the file. */
@@ -287,55 +264,34 @@ static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, stru
     }
 }
 
-/* Returns the whole file, which the caller frees; NULL when out of memory. */
-static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture,
-                       const struct gm_png_text *texts, size_t count, size_t *size)
+static bool draw(void *self, struct gm_drawing *drawing, FILE *out)
 {
+    struct gm_pdf *pdf = self;
+    const struct gm_appearance *look = drawing->look;
     const double points = 72.0, mm = 25.4, dpi = look->dpi > 0.0 ? look->dpi : 96.0;
     const bool paged = look->page_width > 0.0 && look->page_height > 0.0;
     const double width = points * (paged ? look->page_width / mm : look->width / dpi);
     const double height = points * (paged ? look->page_height / mm : look->height / dpi);
-    struct bytes bytes = {0};
-    cairo_surface_t *surface = gm_cairo.pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
-    set_metadata(surface, look->title ? look->title : picture->title, texts, count);
+    cairo_surface_t *surface = gm_cairo.pdf_surface_create_for_stream(take_bytes, out, width, height);
+    set_metadata(surface, look->title ? look->title : drawing->picture->title, drawing->texts,
+                 drawing->count);
     pdf->cairo = gm_cairo.create(surface);
     gm_cairo.scale(pdf->cairo, width / look->width, height / look->height);
-    draw_page(pdf, look, picture);
+    draw_page(pdf, look, drawing->picture);
     const bool drawn = gm_cairo.status(pdf->cairo) == CAIRO_STATUS_SUCCESS;
     gm_cairo.destroy(pdf->cairo);
     gm_cairo.surface_finish(surface);
     const bool finished = gm_cairo.surface_status(surface) == CAIRO_STATUS_SUCCESS;
     gm_cairo.surface_destroy(surface);
-    if (!drawn || !finished || pdf->short_of_memory) {
-        free(bytes.at);
-        return NULL;
-    }
-    *size = bytes.size;
-    return bytes.at;
+    drawing->fields = pdf->fields;
+    return drawn && finished && !pdf->short_of_memory;
 }
 
-bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
-                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
+bool gm_pdf_write(const char *path, struct gm_drawing *drawing, char *message)
 {
-    struct gm_pdf pdf = {.clip = {0, 0, look->width, look->height}};
-    char *bytes = NULL;
-    size_t size = 0;
-    const bool opened = gm_cairo_open(message) && gm_page_open(&pdf.painter, &pen, &pdf, look, message);
-    int error = opened ? ENOMEM : errno;
-    if (opened) {
-        bytes = make_file(&pdf, look, picture, texts, count, &size);
-    }
-    gm_page_close(&pdf.painter);
-    if (bytes) {
-        error = gm_temporary_write(path, bytes, size);
-    }
-    free(bytes);
-    *fields = pdf.fields;
-    if (error != 0 && opened) {
-        gm_temporary_refuse(message, path, strerror(error));
-    }
-    errno = error;
-    return error == 0;
+    struct gm_pdf pdf = {.clip = {0, 0, drawing->look->width, drawing->look->height}};
+    const struct gm_drawer drawer = {&pen, draw, &pdf, &pdf.painter};
+    return gm_cairo_open(message) && gm_drawing_write(path, drawing, &drawer, message);
 }
 
 const char *gm_pdf_backend(void)

@@ -4,16 +4,12 @@
    path. */
 #include "render/vector/vector.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "render/cells/text.h"
-#include "render/drawing/pen.h"
-#include "render/files/images.h"
-#include "render/files/temporary.h"
 
 enum shape { NO_SHAPE, LINES, DISCS, FILLS, BOXES };
 
@@ -290,8 +286,12 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
         memcpy(palette[i], (const uint8_t[]){rgb.r, rgb.g, rgb.b, 255}, 4);
     }
     size_t size = 0;
-    unsigned char *png =
-        gm_palette_png(image->pixels, image->columns, image->rows, (const uint8_t(*)[4])palette, &size);
+    char reason[GM_PNG_REASON];
+    const struct gm_png file = {.width = image->columns,
+                                .height = image->rows,
+                                .pixels = image->pixels,
+                                .palette = (const uint8_t(*)[4])palette};
+    unsigned char *png = gm_png_pack(&file, &size, reason);
     if (!png) {
         svg->short_of_memory = true;
         return;
@@ -433,34 +433,22 @@ static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const
     fputs("/>\n", svg->out);
 }
 
-bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
-                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
+static bool draw(void *self, struct gm_drawing *drawing, FILE *out)
 {
-    char *bytes = NULL;
-    size_t size = 0;
-    struct gm_svg svg = {.out = open_memstream(&bytes, &size), .clip = {0, 0, look->width, look->height}};
-    const bool opened = gm_page_open(&svg.painter, &pen, &svg, look, message);
-    int error = opened ? ENOMEM : errno;
-    bool drawn = false;
-    if (svg.out && opened) {
-        put_head(&svg, picture, texts, count);
-        drawn = gm_page_draw(&svg.painter, picture) && !svg.short_of_memory;
-        clip(&svg, 0, 0, look->width, look->height);
-        end_shapes(&svg);
-        fputs("</svg>\n", svg.out);
-    }
-    if (svg.out && fclose(svg.out) != 0) {
-        drawn = false;
-    }
-    gm_page_close(&svg.painter);
-    if (drawn && bytes) {
-        error = gm_temporary_write(path, bytes, size);
-    }
-    free(bytes);
-    *fields = svg.fields;
-    if (error != 0 && opened) {
-        gm_temporary_refuse(message, path, strerror(error));
-    }
-    errno = error;
-    return error == 0;
+    struct gm_svg *svg = self;
+    svg->out = out;
+    put_head(svg, drawing->picture, drawing->texts, drawing->count);
+    const bool drawn = gm_page_draw(&svg->painter, drawing->picture);
+    clip(svg, 0, 0, drawing->look->width, drawing->look->height);
+    end_shapes(svg);
+    fputs("</svg>\n", out);
+    drawing->fields = svg->fields;
+    return drawn && !svg->short_of_memory;
+}
+
+bool gm_svg_write(const char *path, struct gm_drawing *drawing, char *message)
+{
+    struct gm_svg svg = {.clip = {0, 0, drawing->look->width, drawing->look->height}};
+    const struct gm_drawer drawer = {&pen, draw, &svg, &svg.painter};
+    return gm_drawing_write(path, drawing, &drawer, message);
 }

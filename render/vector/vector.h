@@ -4,18 +4,27 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
+#include "render/drawing/pen.h"
 #include "render/files/images.h"
 #include "render/layout/appearance.h"
 #include "render/layout/panel.h"
 #include "render/picture/picture.h"
 
-/* Draws the picture as SVG 1.1: lines, shapes and texts, and fields of colours as images of pixels; *fields
-   is their number. The metadata contain the texts. A killed program leaves no half file. Returns false on
-   failure, with one sentence in message (GM_MESSAGE bytes) and errno: ENOMEM also when a library was refused
-   memory. */
-bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
-                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message);
+/* A picture to draw, with the texts of its metadata. */
+struct gm_drawing {
+    const struct gm_appearance *look;
+    struct gm_picture *picture;
+    const struct gm_png_text *texts;
+    size_t count;
+    size_t fields; /* set: the fields of colours, which are images of pixels */
+};
+
+/* Draws the picture as SVG 1.1: lines, shapes and texts, and fields of colours as images of pixels. A killed
+   program leaves no half file. Returns false on failure, with one sentence in message (GM_MESSAGE bytes) and
+   errno: ENOMEM also when a library was refused memory. */
+bool gm_svg_write(const char *path, struct gm_drawing *drawing, char *message);
 
 /* Reads the texts of these keys from the metadata of an SVG. The caller frees texts[i], which is NULL for a
    missing key. Returns false with a sentence if the file cannot be read. */
@@ -23,11 +32,20 @@ bool gm_svg_read_texts(const char *path, const char *const *keys, char **texts, 
 
 /* Draws the picture as a page of PDF, with Cairo: as gm_svg_write, with embedded fonts. The date is fixed, so
    that the same picture has the same bytes. */
-bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
-                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message);
+bool gm_pdf_write(const char *path, struct gm_drawing *drawing, char *message);
 
 /* Returns the library: "Cairo 1.16.0". */
 const char *gm_pdf_backend(void);
+
+/* Opens the page of a pen and lets `draw` write the file; draw returns false when out of memory. */
+struct gm_drawer {
+    const struct gm_pen *pen;
+    bool (*draw)(void *self, struct gm_drawing *drawing, FILE *out);
+    void *self;
+    struct gm_painter *painter; /* of self */
+};
+bool gm_drawing_write(const char *path, struct gm_drawing *drawing, const struct gm_drawer *drawer,
+                      char *message);
 
 /* A field of colours as pixels: each pixel has the colour of its interpolated value, which a few shapes of a
    drawing cannot show. */

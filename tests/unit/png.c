@@ -44,6 +44,14 @@ static int remove_folder(void **state)
     return 0;
 }
 
+static bool write_png(const char *path, int width, int height, const unsigned char *rgb,
+                      const struct gm_png_text *texts, size_t count, char *message)
+{
+    const struct gm_png image = {
+        .width = width, .height = height, .pixels = rgb, .texts = texts, .text_count = count};
+    return gm_png_write(path, &image, message);
+}
+
 /* Smooth, noisy and constant parts, so that every kind of deflate block occurs. */
 static unsigned char *make_pixels(int width, int height)
 {
@@ -85,7 +93,7 @@ static void pixels_survive(void **state)
         int width = sizes[i][0], height = sizes[i][1];
         unsigned char *rgb = make_pixels(width, height);
         char message[MESSAGE] = "";
-        assert_true(gm_png_write(in_folder("a.png"), width, height, 0, rgb, NULL, 0, message));
+        assert_true(write_png(in_folder("a.png"), width, height, rgb, NULL, 0, message));
         check_pixels(in_folder("a.png"), width, height, rgb);
         unsigned char *read = malloc((size_t)width * (size_t)height * 3);
         assert_non_null(read);
@@ -136,7 +144,7 @@ static void texts_survive(void **state)
     (void)state;
     unsigned char *rgb = make_pixels(5, 5);
     char message[MESSAGE] = "";
-    assert_true(gm_png_write(in_folder("t.png"), 5, 5, 0, rgb, texts, TEXTS, message));
+    assert_true(write_png(in_folder("t.png"), 5, 5, rgb, texts, TEXTS, message));
     check_pixels(in_folder("t.png"), 5, 5, rgb);
     for (size_t i = 0; i < TEXTS; i++) {
         char *text = gm_png_read_text(in_folder("t.png"), texts[i].key, message);
@@ -160,7 +168,7 @@ static void long_text_survives(void **state)
     const struct gm_png_text one = {"changes", text};
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
-    assert_true(gm_png_write(in_folder("long.png"), 1, 1, 0, rgb, &one, 1, message));
+    assert_true(write_png(in_folder("long.png"), 1, 1, rgb, &one, 1, message));
     char *back = gm_png_read_text(in_folder("long.png"), "changes", message);
     assert_non_null(back);
     assert_string_equal(back, text);
@@ -204,7 +212,7 @@ static void texts_are_read_at_once(void **state)
     const unsigned char rgb[3] = {1, 2, 3};
     const char *const keys[] = {"changes", "absent", "Title", "Comment"};
     char message[MESSAGE] = "", *read[4];
-    assert_true(gm_png_write(in_folder("t.png"), 1, 1, 0, rgb, texts, TEXTS, message));
+    assert_true(write_png(in_folder("t.png"), 1, 1, rgb, texts, TEXTS, message));
     assert_true(gm_png_read_texts(in_folder("t.png"), keys, read, 4, message));
     assert_string_equal(read[0], "0 12 dt=0.1\n1 40 scheme=verlet\n");
     assert_null(read[1]);
@@ -227,7 +235,7 @@ static void texts_have_a_limit(void **state)
     for (size_t length = GM_PNG_TEXTS_MOST / 2 - 100; length < GM_PNG_TEXTS_MOST; length += 200) {
         text[length] = '\0';
         const struct gm_png_text two[] = {{"a", text}, {"b", text}};
-        assert_true(gm_png_write(in_folder("l.png"), 1, 1, 0, rgb, two, 2, message));
+        assert_true(write_png(in_folder("l.png"), 1, 1, rgb, two, 2, message));
         text[length] = 'x';
         const bool fits = 2 * length < GM_PNG_TEXTS_MOST;
         assert_true(gm_png_read_texts(in_folder("l.png"), keys, read, 3, message) == fits);
@@ -247,7 +255,7 @@ static void fails_with(const char *path, const char *reason)
 {
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
-    assert_false(gm_png_write(path, 1, 1, 0, rgb, texts, TEXTS, message));
+    assert_false(write_png(path, 1, 1, rgb, texts, TEXTS, message));
     assert_non_null(strstr(message, path));
     assert_non_null(strstr(message, reason));
 }
@@ -275,10 +283,10 @@ static void name_too_long_is_told(void **state)
     name[300] = '\0';
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
-    assert_false(gm_png_write(in_folder(name), 1, 1, 0, rgb, NULL, 0, message));
+    assert_false(write_png(in_folder(name), 1, 1, rgb, NULL, 0, message));
     assert_non_null(strstr(message, "File name too long"));
     name[255] = '\0'; /* the longest that there is, so that the temporary one must be cut */
-    assert_true(gm_png_write(in_folder(name), 1, 1, 0, rgb, NULL, 0, message));
+    assert_true(write_png(in_folder(name), 1, 1, rgb, NULL, 0, message));
     assert_int_equal(folder_count(folder), 1);
 }
 
@@ -287,8 +295,8 @@ static void impossible_sizes_are_refused(void **state)
     (void)state;
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
-    assert_false(gm_png_write(in_folder("a.png"), 0, 5, 0, rgb, NULL, 0, message));
-    assert_false(gm_png_write(in_folder("a.png"), 5, -1, 0, rgb, NULL, 0, message));
+    assert_false(write_png(in_folder("a.png"), 0, 5, rgb, NULL, 0, message));
+    assert_false(write_png(in_folder("a.png"), 5, -1, rgb, NULL, 0, message));
     assert_int_equal(folder_count(folder), 0);
 }
 
@@ -298,13 +306,13 @@ static void devices_are_not_replaced(void **state)
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "", link[512];
     struct stat status;
-    assert_true(gm_png_write("/dev/null", 1, 1, 0, rgb, NULL, 0, message));
+    assert_true(write_png("/dev/null", 1, 1, rgb, NULL, 0, message));
     assert_int_equal(stat("/dev/null", &status), 0);
     assert_true(S_ISCHR(status.st_mode));
     /* as /dev/stdout is one */
     snprintf(link, sizeof link, "%s", in_folder("link.png"));
     assert_int_equal(symlink(in_folder("target.png"), link), 0);
-    assert_true(gm_png_write(link, 1, 1, 0, rgb, NULL, 0, message));
+    assert_true(write_png(link, 1, 1, rgb, NULL, 0, message));
     assert_int_equal(lstat(link, &status), 0);
     assert_true(S_ISLNK(status.st_mode));
     check_pixels(in_folder("target.png"), 1, 1, rgb);
@@ -316,7 +324,7 @@ static void file_size_limit_is_told(void **state)
     unsigned char *rgb = make_pixels(200, 200);
     unsigned char *before = make_pixels(3, 3);
     char message[MESSAGE] = "";
-    assert_true(gm_png_write(in_folder("a.png"), 3, 3, 0, before, NULL, 0, message));
+    assert_true(write_png(in_folder("a.png"), 3, 3, before, NULL, 0, message));
 
     struct rlimit limit, small;
     void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
@@ -324,7 +332,7 @@ static void file_size_limit_is_told(void **state)
     small = limit;
     small.rlim_cur = 10000;
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    bool written = gm_png_write(in_folder("a.png"), 200, 200, 0, rgb, NULL, 0, message);
+    bool written = write_png(in_folder("a.png"), 200, 200, rgb, NULL, 0, message);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
     signal(SIGXFSZ, handler);
 
@@ -366,7 +374,7 @@ static void damaged_files_are_survived(void **state)
     (void)state;
     unsigned char *rgb = make_pixels(9, 9);
     char message[MESSAGE] = "";
-    assert_true(gm_png_write(in_folder("good.png"), 9, 9, 0, rgb, texts, TEXTS, message));
+    assert_true(write_png(in_folder("good.png"), 9, 9, rgb, texts, TEXTS, message));
     free(rgb);
     FILE *file = fopen(in_folder("good.png"), "rb");
     assert_non_null(file);

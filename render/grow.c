@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Buffers that grow and stay. */
+#include "render/grow.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool gm_grow(void *block, size_t *capacity, size_t wanted, size_t size)
+{
+    void *elements;
+    if (wanted <= *capacity) {
+        return true;
+    }
+    const size_t count = wanted > 2 * *capacity ? wanted : 2 * *capacity;
+    memcpy(&elements, block, sizeof elements); /* a pointer of any type */
+    elements = count > SIZE_MAX / 4 / size ? NULL : realloc(elements, count * size);
+    if (!elements) {
+        return false;
+    }
+    memcpy(block, &elements, sizeof elements);
+    *capacity = count;
+    return true;
+}
