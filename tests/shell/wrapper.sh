@@ -127,6 +127,14 @@ check "the second command does not build" silent err building
 check "it does not configure either" silent log 'meson'
 check "it runs" says out '<list>'
 
+stand_in python3 <<'END'
+printf '<%s>' "$@"
+END
+run "$folder/geomint" figures --docs orbit.png
+check "pictures of the documents are drawn" says out "/pictures.py><$folder/build/app/geomint><$folder><--write><orbit.png>"
+run "$folder/geomint" figures --out docs
+check "other figures are the program's" says out '<figures><--out><docs>'
+
 touch "$folder/build/stale"
 run "$folder/geomint"
 check "what has changed is built" says err building
