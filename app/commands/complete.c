@@ -175,7 +175,9 @@ static void offer_key(const struct stem *stem, const char *key, const char *help
 static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
 {
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        offer_key(stem, scene->parameters[i].key, scene->parameters[i].help);
+        if (gm_row_is_offered(&scene->parameters[i])) {
+            offer_key(stem, scene->parameters[i].key, scene->parameters[i].help);
+        }
     }
     for (size_t i = 0; i < gm_common_key_count; i++) {
         offer_key(stem, gm_common_keys[i].name, gm_common_keys[i].help);

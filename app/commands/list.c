@@ -251,7 +251,9 @@ static void open_entry(struct entry *entry, const struct gm_scene *scene, const 
     entry->run = default_lanes(options, name, GM_RUN_SCHEMES);
     entry->render = default_lanes(options, name, GM_RENDER_SCHEMES);
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        entry->rows[entry->row_count++] = &scene->parameters[i];
+        if (gm_row_is_offered(&scene->parameters[i])) {
+            entry->rows[entry->row_count++] = &scene->parameters[i];
+        }
     }
     entry->scheme_count = gm_fitting_schemes(scene, entry->schemes);
     gm_fitting_same(scene, entry->schemes, entry->scheme_count, entry->same);
@@ -389,8 +391,26 @@ static int list_markdown(const char *what)
     return gm_finish(GM_EXIT_OK);
 }
 
+static bool is_figure(const char *word)
+{
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
+            if (strcmp(gm_scene_at(s)->figures[f].name, word) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static int refuse_name(const char *word)
 {
+    struct gm_file tour;
+    if (gm_file_find(GM_FILE_TOUR, word, &tour) || is_figure(word)) {
+        const bool figure = is_figure(word);
+        return gm_give_up(GM_EXIT_USAGE, "%.60s is a %s: geomint %s %.60s", word, figure ? "figure" : "tour",
+                          figure ? "figures" : "tour", word);
+    }
     char near[GM_NEAR_NAMES], folder[GM_MESSAGE] = "";
     const char *list = gm_nearest(word, GM_COUNT(lists), list_name, NULL);
     const char *found = list                                 ? list

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "app/words/names.h"
 #include "core/schemes.h"
 
 bool gm_shot_open(struct gm_shot *shot)
@@ -80,12 +81,9 @@ static bool is_idle(const struct gm_session *session, const char *key)
     return idle;
 }
 
-/* Returns false for the end, and for a switch that the system refuses, as a portrait without a plane. */
 static bool has_effect(const struct gm_parameter *row)
 {
-    char sentence[GM_MESSAGE];
-    const bool refused = row->type == GM_BOOLEAN && row->admits && !row->admits(row, "yes", sentence);
-    return row->offset != offsetof(struct gm_timing, until) && !refused;
+    return row->offset != offsetof(struct gm_timing, until) && gm_row_is_offered(row);
 }
 
 /* The scene's default end, or, after it, twice the time that has passed. */

@@ -107,6 +107,12 @@ bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *messa
                      near ? "; did you mean " : "", near ? near : "");
 }
 
+bool gm_row_is_offered(const struct gm_parameter *row)
+{
+    char sentence[GM_MESSAGE];
+    return row->type != GM_BOOLEAN || !row->admits || row->admits(row, "yes", sentence);
+}
+
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message)
 {
     size_t most = scene->observable_count + 1;

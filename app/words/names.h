@@ -28,6 +28,9 @@ size_t gm_fitting_elsewhere(const struct gm_scene *scene, const struct gm_scheme
 /* Returns true if at least one of these schemes has this parameter, a row of gm_settings_parameters. */
 bool gm_fitting_take(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
 
+/* Returns false for a parameter that the scene's system refuses to switch on, as a portrait without a plane. */
+bool gm_row_is_offered(const struct gm_parameter *row);
+
 /* Requested observables, by their numbers (gm_scene_observable_at), in the requested order. */
 struct gm_chosen {
     size_t *numbers;

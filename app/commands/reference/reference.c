@@ -247,7 +247,9 @@ static void put_scene(const struct gm_scene *scene)
            scene->watch, scene->time);
     printf("| parameter | default | range | meaning |\n|---|---|---|---|\n");
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        put_parameter(&scene->parameters[i]);
+        if (gm_row_is_offered(&scene->parameters[i])) {
+            put_parameter(&scene->parameters[i]);
+        }
     }
     printf("\n| observable | meaning |\n|---|---|\n");
     const struct gm_observable *observable;

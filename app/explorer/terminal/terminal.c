@@ -395,18 +395,18 @@ bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
     if (!terminal->input || !terminal->output) {
         return gm_refuse(
             message,
-            "The explorer needs a terminal, but standard %s is not one; `geomint render` makes pictures without.",
+            "the explorer needs a terminal, but standard %s is not one; geomint render makes pictures without",
             terminal->input ? "output" : "input");
     }
     if (!*terminal->name) {
         return gm_refuse(
-            message, "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
+            message, "the explorer cannot start because TERM is not set; try TERM=xterm-256color geomint");
     }
     const bool known = strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1;
     return terminal->known ||
            gm_refuse(
                message,
-               "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
+               "the explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint",
                terminal->name,
                known ? "which cannot place the cursor"
                      : "which terminfo does not know or which cannot place the cursor");

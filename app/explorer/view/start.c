@@ -213,7 +213,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
     }
     if (rows > 6) {
         gm_sheet_text(&whole, 1, 0, "geomint", GM_INK, true);
-        gm_sheet_text(&whole, 10, 0, "what a geometric integrator keeps, and an ordinary one loses",
+        gm_sheet_text(&whole, 10, 0, "what a geometric integrator conserves, and an ordinary one loses",
                       GM_SECONDARY, false);
         at = rows > 22 ? 2 : 1;
     }
