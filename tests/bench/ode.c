@@ -29,7 +29,7 @@ struct line {
     const char *what, *scheme;
     const struct gm_problem *problem;
     const void *parameters;
-    double start[8], h;
+    double start[12], h;
     size_t m;
     long steps;
     alone *hand, *boost;
@@ -231,6 +231,35 @@ static void gsl_midpoint(const double *start, double h, double ours)
     gsl_odeiv2_driver_free(driver);
 }
 
+/* An own step of dopri5, which evaluates the field six times, beside seven evaluations. */
+static void dormand_prince(const struct line *line)
+{
+    enum { EVALUATIONS = 2000000 };
+    struct gm_problem problem = *line->problem;
+    problem.m = 1;
+    problem.parameters = line->parameters;
+    double y[12], f[12], ours[ROUNDS], field[ROUNDS];
+    struct gm_run *run = open_run(&problem, line, y);
+    if (!run) {
+        return;
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        const int64_t before = run->own_steps + run->rejected;
+        double start = seconds();
+        gm_run_advance(run, line->steps);
+        ours[round] = (seconds() - start) / 1e-9 / (double)(run->own_steps + run->rejected - before);
+        start = seconds();
+        for (int k = 0; k < EVALUATIONS; k++) {
+            gm_field(&problem, y, f, 1);
+        }
+        field[round] = 7 * (seconds() - start) / 1e-9 / EVALUATIONS;
+    }
+    const double step = median(ours, ROUNDS), seven = median(field, ROUNDS);
+    printf("%-34s %8.2f ns, seven evaluations %.2f: ratio %.2f (at most 1.2)%s\n", line->what, step, seven,
+           step / seven, run->status == GM_OK ? "" : "  FAILED");
+    gm_run_close(run);
+}
+
 /* All velocities of 1000 vortices, as ordered pairs a second. */
 static void pair_sum(void)
 {
@@ -420,10 +449,35 @@ static void kepler_to_eight_digits(double eccentricity)
     }
 }
 
-/* With the word "single": single steps of ensembles alone. */
+static const double strength = GM_HAND_STRENGTH, omega = 50;
+#define KEPLER .problem = &gm_problem_kepler, .start = {0.5, 0, 0, 1.7320508075688772}, .h = 2 * M_PI / 100
+#define SQUARE                                                                                               \
+    .problem = &gm_problem_vortices_four, .parameters = &strength, .start = {1, 0.1, -1, 0, 0, 1, 0, -1},    \
+    .h = 0.05
+
+static void adaptive_steps(void)
+{
+    const struct line adaptive[] = {
+        {"Kepler, dopri5", "dopri5", KEPLER, .m = 1, .steps = 40000},
+        {"pendulum, dopri5", "dopri5", .problem = &gm_problem_pendulum, .start = {1, 0.5}, .h = 1,
+         .steps = 40000},
+        {"4 vortices, dopri5", "dopri5", SQUARE, .m = 1, .steps = 100000},
+        {"6 springs, dopri5", "dopri5", .problem = &gm_problem_fpu, .parameters = &omega,
+         .start = {1, 0, 0, 0.02, 0, 0, 1, 0, 0, 1, 0, 0}, .h = 0.05, .steps = 20000},
+    };
+    for (size_t i = 0; i < GM_COUNT(adaptive); i++) {
+        dormand_prince(&adaptive[i]);
+    }
+}
+
+/* With the word "single": single steps of ensembles alone; "adaptive": dopri5 alone. */
 int main(int argc, char *argv[])
 {
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
+    if (argc > 1 && strcmp(argv[1], "adaptive") == 0) {
+        adaptive_steps();
+        return 0;
+    }
     for (size_t m = 1000; m <= 1000000; m *= 10) {
         single_steps(m, false);
         single_steps(m, true);
@@ -431,11 +485,6 @@ int main(int argc, char *argv[])
     if (argc > 1 && strcmp(argv[1], "single") == 0) {
         return 0;
     }
-    static const double strength = GM_HAND_STRENGTH;
-#define KEPLER .problem = &gm_problem_kepler, .start = {0.5, 0, 0, 1.7320508075688772}, .h = 2 * M_PI / 100
-#define SQUARE                                                                                               \
-    .problem = &gm_problem_vortices_four, .parameters = &strength, .start = {1, 0.1, -1, 0, 0, 1, 0, -1},    \
-    .h = 0.05
 #define OSCILLATOR .problem = &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = MEMBERS
 #ifdef GM_HAVE_BOOST
 #define BOOST(function) .boost = function
@@ -470,6 +519,7 @@ int main(int argc, char *argv[])
     }
     vortices_midpoint(
         &(struct line){"4 vortices, midpoint", "midpoint", SQUARE, .m = 1, .steps = 20000, .wanted = 200});
+    adaptive_steps();
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
     pair_sum();
     by_moments(1e-3);

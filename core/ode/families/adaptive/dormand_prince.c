@@ -47,6 +47,7 @@ struct member {
     double *dense;   /* h sum_i d_i k_i of the last step; void if no row is in that step */
     size_t n;
     double tolerance;
+    const struct gm_loops *loops; /* of this machine, which have the field */
 };
 
 /* The workspace is n numbers for a stage, at last the next state, then the slopes 1 .. 6 of n numbers each. */
@@ -67,7 +68,15 @@ static struct member member_of(const struct gm_task *task, size_t i)
     const double given = task->settings->tolerance;
     const size_t n = task->problem->n;
     double *number = task->memory_out + i * (NUMBERS + 5 * n), *v = number + NUMBERS;
-    return (struct member){number, v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, n, given > 0 ? given : 1e-6};
+    return (struct member){.number = number,
+                           .y = v,
+                           .k = v + n,
+                           .y0 = v + 2 * n,
+                           .k0 = v + 3 * n,
+                           .dense = v + 4 * n,
+                           .n = n,
+                           .tolerance = given > 0 ? given : 1e-6,
+                           .loops = gm_ode_of(task->problem)->loops[gm_isa_best()]};
 }
 
 /* Returns component c at the time t in the last step. */
@@ -125,17 +134,28 @@ static inline double sum_of(const struct gm_task *task, const struct member *mem
     return sum;
 }
 
+/* Evaluates slope i of a step h; with a constant i its sums are unrolled. */
+static inline void evaluate(const struct gm_task *task, const struct member *member, double h, int i)
+{
+    double *stage = task->workspace;
+    for (size_t c = 0; c < member->n; c++) {
+        stage[c] = member->y[c] + h * sum_of(task, member, i, c);
+    }
+    member->loops->field(task->problem, stage, stage + (size_t)i * member->n, 1);
+}
+
 /* Makes a step h into the workspace, and returns its error. */
 static double try_step(const struct gm_task *task, const struct member *member, double h,
                        struct gm_progress *progress)
 {
-    double *stage = task->workspace, sum = 0;
-    for (int i = 1; i < STAGES; i++) {
-        for (size_t c = 0; c < member->n; c++) {
-            stage[c] = member->y[c] + h * sum_of(task, member, i, c);
-        }
-        gm_field(task->problem, stage, stage + (size_t)i * member->n, 1);
-    }
+    const double *stage = task->workspace;
+    double sum = 0;
+    evaluate(task, member, h, 1);
+    evaluate(task, member, h, 2);
+    evaluate(task, member, h, 3);
+    evaluate(task, member, h, 4);
+    evaluate(task, member, h, 5);
+    evaluate(task, member, h, 6);
     progress->evaluations += STAGES - 1;
     for (size_t c = 0; c < member->n; c++) {
         const double before = fabs(member->y[c]), after = fabs(stage[c]);
