@@ -203,7 +203,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     if (system_scene->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
         return false;
     }
-    if (lane->portrait && !gm_system_is_plane(system_scene, sentence)) {
+    if ((lane->portrait && !gm_system_is_plane(system_scene, sentence)) ||
+        !gm_system_can_show(lane, sentence)) {
         return false;
     }
     double *values = gm_system_start_values(lane, NULL);

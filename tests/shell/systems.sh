@@ -791,6 +791,11 @@ refused 1 'portrait needs a plane: this system has constraints' run cartesian-pe
     printf 'rate: x = y\nrate: y = -x\nrate: z = -z\nstart: x = 1, y = 0, z = 1\n'
 } >states.system
 refused 1 'portrait needs a plane: this system has 3 components' run ./states.system state=space portrait=yes
+refused 1 'show=t:z: there is no "z"' run ./states.system show=t:z
+status 0 run ./states.system state=space show=t:z until=1
+sed -i 's/plane of plane/space of plane/' states.system
+refused 1 'portrait needs a plane: this system has 3 components' run ./states.system portrait=yes
+status 0 run ./states.system state=plane portrait=yes until=1
 refused 1 'window=1,0,0,1 is empty' run lotka-volterra portrait=yes --window 1,0,0,1
 refused 1 'window=nan is not four finite numbers' run lotka-volterra portrait=yes --window nan
 refused 1 'the rate of x is not finite at the start' run system rate='x = sqrt(-1 - x^2)' rate='y = x' x=1 y=0 portrait=yes

@@ -132,6 +132,18 @@ static size_t find_curves(const struct gm_system_scene *system_scene, const char
     return count;
 }
 
+static bool has_curves(const struct gm_system_scene *system_scene, const char *show, char *sentence)
+{
+    struct gm_curve curves[GM_MOST_OVER_TIME];
+    return find_curves(system_scene, show + strlen(GM_SHOW_OVER_TIME), curves, sentence) > 0;
+}
+
+bool gm_system_can_show(const struct gm_system_lane *lane, char *sentence)
+{
+    return strncmp(lane->show, GM_SHOW_OVER_TIME, strlen(GM_SHOW_OVER_TIME)) != 0 ||
+           has_curves(lane->owner, lane->show, sentence);
+}
+
 bool gm_system_admits_show(const struct gm_parameter *row, const char *text, char *sentence)
 {
     const size_t length = strlen(GM_SHOW_OVER_TIME);
@@ -141,8 +153,11 @@ bool gm_system_admits_show(const struct gm_parameter *row, const char *text, cha
         }
     }
     if (strncmp(text, GM_SHOW_OVER_TIME, length) == 0) {
-        struct gm_curve curves[GM_MOST_OVER_TIME];
-        return find_curves(row->admitting, text + length, curves, sentence) > 0;
+        const struct gm_system_scene *system_scene = row->admitting;
+        while (system_scene && !has_curves(system_scene, text, sentence)) {
+            system_scene = system_scene->next;
+        }
+        return system_scene || has_curves(row->admitting, text, sentence);
     }
     char words[GM_MESSAGE / 2];
     return gm_refuse(sentence, "%s=%.60s is none of: %s, t:NAME", row->key, text,

@@ -6,9 +6,12 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/system/look.h"
 
-/* Returns true if the text is one of the words of show=, or t: with names of this system; else false with a
-   sentence. The row's `admitting` is the scene. */
+/* Returns true if the text is one of the words of show=, or t: with names of one of the file's systems; else false
+   with a sentence. The row's `admitting` is the first of them. */
 bool gm_system_admits_show(const struct gm_parameter *row, const char *text, char *sentence);
+
+/* Returns true if the lane's own system has the names that the lane shows over time; else false with a sentence. */
+bool gm_system_can_show(const struct gm_system_lane *lane, char *sentence);
 
 /* Returns the sight that a lane shows, in the picture's memory if it is of names over time; NULL when out of
    memory. */

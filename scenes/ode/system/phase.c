@@ -30,7 +30,11 @@ bool gm_system_is_plane(const struct gm_system_scene *system_scene, char *senten
 
 bool gm_system_admits_portrait(const struct gm_parameter *row, const char *text, char *sentence)
 {
-    return strcmp(text, "yes") != 0 || gm_system_is_plane(row->admitting, sentence);
+    const struct gm_system_scene *system_scene = row->admitting;
+    while (system_scene && !gm_system_is_plane(system_scene, sentence)) {
+        system_scene = system_scene->next;
+    }
+    return strcmp(text, "yes") != 0 || system_scene || gm_system_is_plane(row->admitting, sentence);
 }
 
 /* Reads "XMIN,XMAX,YMIN,YMAX". Returns false with a sentence for any other text. */
