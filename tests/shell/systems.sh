@@ -225,7 +225,7 @@ printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
 refused 1 "^geomint: bracket= replaces a line of a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
 # a formula that is none is told before values are asked for, and one without its scene finds it
-refused 1 'in H=, column 1: the formula ends where a number' run system H=
+refused 1 'in H=, column 1: H: has no value' run system H=
 refused 1 'in H=, column 8: the formula ends where a number' run system H='p^2/2 +'
 refused 1 'in H=, column 9: there is no function foo' run system H='p^2/2 + foo(q)'
 refused 1 'a product is written with \*: q\*(' run system H='p^2/2 + q(1 + q)'
