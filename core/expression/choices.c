@@ -282,8 +282,7 @@ static void replace(char *text, struct heading *list, size_t count)
 }
 
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
-                      enum gm_line_identity (*identity)(const char *text, struct gm_span word),
-                      struct gm_fault *fault)
+                      const struct gm_line_words *words, struct gm_fault *fault)
 {
     struct blocks blocks = {.choices = choices, .text = text};
     struct gm_text_line line;
@@ -295,7 +294,8 @@ bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size
     bool good = list != NULL;
     for (size_t at = 0; good && gm_lines_next(text, length, &at, &line, fault);) {
         good = pass(&blocks, &line, fault);
-        const enum gm_line_identity kind = identity(text, line.word);
+        const size_t word = gm_line_word(words, text, line.word);
+        const enum gm_line_identity kind = word < words->count ? words->list[word].identity : GM_LINE_ADDED;
         if (gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds)) {
             remove_line(text, &line);
         } else if (choices->count > 0 && kind != GM_LINE_ADDED) {

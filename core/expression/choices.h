@@ -33,14 +33,9 @@ const struct gm_written_choice *gm_choice_named(const struct gm_written_choices 
 /* Chooses a word. Returns false if there is no such choice or it lacks the word. */
 bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
 
-/* The identity of lines with one word: one such line, lines that differ by names, or lines that are all
-   added. */
-enum gm_line_identity { GM_LINE_ONCE, GM_LINE_NAMED, GM_LINE_ADDED };
-
 /* Makes comments of the lines choice: and when: and of all lines that do not hold; the others keep their
    offsets. Returns false with a fault. */
 bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
-                      enum gm_line_identity (*identity)(const char *text, struct gm_span word),
-                      struct gm_fault *fault);
+                      const struct gm_line_words *words, struct gm_fault *fault);
 
 #endif

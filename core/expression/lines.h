@@ -21,6 +21,33 @@ struct gm_text_line {
 bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_line *line,
                    struct gm_fault *fault);
 
+/* The identity of lines with one word: one such line, lines that differ by names, or lines that are all
+   added. */
+enum gm_line_identity { GM_LINE_ONCE, GM_LINE_NAMED, GM_LINE_ADDED };
+
+/* The words of the lines of a file. */
+struct gm_line_words {
+    const char *kind; /* "a room" */
+    const struct gm_line_word {
+        const char *word;
+        enum gm_line_identity identity;
+        unsigned kinds; /* 1 << kind, for each kind of such files that may have the line */
+    } * list;
+    size_t count;
+    const char *help; /* follows "a room has no line "x"" if no word is near */
+};
+enum { GM_MOST_LINE_WORDS = 128 };
+/* The index of a word in the list, or their number. */
+size_t gm_line_word(const struct gm_line_words *words, const char *text, struct gm_span word);
+/* Finds the word of a line. False with a fault: there is no such word, or the line has no value. */
+bool gm_line_find(const struct gm_line_words *words, const char *text, const struct gm_text_line *line,
+                  size_t *word, struct gm_fault *fault);
+/* Calls `take` with the lines of text[span), until it returns false. False also with a fault: a line whose
+   word is none of these, a second line with a word of one, a line without a value. */
+bool gm_lines_read(const struct gm_line_words *words, const char *text, struct gm_span span,
+                   bool (*take)(void *data, size_t word, const struct gm_text_line *line), void *data,
+                   struct gm_fault *fault);
+
 /* True if the whole text is UTF-8 without a byte 0, in lines that end with a newline; false with a fault. */
 bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault);
 
@@ -31,6 +58,8 @@ size_t gm_span_until(const char *text, struct gm_span span, const char *separato
 /* Takes the piece before the next separator off the front, trimmed; false, and an empty piece, if the rest is
    empty. */
 bool gm_span_take(const char *text, struct gm_span *rest, const char *separator, struct gm_span *piece);
+/* True if the span is that word. */
+bool gm_span_is(const char *text, struct gm_span span, const char *word);
 /* The index of the span in a list of words that ends with NULL, or the list's length. */
 size_t gm_span_among(const char *text, struct gm_span span, const char *const *words);
 /* The words with one blank between them. The caller frees; NULL when out of memory. */

@@ -87,6 +87,8 @@ struct gm_room {
     struct gm_fault *fault; /* of the text, while it is read */
     char *text;             /* text of the file; lines for other words of a choice are comments */
     size_t length;
+    struct gm_text_line *said; /* its lines */
+    size_t said_count;
     struct gm_formula graph;
     double *scratch; /* a number for each node of the graph */
     struct gm_room_line *lines;

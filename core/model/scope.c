@@ -25,11 +25,13 @@ enum {
     ANY = MOTION | LINE
 };
 
-const struct gm_system_word_row gm_system_words[GM_WORDS] = {
+const struct gm_line_word gm_system_words[GM_WORDS] = {
 #define GM_WORD(constant, word, identity, kinds, reader) {word, (enum gm_line_identity)identity, kinds},
 #include "core/model/words.def"
 #undef GM_WORD
 };
+
+static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS, ""};
 
 void gm_reading_close(struct gm_reading *reading)
 {
@@ -53,12 +55,6 @@ bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, 
     return true;
 }
 
-static const char *word_at(size_t i, const void *data)
-{
-    (void)data;
-    return gm_system_words[i].word;
-}
-
 bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
     if (!reading->fault.failed) {
@@ -66,23 +62,6 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
         reading->fault.fault->earlier = first->place;
     }
     return false;
-}
-
-static enum gm_system_word word_of(const char *text, struct gm_span span)
-{
-    enum gm_system_word word = 0;
-    while (word < GM_WORDS &&
-           (strlen(gm_system_words[word].word) != span.end - span.begin ||
-            memcmp(gm_system_words[word].word, text + span.begin, span.end - span.begin) != 0)) {
-        word++;
-    }
-    return word;
-}
-
-static enum gm_line_identity identity_of(const char *text, struct gm_span span)
-{
-    const enum gm_system_word word = word_of(text, span);
-    return word < GM_WORDS ? gm_system_words[word].identity : GM_LINE_ADDED;
 }
 
 /* Replaces the text by the lines of the chosen words. */
@@ -95,50 +74,30 @@ static bool choose_lines(struct gm_reading *reading)
     for (size_t i = 0; good && i < reading->value_count; i++) {
         gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
     }
-    good = good && gm_choices_apply(choices, reading->chosen, reading->length, identity_of, &fault);
+    good = good && gm_choices_apply(choices, reading->chosen, reading->length, &words, &fault);
     reading->text = reading->chosen ? reading->chosen : reading->text;
     return good || (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
                                       : gm_fail_memory(&reading->fault));
 }
 
-static bool read_line(struct gm_reading *reading, const struct gm_text_line *text_line)
+static bool add_line(void *data, size_t word, const struct gm_text_line *line)
 {
-    const size_t place = text_line->word.begin, letters = text_line->word.end - place;
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), reading->text + place);
-    const enum gm_system_word word = word_of(reading->text, text_line->word);
-    if (word == GM_WORDS) {
-        const char *near = gm_nearest(name, GM_WORDS, word_at, NULL);
-        return gm_fail_first(&reading->fault, place, "a system has no line \"%s\"%s%s", name,
-                             near ? "; did you mean " : "", near ? near : "");
-    }
-    for (size_t i = 0; i < reading->line_count && gm_system_words[word].identity == GM_LINE_ONCE; i++) {
-        if (reading->lines[i].word == word) {
-            return gm_fail_first(&reading->fault, place, "%s is given twice", name);
-        }
-    }
+    struct gm_reading *reading = data;
     if (!gm_reading_reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
         return false;
     }
-    const struct gm_span value = text_line->value;
-    reading->lines[reading->line_count++] = (struct gm_system_line){word, place, value};
-    return value.begin < value.end ||
-           gm_fail_first(&reading->fault, place + letters + 1, "%s: has no value", name);
+    reading->lines[reading->line_count++] =
+        (struct gm_system_line){(enum gm_system_word)word, line->word.begin, line->value};
+    return true;
 }
 
 bool gm_reading_lines(struct gm_reading *reading)
 {
-    struct gm_text_line line;
     struct gm_fault fault;
-    if (!choose_lines(reading)) {
-        return false;
-    }
-    for (size_t at = 0; gm_lines_next(reading->text, reading->length, &at, &line, &fault);) {
-        if (!read_line(reading, &line)) {
-            return false;
-        }
-    }
-    return !fault.sentence[0] || gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    return choose_lines(reading) &&
+           (gm_lines_read(&words, reading->text, (struct gm_span){0, reading->length}, add_line, reading,
+                          &fault) ||
+            gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence));
 }
 
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
@@ -234,8 +193,8 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     if (is_place(reading, &entry)) {
         return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
     }
-    const bool is_word =
-        entry.role == GM_ENTRY_CHOICE && word_of(entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
+    const bool is_word = entry.role == GM_ENTRY_CHOICE &&
+                         gm_line_word(&words, entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
     if (is_word || is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);

@@ -8,12 +8,7 @@
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name
    that needs another one first waits for it. A function that returns false has set reading->fault. */
 
-struct gm_system_word_row {
-    const char *word;
-    enum gm_line_identity identity;
-    unsigned kinds; /* 1 << enum gm_system_kind, for each kind that may have it */
-};
-extern const struct gm_system_word_row gm_system_words[GM_WORDS];
+extern const struct gm_line_word gm_system_words[GM_WORDS]; /* kinds: enum gm_system_kind */
 
 struct gm_system_line {
     enum gm_system_word word;
