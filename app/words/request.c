@@ -484,9 +484,9 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
 {
     const struct gm_scene *scene = gm_scene_called(words[0]);
     *status = GM_EXIT_USAGE;
-    if (scene && scene->parameter_count == 0) { /* there was no memory to open its file */
-        *status = GM_EXIT_MEMORY;
-        gm_refuse(message, "not enough memory");
+    if (scene && scene->parameter_count == 0) { /* its file could not be opened */
+        *status = gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_FILE;
+        scene->setup(NULL, NULL, message);
         return NULL;
     }
     if (!scene && gm_system_is(words[0])) {

@@ -432,7 +432,7 @@ static void need(struct typing *typing, const char *name, struct gm_word_place p
     }
     if (gm_reading_reserves(name, strlen(name))) {
         *typing->wrong = place;
-        gm_arena_refuse(typing->arena, "the name %.40s is reserved", name);
+        gm_arena_refuse(typing->arena, "the name %.40s" GM_RESERVED, name);
     }
     file->missing_place = file->missing ? file->missing_place : place;
     file->missing = gm_arena_print(typing->arena, "%s%s", missing, text);

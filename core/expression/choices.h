@@ -2,6 +2,7 @@
 #ifndef GM_CORE_EXPRESSION_CHOICES_H
 #define GM_CORE_EXPRESSION_CHOICES_H
 
+#include "core/arena.h"
 #include "core/expression/lines.h"
 
 /* Choices of a text, whose words decide which lines hold:
@@ -33,9 +34,27 @@ const struct gm_written_choice *gm_choice_named(const struct gm_written_choices 
 /* Chooses a word. Returns false if there is no such choice or it lacks the word. */
 bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
 
-/* Makes comments of the lines choice: and when: and of all lines that do not hold; the others keep their
-   offsets. Returns false with a fault. */
-bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
-                      const struct gm_line_words *words, struct gm_fault *fault);
+/* A line of a file: its word, by its number, the place of that, and its value. */
+struct gm_read_line {
+    size_t word, place;
+    struct gm_span value;
+};
+
+/* The lines of text[begin .. end) that hold. */
+struct gm_read_lines {
+    const struct gm_line_words *words;
+    const struct gm_written_choices *choices; /* NULL: such files have none */
+    unsigned inside;                          /* kinds of which lines in blocks must have one */
+    struct gm_arena *arena;
+    const char *text;
+    struct gm_span span;
+    struct gm_read_line *list; /* in the arena */
+    size_t count;
+};
+enum { GM_MOST_LINE_WORDS = 128 };
+/* Reads the lines, but choice: and when:, and those that do not hold. False with a fault, whose sentence is
+   empty when out of memory: a line whose word is none of these, a second one of a word with one line, a line
+   without a value. */
+bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault);
 
 #endif

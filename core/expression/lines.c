@@ -70,12 +70,14 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
     *at += *at == 0 && gm_text_has_mark(text, length) ? GM_TEXT_MARK : 0;
     while (*at < length) {
         const size_t begin = *at;
-        size_t end = begin;
-        /* a line, and the following lines that begin with a blank */
+        size_t end = begin, next = begin;
+        /* a line, and those behind it that begin with a blank, with empty lines and comments between them */
         do {
-            const char *newline = memchr(text + end, '\n', length - end);
-            end = newline ? (size_t)(newline - text) + 1 : length;
-        } while (end < length && (text[end] == ' ' || text[end] == '\t'));
+            const bool more = next == begin || text[next] == ' ' || text[next] == '\t';
+            const char *newline = memchr(text + next, '\n', length - next);
+            next = newline ? (size_t)(newline - text) + 1 : length;
+            end = more ? next : end;
+        } while (next < length && strchr(" \t\r\n#", text[next]));
         const struct gm_span span = gm_span_trimmed(text, (struct gm_span){begin, end});
         *at = end;
         if (span.begin == span.end) {
@@ -117,28 +119,6 @@ bool gm_line_find(const struct gm_line_words *words, const char *text, const str
     }
     return line->value.begin < line->value.end ||
            gm_fail(fault, line->word.end + 1, "%s: has no value", name);
-}
-
-bool gm_lines_read(const struct gm_line_words *words, const char *text, struct gm_span span,
-                   bool (*take)(void *data, size_t word, const struct gm_text_line *line), void *data,
-                   struct gm_fault *fault)
-{
-    bool given[GM_MOST_LINE_WORDS] = {false};
-    struct gm_text_line line;
-    size_t word;
-    for (size_t at = span.begin; gm_lines_next(text, span.end, &at, &line, fault);) {
-        if (!gm_line_find(words, text, &line, &word, fault)) {
-            return false;
-        }
-        if (given[word] && words->list[word].identity == GM_LINE_ONCE) {
-            return gm_fail(fault, line.word.begin, "%s: is given twice", words->list[word].word);
-        }
-        given[word] = true;
-        if (!take(data, word, &line)) {
-            return false;
-        }
-    }
-    return !fault->sentence[0];
 }
 
 bool gm_span_is(const char *text, struct gm_span span, const char *word)

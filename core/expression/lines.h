@@ -4,8 +4,8 @@
 
 #include "core/expression/reader.h"
 
-/* Texts of the form `word: value`, one per line; a line that begins with a blank continues the last one, and
-   # begins a comment. */
+/* Texts of the form `word: value`, one per line; a line that begins with a blank continues the last one, also
+   behind empty lines and comments, and # begins a comment. */
 
 /* Bytes of a text. */
 struct gm_span {
@@ -36,17 +36,11 @@ struct gm_line_words {
     size_t count;
     const char *help; /* follows "a room has no line "x"" if no word is near */
 };
-enum { GM_MOST_LINE_WORDS = 128 };
 /* The index of a word in the list, or their number. */
 size_t gm_line_word(const struct gm_line_words *words, const char *text, struct gm_span word);
 /* Finds the word of a line. False with a fault: there is no such word, or the line has no value. */
 bool gm_line_find(const struct gm_line_words *words, const char *text, const struct gm_text_line *line,
                   size_t *word, struct gm_fault *fault);
-/* Calls `take` with the lines of text[span), until it returns false. False also with a fault: a line whose
-   word is none of these, a second line with a word of one, a line without a value. */
-bool gm_lines_read(const struct gm_line_words *words, const char *text, struct gm_span span,
-                   bool (*take)(void *data, size_t word, const struct gm_text_line *line), void *data,
-                   struct gm_fault *fault);
 
 /* True if the whole text is UTF-8 without a byte 0, in lines that end with a newline; false with a fault. */
 bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault);

@@ -58,8 +58,8 @@ static const struct gm_line_word words[] = {
     {"work", ONCE, 0},           {"stability", ONCE, 0},  {"graph", OFTEN, FREE},
     {"table", OFTEN, 0},         {"figure", OFTEN, 0},    {"side", NAMED, FREE},
     {"observe", NAMED, 0},       {"profile", NAMED, 0}};
-static const struct gm_line_words lines = {"a room", words, GM_COUNT(words),
-                                           "; geomint list office --source prints a room with its lines"};
+static const struct gm_line_words line_words = {
+    "a room", words, GM_COUNT(words), "; geomint list office --source prints a room with its lines"};
 
 /* The variables of formulas. */
 enum { PART, X, Y, TIME, VARIABLES };
@@ -246,10 +246,10 @@ static bool is_word(const struct gm_room *room, struct gm_span span, const char 
     return gm_span_is(room->text, span, word);
 }
 
-static const struct gm_text_line *find_line(const struct gm_room *room, const char *word, size_t number)
+static const struct gm_read_line *find_line(const struct gm_room *room, const char *word, size_t number)
 {
     for (size_t i = 0; i < room->said_count; i++) {
-        if (is_word(room, room->said[i].word, word) && number-- == 0) {
+        if (strcmp(words[room->said[i].word].word, word) == 0 && number-- == 0) {
             return &room->said[i];
         }
     }
@@ -258,7 +258,7 @@ static const struct gm_text_line *find_line(const struct gm_room *room, const ch
 
 bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value)
 {
-    const struct gm_text_line *line = find_line(room, word, number);
+    const struct gm_read_line *line = find_line(room, word, number);
     *value = line ? line->value : (struct gm_span){0, 0};
     return line;
 }
@@ -383,13 +383,13 @@ static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
     }
 }
 
-static void read_line(struct gm_room *room, enum gm_room_word word, struct gm_text_line text_line)
+static void read_line(struct gm_room *room, const struct gm_read_line *said)
 {
-    struct gm_span value = text_line.value;
+    const enum gm_room_word word = (enum gm_room_word)said->word;
+    struct gm_span value = said->value;
     room->lines = gm_arena_resize(room->arena, room->lines, room->count + 1, sizeof *room->lines);
     struct gm_room_line *line = &room->lines[room->count];
-    *line = (struct gm_room_line){.word = word,
-                                  .place = value.begin < value.end ? value.begin : text_line.word.begin};
+    *line = (struct gm_room_line){.word = word, .place = value.begin};
     if (pairs[word].names < START) {
         const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
         struct gm_span name = {value.begin + quoted, value.begin + quoted};
@@ -499,7 +499,7 @@ static void check_free(const struct gm_room *room, const char *name, size_t plac
         reserved |= strcmp(name, measures[i]) == 0;
     }
     if (reserved) {
-        gm_room_refuse(room, place, "the name %.60s is reserved", name);
+        gm_room_refuse(room, place, "the name %.60s" GM_RESERVED, name);
     }
 }
 
@@ -549,23 +549,20 @@ static bool share_name(const char *one, const char *other)
     return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* Keeps a line; refuses one that is named like another with the same word. */
-static bool keep_line(void *data, size_t word, const struct gm_text_line *line)
+/* Refuses a line that is named like one before it with the same word. */
+static void check_name(const struct gm_room *room, size_t i)
 {
-    struct gm_room *room = data;
-    for (size_t i = 0; i < room->said_count && words[word].identity == GM_LINE_NAMED; i++) {
-        if (is_word(room, room->said[i].word, words[word].word) &&
-            share_name(room->text + room->said[i].value.begin, room->text + line->value.begin)) {
-            gm_room_refuse(room, line->word.begin, "%s: is given twice", words[word].word);
+    const struct gm_read_line *line = &room->said[i];
+    for (size_t k = 0; k < i && words[line->word].identity == GM_LINE_NAMED; k++) {
+        if (room->said[k].word == line->word &&
+            share_name(room->text + room->said[k].value.begin, room->text + line->value.begin)) {
+            gm_room_refuse(room, line->place, "%s: is given twice", words[line->word].word);
         }
     }
-    room->said = gm_arena_resize(room->arena, room->said, room->said_count + 1, sizeof *room->said);
-    room->said[room->said_count++] = *line;
-    return true;
 }
 
 /* Reads a line with a single value; other lines are read by the room's scene. */
-static void read_single(struct gm_room *room, struct gm_text_line line)
+static void read_single(struct gm_room *room, const struct gm_read_line *line)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
                                reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
@@ -590,8 +587,8 @@ static void read_single(struct gm_room *room, struct gm_text_line line)
         {"until", NULL, &room->until, gm_room_until},
     };
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        struct gm_span value = line.value, rest = line.value, piece;
-        if (!is_word(room, line.word, rows[i].word)) {
+        struct gm_span value = line->value, rest = line->value, piece;
+        if (strcmp(words[line->word].word, rows[i].word) != 0) {
             continue;
         }
         if (rows[i].text) {
@@ -621,8 +618,8 @@ static void read_single(struct gm_room *room, struct gm_text_line line)
 /* The start of the first line with this word; 0: none. */
 static size_t place_of(const struct gm_room *room, const char *word)
 {
-    const struct gm_text_line *line = find_line(room, word, 0);
-    return line ? line->word.begin : 0;
+    const struct gm_read_line *line = find_line(room, word, 0);
+    return line ? line->place : 0;
 }
 
 /* Completes values, and refuses missing ones and those that are given twice. */
@@ -700,21 +697,17 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
 }
 
-/* Makes comments of lines that hold for other words of a choice. */
-static void choose_lines(struct gm_room *room, const struct gm_room_input *input)
+/* Reads the lines that hold for the given words of choices. */
+static void read_lines(struct gm_room *room, const struct gm_room_input *input)
 {
     struct gm_written_choices *choices = &room->choices;
-    struct gm_text_line line;
-    bool inside = false;
+    struct gm_read_lines lines = {.words = &line_words,
+                                  .choices = choices,
+                                  .inside = FREE,
+                                  .arena = room->arena,
+                                  .text = room->text,
+                                  .span = {0, room->length}};
     gm_room_need(room, gm_choices_read(choices, room->text, room->length, room->fault));
-    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, room->fault);) {
-        const size_t word = gm_line_word(&lines, room->text, line.word);
-        inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
-        if (inside && word < lines.count && !(words[word].kinds & FREE)) {
-            gm_room_refuse(room, line.word.begin,
-                           "this line cannot depend on a choice: write it outside of blocks");
-        }
-    }
     for (size_t i = 0; i < choices->count; i++) {
         check_free(room, choices->list[i].name, choices->list[i].place);
     }
@@ -723,7 +716,9 @@ static void choose_lines(struct gm_room *room, const struct gm_room_input *input
             gm_choices_take(choices, input->given[i].name, input->given[i].text);
         }
     }
-    gm_room_need(room, gm_choices_apply(choices, room->text, room->length, &lines, room->fault));
+    gm_room_need(room, gm_lines_read(&lines, room->fault));
+    room->said = lines.list;
+    room->said_count = lines.count;
 }
 
 static void close_graph(void *graph)
@@ -756,18 +751,16 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
     gm_arena_keep(arena, &room->graph, close_graph);
     memcpy(room->text, input->text, room->length);
     gm_room_need(room, gm_lines_are_text(room->text, room->length, fault));
-    choose_lines(room, input);
-    gm_room_need(
-        room, gm_lines_read(&lines, room->text, (struct gm_span){0, room->length}, keep_line, room, fault));
+    read_lines(room, input);
     for (size_t i = 0; gm_room_said(room, words[PARAMETER].word, i, &value); i++) {
         read_parameter(room, value, input);
     }
     for (size_t i = 0; i < room->said_count; i++) {
-        const size_t word = gm_line_word(&lines, room->text, room->said[i].word);
-        if (word < PAIRS) {
-            read_line(room, (enum gm_room_word)word, room->said[i]);
+        check_name(room, i);
+        if (room->said[i].word < PAIRS) {
+            read_line(room, &room->said[i]);
         } else {
-            read_single(room, room->said[i]);
+            read_single(room, &room->said[i]);
         }
     }
     gm_room_need(room, !room->graph.failed);

@@ -85,9 +85,9 @@ enum gm_room_measure {
 struct gm_room {
     struct gm_arena *arena; /* all that is read */
     struct gm_fault *fault; /* of the text, while it is read */
-    char *text;             /* text of the file; lines for other words of a choice are comments */
+    char *text;             /* text of the file */
     size_t length;
-    struct gm_text_line *said; /* its lines */
+    struct gm_read_line *said; /* its lines that hold */
     size_t said_count;
     struct gm_formula graph;
     double *scratch; /* a number for each node of the graph */

@@ -259,7 +259,7 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     }
     const size_t length = strlen(item->name);
     if (gm_reading_reserves(item->name, length)) {
-        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s is reserved", item->name);
+        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s" GM_RESERVED, item->name);
     }
     const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
     if (named && named->place != target.name.begin) {
@@ -982,6 +982,7 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
     if (system->source) {
         memcpy(system->source, text, length);
         system->length = length;
+        reading.text = system->source; /* it ends with a zero */
     }
     const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
     gm_reading_close(&reading);

@@ -31,14 +31,14 @@ const struct gm_line_word gm_system_words[GM_WORDS] = {
 #undef GM_WORD
 };
 
-static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS, ""};
+static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS,
+                                           "; docs/systems.md names them"};
 
 void gm_reading_close(struct gm_reading *reading)
 {
     for (size_t i = 0; i < reading->entry_count; i++) {
         free(reading->entries[i].name);
     }
-    free(reading->chosen);
     free(reading->entries);
     free(reading->table);
 }
@@ -64,40 +64,30 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
     return false;
 }
 
-/* Replaces the text by the lines of the chosen words. */
-static bool choose_lines(struct gm_reading *reading)
+bool gm_reading_lines(struct gm_reading *reading)
 {
     struct gm_written_choices *choices = &reading->system->choices;
+    struct gm_read_lines lines = {.words = &words,
+                                  .choices = choices,
+                                  .inside = ~0u,
+                                  .arena = reading->system->arena,
+                                  .text = reading->text,
+                                  .span = {0, reading->length}};
     struct gm_fault fault = {0};
-    reading->chosen = strndup(reading->text, reading->length);
-    bool good = reading->chosen && gm_choices_read(choices, reading->text, reading->length, &fault);
+    bool good = gm_choices_read(choices, reading->text, reading->length, &fault);
     for (size_t i = 0; good && i < reading->value_count; i++) {
         gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
     }
-    good = good && gm_choices_apply(choices, reading->chosen, reading->length, &words, &fault);
-    reading->text = reading->chosen ? reading->chosen : reading->text;
-    return good || (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                                      : gm_fail_memory(&reading->fault));
-}
-
-static bool add_line(void *data, size_t word, const struct gm_text_line *line)
-{
-    struct gm_reading *reading = data;
-    if (!gm_reading_reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
-        return false;
+    good = good && gm_lines_read(&lines, &fault);
+    reading->lines = good ? gm_arena_take(lines.arena, lines.count + 1, sizeof *reading->lines) : NULL;
+    for (size_t i = 0; reading->lines && i < lines.count; i++) {
+        const struct gm_read_line *line = &lines.list[i];
+        reading->lines[reading->line_count++] =
+            (struct gm_system_line){(enum gm_system_word)line->word, line->place, line->value};
     }
-    reading->lines[reading->line_count++] =
-        (struct gm_system_line){(enum gm_system_word)word, line->word.begin, line->value};
-    return true;
-}
-
-bool gm_reading_lines(struct gm_reading *reading)
-{
-    struct gm_fault fault;
-    return choose_lines(reading) &&
-           (gm_lines_read(&words, reading->text, (struct gm_span){0, reading->length}, add_line, reading,
-                          &fault) ||
-            gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence));
+    return reading->lines ||
+           (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                              : gm_fail_memory(&reading->fault));
 }
 
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
@@ -197,7 +187,7 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
                          gm_line_word(&words, entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
     if (is_word || is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
-        return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);
+        return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);
     }
     if (reading->entry_count == reading->entry_capacity) {
         const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;

@@ -44,7 +44,6 @@ struct gm_reading {
     struct gm_user_system *system;
     const char *text;
     size_t length;
-    char *chosen; /* own copy of the text, in which lines of other choices are comments */
     struct gm_system_line *lines;
     size_t line_count;
     struct gm_entry *entries;
@@ -81,6 +80,7 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
 
 /* True if a name is a key of command lines, a column of tables or a function. */
+#define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
 bool gm_reading_reserves(const char *name, size_t length);
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,

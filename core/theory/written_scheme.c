@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/expression/choices.h"
 #include "core/expression/nearest.h"
 
 enum {
@@ -27,7 +28,8 @@ static const struct gm_line_word words[GM_SCHEME_WORDS] = {
 #include "core/theory/scheme_words.def"
 #undef GM_SCHEME_WORD
 };
-static const struct gm_line_words lines_of_schemes = {"a scheme", words, GM_SCHEME_WORDS, ""};
+static const struct gm_line_words lines_of_schemes = {"a scheme", words, GM_SCHEME_WORDS,
+                                                      "; docs/own-schemes.md names them"};
 static const enum {
     TEXT,
     NAMED,
@@ -152,11 +154,6 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
     return true;
 }
 
-static bool take_named(void *data, size_t word, const struct gm_text_line *line)
-{
-    return take_line(data, (enum gm_scheme_word)word, line->word.begin, line->value);
-}
-
 static bool find_kind(struct reading *reading, struct gm_span name)
 {
     const char *text = reading->text + name.begin;
@@ -176,9 +173,19 @@ static bool find_kind(struct reading *reading, struct gm_span name)
 
 static bool read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_fault fault;
-    if (!gm_lines_read(&lines_of_schemes, reading->text, span, take_named, reading, &fault)) {
-        return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    struct gm_fault fault = {0};
+    struct gm_read_lines lines = {
+        .words = &lines_of_schemes, .arena = gm_arena_open(), .text = reading->text, .span = span};
+    if (!lines.arena || !gm_lines_read(&lines, &fault)) {
+        (void)(fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                                 : gm_fail_memory(&reading->fault));
+    }
+    for (size_t i = 0; i < lines.count && !reading->fault.failed; i++) {
+        take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
+    }
+    gm_arena_close(lines.arena);
+    if (reading->fault.failed) {
+        return false;
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
     return kind->said ? find_kind(reading, kind->value)
@@ -221,7 +228,7 @@ static bool read_word(struct reading *reading, struct gm_span span)
                 {segment.begin, colon}, gm_span_trimmed(text, (struct gm_span){colon + 1, segment.end})};
             size_t word;
             if (gm_line_find(&lines_of_schemes, text, &line, &word, &fault)) {
-                take_named(reading, word, &line);
+                take_line(reading, (enum gm_scheme_word)word, segment.begin, line.value);
             } else {
                 gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
             }
