@@ -10,7 +10,6 @@
 #include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/words.h"
-#include "core/memory.h"
 
 /* ---- words ---- */
 

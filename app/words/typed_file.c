@@ -63,31 +63,24 @@ void gm_typed_file_close(struct gm_typed_file *file)
     free(file->source);
 }
 
-/* Adds the bytes of a word, or, for word 0, of the file, between two texts of the program. */
-static void put(struct gm_typed_file *file, const char *before, struct gm_word_place from, size_t length,
-                const char *after)
+/* Adds bytes, of a word or, for word 0, of the file, between two texts of the program; word -1: all are. */
+static void put(struct gm_typed_file *file, const char *before, const char *text, size_t length,
+                const char *after, struct gm_word_place from)
 {
     const size_t begin = file->length, value = begin + strlen(before), end = value + length + strlen(after);
-    const char *text = from.word > 0 ? file->words[from.word] : file->source;
     file->text = gm_arena_resize(file->arena, file->text, end + 1, 1);
-    snprintf(file->text + begin, end + 1 - begin, "%s%.*s%s", before, (int)length,
-             length > 0 ? text + from.offset : "", after);
+    snprintf(file->text + begin, end + 1 - begin, "%s%.*s%s", before, (int)length, text, after);
     file->length = end;
     file->parts = gm_arena_resize(file->arena, file->parts, file->part_count + 1, sizeof *file->parts);
     file->parts[file->part_count++] = (struct gm_text_part){begin, value, length, from};
 }
 
-static void put_text(struct gm_typed_file *file, const char *text)
-{
-    put(file, text, (struct gm_word_place){.word = -1}, 0, "");
-}
-
 /* Adds "KEY: VALUE" of the word KEY=VALUE. */
-static void put_line(struct gm_typed_file *file, const char *key, int word)
+static void put_line(struct gm_typed_file *file, const char *word, int number)
 {
-    const struct gm_word_place value = {word, strlen(key) + 1};
-    put(file, gm_arena_print(file->arena, "%s: ", key), value, strlen(file->words[word] + value.offset),
-        "\n");
+    const size_t key = strcspn(word, "=");
+    put(file, gm_arena_print(file->arena, "%.*s: ", (int)key, word), word + key + 1, strlen(word + key + 1),
+        "\n", (struct gm_word_place){number, key + 1});
 }
 
 /* The word that wrote a byte of the text, or 0 for the file, and its place there; -1: the program wrote it. */
@@ -172,12 +165,13 @@ static void replace_lines(struct gm_arena *arena, void *data)
             i++;
         }
         if (key && i < file->count) {
-            put(file, "", (struct gm_word_place){.offset = from}, line.word.begin - from, "");
-            put_line(file, key, i);
+            put(file, "", file->source + from, line.word.begin - from, "",
+                (struct gm_word_place){.offset = from});
+            put_line(file, file->words[i], i);
             from = at;
         }
     }
-    put(file, "", (struct gm_word_place){.offset = from}, file->size - from, "");
+    put(file, "", file->source + from, file->size - from, "", (struct gm_word_place){.offset = from});
 }
 
 bool gm_typed_file_replace(struct gm_typed_file *file, char *message)
@@ -218,10 +212,11 @@ bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)
 struct typing {
     struct gm_typed_file *file;
     struct gm_arena *arena;
+    const char **words; /* the typed ones, and those of the default coordinates, from number file->count on */
+    int count;
     struct gm_word_place *wrong; /* the place of a refusal */
     bool has[FORMULAS];          /* true for the keys that are given */
     bool usual;                  /* the coordinates are q or q1, q2, as none are given */
-    int degrees;                 /* their number; 0: q alone */
     bool velocities;             /* velocities are called v, or v1, v2 */
 };
 
@@ -246,10 +241,12 @@ static bool begins_rate(const char *rates, size_t at)
 static bool next_use(const struct typing *typing, struct use *use)
 {
     size_t at = use->at.offset + use->length, length;
-    for (int i = use->at.word; i < typing->file->count; i++, at = 0) {
-        const char *word = typing->file->words[i], *value;
+    for (int i = use->at.word; i < typing->count; i++, at = 0) {
+        const char *word = typing->words[i], *value;
         const size_t key = key_of(word, gm_typed_keys, &value), end = strlen(word);
-        at = gm_typed_keys[key] ? at > 0 ? at : (size_t)(value - word) : end;
+        if (at == 0) {
+            at = gm_typed_keys[key] || i >= typing->file->count ? strcspn(word, "=") + 1 : end;
+        }
         for (; at < end; at += length) {
             const char *text = word + at;
             length = gm_name_length(text, end - at);
@@ -277,14 +274,14 @@ static bool next_use(const struct typing *typing, struct use *use)
 static char *name_of(const struct typing *typing, const struct use *use)
 {
     return gm_arena_print(typing->arena, "%.*s", (int)use->length,
-                          typing->file->words[use->at.word] + use->at.offset);
+                          typing->words[use->at.word] + use->at.offset);
 }
 
 static bool is_used(const struct typing *typing, const char *name, int role)
 {
     struct use use = {0};
     while (next_use(typing, &use)) {
-        const char *text = typing->file->words[use.at.word] + use.at.offset;
+        const char *text = typing->words[use.at.word] + use.at.offset;
         if ((int)use.role == role && strlen(name) == use.length && memcmp(text, name, use.length) == 0) {
             return true;
         }
@@ -292,28 +289,11 @@ static bool is_used(const struct typing *typing, const char *name, int role)
     return false;
 }
 
-/* Returns true for a default coordinate, momentum or velocity: q2, or q if there is one alone. */
-static bool is_usual(const struct typing *typing, const char *name)
-{
-    char text[16] = "";
-    const int number = typing->degrees > 0 && name[0] ? atoi(name + 1) : 0;
-    if (typing->degrees > 0) {
-        snprintf(text, sizeof text, "%d", number);
-    }
-    return typing->usual && name[0] && strchr(typing->velocities ? "qpv" : "qp", name[0]) &&
-           strcmp(name + 1, text) == 0 && number <= typing->degrees && (number > 0 || typing->degrees == 0);
-}
-
-static bool is_component(const struct typing *typing, const char *name)
-{
-    return is_usual(typing, name) || is_used(typing, name, COMPONENT);
-}
-
 /* Returns true if it is a component, or the momentum or the velocity of one: p_q, v_q. */
 static bool is_part(const struct typing *typing, const char *name)
 {
-    return is_component(typing, name) ||
-           ((name[0] == 'p' || name[0] == 'v') && name[1] == '_' && is_component(typing, name + 2));
+    return is_used(typing, name, COMPONENT) ||
+           ((name[0] == 'p' || name[0] == 'v') && name[1] == '_' && is_used(typing, name + 2, COMPONENT));
 }
 
 /* Returns true if a word gives a component or a variable its value, NAME=formula or NAME[index]=formula. */
@@ -330,32 +310,35 @@ static bool has_value(const struct typing *typing, const char *name)
     return i < file->count && (is_part(typing, name) || is_used(typing, name, VARIABLE));
 }
 
-/* The name of a default coordinate, momentum or velocity, "q2", or "q" with number 0. */
-static const char *usual_name(const struct typing *typing, char letter, int number)
+/* Returns true if a formula has the name "q2", or "q" with number 0. */
+static bool has_numbered(const struct typing *typing, char letter, int number)
 {
-    return number > 0 ? gm_arena_print(typing->arena, "%c%d", letter, number)
-                      : gm_arena_print(typing->arena, "%c", letter);
+    char name[16];
+    snprintf(name, sizeof name, number > 0 ? "%c%d" : "%c", letter, number);
+    return is_used(typing, name, VARIABLE);
 }
 
-/* Writes "coordinates: q1 q2", as far as such names occur, or q alone, their momenta and, for names v1,
-   v2, their velocities. */
-static void put_usual_coordinates(struct typing *typing)
+/* Adds the words coordinates=q1 q2, as far as such names occur, or q alone, those of their momenta and, for
+   names v1, v2, of their velocities. */
+static void add_usual_coordinates(struct typing *typing)
 {
-    static const char *const lists[] = {"coordinates:", "momenta:", "velocities:"};
-    while (is_used(typing, usual_name(typing, 'q', typing->degrees + 1), VARIABLE) ||
-           is_used(typing, usual_name(typing, 'p', typing->degrees + 1), VARIABLE)) {
-        typing->degrees++;
+    static const char *const lists[] = {"coordinates=", "momenta=", "velocities="};
+    int degrees = 0;
+    while (has_numbered(typing, 'q', degrees + 1) || has_numbered(typing, 'p', degrees + 1)) {
+        degrees++;
     }
-    typing->velocities =
-        typing->has[FORMULA_L] && is_used(typing, is_used(typing, "q1", VARIABLE) ? "v1" : "v", VARIABLE);
+    typing->velocities = typing->has[FORMULA_L] && has_numbered(typing, 'v', has_numbered(typing, 'q', 1));
+    const int first = typing->count;
     for (int list = 0; list < 2 + typing->velocities; list++) {
-        put_text(typing->file, lists[list]);
-        for (int i = typing->degrees > 0; i <= typing->degrees; i++) {
-            put_text(typing->file, " ");
-            put_text(typing->file, usual_name(typing, "qpv"[list], i));
+        const char *word =
+            gm_arena_print(typing->arena, degrees > 0 ? "%s" : "%s%c", lists[list], "qpv"[list]);
+        for (int i = 1; i <= degrees; i++) {
+            word = gm_arena_print(typing->arena, "%s%s%c%d", word, i > 1 ? " " : "", "qpv"[list], i);
         }
-        put_text(typing->file, "\n");
+        typing->words[first + list] = word;
+        put_line(typing->file, word, -1);
     }
+    typing->count += 2 + typing->velocities;
 }
 
 /* The words that give a component its value at the start, or the others, which are parameters. */
@@ -367,8 +350,8 @@ static void put_starts_or_parameters(struct typing *typing, bool starts)
         const struct gm_word_place at = {.word = i}, value = {i, equals ? (size_t)(equals + 1 - word) : 0};
         const char *name = gm_arena_print(typing->arena, "%.*s", (int)strcspn(word, "[="), word);
         if (equals && !is_typed(word) && has_value(typing, name) && is_part(typing, name) == starts) {
-            put(file, starts ? "start: " : "parameter: ", at, value.offset - 1, " = ");
-            put(file, "", value, gm_word_first(equals + 1), "\n");
+            put(file, starts ? "start: " : "parameter: ", word, value.offset - 1, " = ", at);
+            put(file, "", equals + 1, gm_word_first(equals + 1), "\n", value);
         }
     }
 }
@@ -398,13 +381,13 @@ static const char *tell_pairs(const struct typing *typing)
     for (struct use use = {0}; next_use(typing, &use);) {
         const char *name = name_of(typing, &use);
         size_t i = 0;
-        if (is_component(typing, name)) {
+        if (use.role == VARIABLE && is_used(typing, name, COMPONENT)) {
             return "";
         }
         while (i < count && strcmp(names[i], name) != 0) {
             i++;
         }
-        if (i == count && has_value(typing, name)) {
+        if (use.role == VARIABLE && i == count && has_value(typing, name)) {
             names = gm_arena_resize(typing->arena, names, count + 1, sizeof *names);
             names[count++] = name;
             with_p += name[0] == 'p';
@@ -436,22 +419,18 @@ static void need(struct typing *typing, const char *name, struct gm_word_place p
     }
     file->missing_place = file->missing ? file->missing_place : place;
     file->missing = gm_arena_print(typing->arena, "%s%s", missing, text);
-    put_text(file, gm_arena_print(typing->arena, "%s: %s = 1\n", component ? "start" : "parameter", name));
+    put(file, component ? "start: " : "parameter: ", name, strlen(name), " = 1\n",
+        (struct gm_word_place){.word = -1});
 }
 
 /* Finds what is missing: components need a value at the start, all other names are parameters. */
 static void put_missing(struct typing *typing)
 {
     struct gm_typed_file *file = typing->file;
-    const struct gm_word_place nowhere = {.word = -1};
     for (struct use use = {0}; next_use(typing, &use);) {
         if (use.role == COMPONENT) {
-            need(typing, name_of(typing, &use), use.at, true);
-        }
-    }
-    for (const char *letter = typing->usual ? "qp" : ""; *letter; letter++) {
-        for (int i = typing->degrees > 0; i <= typing->degrees; i++) {
-            need(typing, usual_name(typing, *letter, i), nowhere, true);
+            const bool typed = use.at.word < file->count;
+            need(typing, name_of(typing, &use), typed ? use.at : (struct gm_word_place){.word = -1}, true);
         }
     }
     for (struct use use = {0}; next_use(typing, &use);) {
@@ -532,10 +511,13 @@ static void put_typed(struct gm_arena *arena, void *data)
     struct gm_typed_file *file = typing->file;
     const char *value;
     typing->arena = arena;
+    typing->count = file->count;
+    typing->words = gm_arena_take(arena, (size_t)file->count + 3, sizeof *typing->words);
+    memcpy(typing->words, file->words, (size_t)file->count * sizeof *typing->words);
     for (int i = 1; i < file->count; i++) {
         const size_t key = key_of(file->words[i], gm_typed_keys, &value);
         if (gm_typed_keys[key]) {
-            put_line(file, gm_typed_keys[key], i);
+            put_line(file, file->words[i], i);
             typing->has[key] = true;
         }
     }
@@ -554,7 +536,7 @@ static void put_typed(struct gm_arena *arena, void *data)
         refuse_words(typing);
     }
     if (typing->usual) {
-        put_usual_coordinates(typing);
+        add_usual_coordinates(typing);
     }
     put_starts_or_parameters(typing, false);
     put_starts_or_parameters(typing, true);

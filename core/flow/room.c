@@ -2,7 +2,6 @@
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
 #include "core/basics.h"
-#include "core/expression/nearest.h"
 #include "core/model/scope.h"
 
 #include <float.h>
@@ -525,7 +524,6 @@ static void read_parameter(struct gm_room *room, struct gm_span rest, const stru
     parameter->name = gm_room_keep(room, (struct gm_span){head.begin, equals});
     parameter->text = gm_room_keep(room, value);
     parameter->meaning = gm_room_keep(room, rest);
-    gm_number_parse(parameter->text, &parameter->value);
     const size_t letters = strlen(parameter->name);
     if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
         gm_choice_named(&room->choices, parameter->name) ||
@@ -534,11 +532,10 @@ static void read_parameter(struct gm_room *room, struct gm_span rest, const stru
     }
     for (size_t i = 0; i < input->count; i++) {
         if (strcmp(input->given[i].name, parameter->name) == 0) {
-            parameter->text = input->given[i].text ? gm_arena_print(room->arena, "%s", input->given[i].text)
-                                                   : parameter->text;
-            parameter->value = input->given[i].text ? NAN : input->given[i].value;
+            parameter->text = gm_arena_print(room->arena, "%s", input->given[i].text);
         }
     }
+    gm_number_parse(parameter->text, &parameter->value);
     check_free(room, parameter->name, head.begin);
 }
 
@@ -653,7 +650,7 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, input->given[k].name); i++) {
             if (strcmp(input->given[k].name, numbers[i].name) == 0) {
                 room->reynolds = i == 0 ? NAN : room->reynolds;
-                *numbers[i].number = input->given[k].value;
+                gm_number_parse(input->given[k].text, numbers[i].number);
             }
         }
     }
@@ -712,9 +709,7 @@ static void read_lines(struct gm_room *room, const struct gm_room_input *input)
         check_free(room, choices->list[i].name, choices->list[i].place);
     }
     for (size_t i = 0; i < input->count; i++) {
-        if (input->given[i].text) {
-            gm_choices_take(choices, input->given[i].name, input->given[i].text);
-        }
+        gm_choices_take(choices, input->given[i].name, input->given[i].text);
     }
     gm_room_need(room, gm_lines_read(&lines, room->fault));
     room->said = lines.list;

@@ -67,12 +67,6 @@ struct gm_room_parameter {
     size_t place;                /* position in the text */
 };
 
-/* The value that a caller gives to a parameter or a choice: a number, or words in `text`. */
-struct gm_room_given {
-    const char *name, *text;
-    double value;
-};
-
 /* The measures of a room's flow, which are names in formulas that are evaluated after it is made. */
 enum gm_room_measure {
     GM_ROOM_PERIMETER,
@@ -116,10 +110,11 @@ struct gm_room {
 };
 
 /* A text, which is copied, and the values that a caller gives. */
+struct gm_system_value;
 struct gm_room_input {
     const char *text;
     size_t length;
-    const struct gm_room_given *given;
+    const struct gm_system_value *given; /* of parameters and choices */
     size_t count;
 };
 
