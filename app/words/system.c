@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include "app/base/arguments.h"
 #include "app/base/files.h"
@@ -25,18 +24,13 @@
 
 const char gm_system_typed[] = "system";
 
-/* Reads a whole file, but only the length of a system's that is too large: the reader refuses it. */
+/* The whole text of a file is read. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
-    struct stat about;
-    const bool large = most == GM_LARGEST_SYSTEM && !file->built_in && stat(file->path, &about) == 0 &&
-                       S_ISREG(about.st_mode) && about.st_size > GM_LARGEST_SYSTEM;
     written->path = file->path;
-    written->size = large ? (size_t)about.st_size : 0;
-    written->source = large ? strdup("") : gm_file_read(file, most, &written->size, message);
-    written->text = written->source;
+    written->text = written->source = gm_file_read(file, most, &written->size, message);
     written->length = written->size;
-    return written->source || (large && gm_refuse(message, "not enough memory"));
+    return written->source;
 }
 
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
@@ -399,10 +393,7 @@ static bool write_text(struct making *making)
     if (making->room) {
         return true;
     }
-    if (written->size > GM_LARGEST_SYSTEM || !gm_lines_are_text(written->source, written->size, &fault)) {
-        /* the file is too long and was not read, or its bytes are not text and end strings early: the
-           reader reports it */
-        gm_system_read(&making->first, written->source, written->size, NULL, 0, &fault);
+    if (!gm_lines_are_text(written->source, written->size, &fault)) { /* a zero byte ends strings early */
         return refuse_text(making, &fault);
     }
     return gm_typed_file_replace(written, making->message);

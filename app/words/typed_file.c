@@ -102,8 +102,7 @@ static struct gm_word_place place_of(const struct gm_typed_file *file, size_t of
 int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault *fault,
                         struct gm_word_place *place, char *message)
 {
-    const bool shown =
-        fault->sentence[0] && fault->offset < file->length && file->length <= GM_LARGEST_SYSTEM;
+    const bool shown = fault->sentence[0] && fault->offset < file->length;
     const struct gm_word_place from =
         shown && fault->offset > 0 ? place_of(file, fault->offset) : (struct gm_word_place){-1, 0};
     if (from.word > 0) {

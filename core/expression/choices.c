@@ -275,24 +275,17 @@ static void remove_replaced(struct gm_read_lines *lines, struct heading *list, s
     lines->count = kept;
 }
 
-bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
+/* Reads the lines and their headings, for which there is room. */
+static bool read_lines(struct gm_read_lines *lines, struct heading *headings, struct gm_fault *fault)
 {
     const struct gm_line_word *words = lines->words->list;
     const char *text = lines->text;
+    const bool chosen = lines->choices && lines->choices->count > 0;
     struct blocks blocks = {.choices = lines->choices, .text = text};
     struct gm_text_line line;
-    size_t most = 1, count = 0, word;
+    size_t count = 0, word;
     bool given[GM_MOST_LINE_WORDS] = {false};
-    const bool chosen = lines->choices && lines->choices->count > 0;
-    for (size_t i = lines->span.begin; i < lines->span.end; i++) {
-        most += text[i] == ':' || text[i] == '=';
-    }
-    lines->list = gm_arena_take(lines->arena, most, sizeof *lines->list);
-    const size_t mark = gm_arena_mark(lines->arena);
-    struct heading *headings = gm_arena_take(lines->arena, chosen ? most : 1, sizeof *headings);
-    *fault = (struct gm_fault){0};
-    for (size_t at = lines->span.begin;
-         lines->list && headings && gm_lines_next(text, lines->span.end, &at, &line, fault);) {
+    for (size_t at = lines->span.begin; gm_lines_next(text, lines->span.end, &at, &line, fault);) {
         const bool own = lines->choices && gm_span_among(text, line.word, own_words) <= WHEN;
         if (!pass(&blocks, &line, own, fault) ||
             !(own || gm_line_find(lines->words, text, &line, &word, fault))) {
@@ -311,11 +304,10 @@ bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
         }
         lines->list[lines->count++] = (struct gm_read_line){word, line.word.begin, line.value};
     }
-    if (!lines->list || !headings || fault->sentence[0] || !end_block(&blocks, fault)) {
+    if (fault->sentence[0] || !end_block(&blocks, fault)) {
         return false;
     }
     remove_replaced(lines, headings, count);
-    gm_arena_release(lines->arena, mark);
     for (size_t i = 0; i < lines->count; i++) {
         word = lines->list[i].word;
         if (given[word] && words[word].identity == GM_LINE_ONCE) {
@@ -324,4 +316,24 @@ bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
         given[word] = true;
     }
     return true;
+}
+
+bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
+{
+    size_t most = 1;
+    for (size_t i = lines->span.begin; i < lines->span.end; i++) {
+        most += lines->text[i] == ':' || lines->text[i] == '=';
+    }
+    const bool chosen = lines->choices && lines->choices->count > 0;
+    struct heading *headings = malloc((chosen ? most : 1) * sizeof *headings);
+    lines->list = malloc(most * sizeof *lines->list);
+    *fault = (struct gm_fault){0};
+    const bool good = lines->list && headings && read_lines(lines, headings, fault);
+    free(headings);
+    if (!good) {
+        free(lines->list);
+        lines->list = NULL;
+        lines->count = 0;
+    }
+    return good;
 }

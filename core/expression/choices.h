@@ -2,7 +2,6 @@
 #ifndef GM_CORE_EXPRESSION_CHOICES_H
 #define GM_CORE_EXPRESSION_CHOICES_H
 
-#include "core/arena.h"
 #include "core/expression/lines.h"
 
 /* Choices of a text, whose words decide which lines hold:
@@ -45,10 +44,9 @@ struct gm_read_lines {
     const struct gm_line_words *words;
     const struct gm_written_choices *choices; /* NULL: such files have none */
     unsigned inside;                          /* kinds of which lines in blocks must have one */
-    struct gm_arena *arena;
     const char *text;
     struct gm_span span;
-    struct gm_read_line *list; /* in the arena */
+    struct gm_read_line *list; /* malloc'ed; NULL with a fault */
     size_t count;
 };
 enum { GM_MOST_LINE_WORDS = 128 };

@@ -701,7 +701,6 @@ static void read_lines(struct gm_room *room, const struct gm_room_input *input)
     struct gm_read_lines lines = {.words = &line_words,
                                   .choices = choices,
                                   .inside = FREE,
-                                  .arena = room->arena,
                                   .text = room->text,
                                   .span = {0, room->length}};
     gm_room_need(room, gm_choices_read(choices, room->text, room->length, room->fault));
@@ -712,7 +711,7 @@ static void read_lines(struct gm_room *room, const struct gm_room_input *input)
         gm_choices_take(choices, input->given[i].name, input->given[i].text);
     }
     gm_room_need(room, gm_lines_read(&lines, room->fault));
-    room->said = lines.list;
+    room->said = gm_arena_keep(room->arena, lines.list, free);
     room->said_count = lines.count;
 }
 

@@ -70,7 +70,6 @@ bool gm_reading_lines(struct gm_reading *reading)
     struct gm_read_lines lines = {.words = &words,
                                   .choices = choices,
                                   .inside = ~0u,
-                                  .arena = reading->system->arena,
                                   .text = reading->text,
                                   .span = {0, reading->length}};
     struct gm_fault fault = {0};
@@ -79,12 +78,14 @@ bool gm_reading_lines(struct gm_reading *reading)
         gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
     }
     good = good && gm_lines_read(&lines, &fault);
-    reading->lines = good ? gm_arena_take(lines.arena, lines.count + 1, sizeof *reading->lines) : NULL;
+    reading->lines =
+        good ? gm_arena_take(reading->system->arena, lines.count + 1, sizeof *reading->lines) : NULL;
     for (size_t i = 0; reading->lines && i < lines.count; i++) {
         const struct gm_read_line *line = &lines.list[i];
         reading->lines[reading->line_count++] =
             (struct gm_system_line){(enum gm_system_word)line->word, line->place, line->value};
     }
+    free(lines.list);
     return reading->lines ||
            (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
                               : gm_fail_memory(&reading->fault));

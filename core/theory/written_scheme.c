@@ -173,17 +173,16 @@ static bool find_kind(struct reading *reading, struct gm_span name)
 
 static bool read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_fault fault = {0};
-    struct gm_read_lines lines = {
-        .words = &lines_of_schemes, .arena = gm_arena_open(), .text = reading->text, .span = span};
-    if (!lines.arena || !gm_lines_read(&lines, &fault)) {
-        (void)(fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                                 : gm_fail_memory(&reading->fault));
+    struct gm_fault fault;
+    struct gm_read_lines lines = {.words = &lines_of_schemes, .text = reading->text, .span = span};
+    if (!gm_lines_read(&lines, &fault)) {
+        return fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                                 : gm_fail_memory(&reading->fault);
     }
     for (size_t i = 0; i < lines.count && !reading->fault.failed; i++) {
         take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
     }
-    gm_arena_close(lines.arena);
+    free(lines.list);
     if (reading->fault.failed) {
         return false;
     }

@@ -239,8 +239,8 @@ head -c 3 /dev/zero >>zero.system
 refused 1 'zero.system:1:4: a byte is 0' list zero.system
 awk 'BEGIN { printf "coordinates: q\nH: "; for (i = 0; i < 1000000; i++) printf "(" }' >deep.system
 refused 1 'nested more than' list deep.system
-truncate -s 100000001 large.system
-refused 1 'at most 100 MB' list large.system
+truncate -s 104857601 large.system
+refused 3 'it has 100 MB, more than 100' list large.system
 refused 3 'No such file' list none.system
 mkdir folder.system
 refused 3 'Is a directory' list folder.system
