@@ -21,12 +21,15 @@
 
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
-/* Replaces a scene that there was no memory for: it opens no lane. */
+/* Why the last file could not be opened. */
+static char reason[GM_MESSAGE] = "not enough memory";
+
+/* Replaces a scene whose file could not be opened: it opens no lane. */
 static bool refuse(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     (void)parameters;
     (void)problem;
-    return gm_refuse(sentence, "not enough memory");
+    return gm_refuse(sentence, "%s", reason);
 }
 
 static const char *const no_schemes[] = {NULL};
@@ -39,39 +42,49 @@ static const struct gm_scene unavailable = {.name = "",
                                             .schemes = no_schemes,
                                             .setup = refuse};
 
-static const struct gm_scene *open_room(const char *name)
+static const struct gm_scene *open_room(const struct gm_built_in *file, struct gm_fault *fault)
 {
-    const struct gm_built_in *built_in = gm_built_in_find(GM_FILE_ROOM, name);
-    const struct gm_room_file file = {built_in->text, built_in->length, name, NULL, built_in->path, true};
-    struct gm_fault fault;
+    const struct gm_room_file room = {file->text, file->length, file->name, NULL, file->path, true};
     char sentence[GM_MESSAGE];
-    return gm_user_room_open(&file, &fault, sentence);
+    return gm_user_room_open(&room, fault, sentence);
 }
 
-static const struct gm_scene *open_system(const char *name)
+static const struct gm_scene *open_system(const struct gm_built_in *file, struct gm_fault *fault)
 {
-    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, name);
     struct gm_user_system system;
-    struct gm_fault fault;
     char sentence[GM_MESSAGE];
-    if (!gm_equations_open(&system, file->text, file->length, NULL, 0, &fault)) {
+    if (!gm_equations_open(&system, file->text, file->length, NULL, 0, fault)) {
         gm_system_close(&system);
         return NULL;
     }
     size_t others;
     const bool elsewhere = gm_user_field_elsewhere(system.kind, system.texts[GM_WORD_SCHEMES], &others) > 0;
-    return gm_system_is_field(&system) ? gm_user_field_open(&system, name, NULL, elsewhere, &fault, sentence)
-                                       : gm_system_scene_open(&system, name, NULL, false, &fault, sentence);
+    return gm_system_is_field(&system)
+               ? gm_user_field_open(&system, file->name, NULL, elsewhere, fault, sentence)
+               : gm_system_scene_open(&system, file->name, NULL, false, fault, sentence);
+}
+
+/* Opens a scene's file. NULL, and a reason, if there is no memory or the file has a fault. */
+static const struct gm_scene *open_file(const struct gm_built_in *file)
+{
+    struct gm_fault fault = {0};
+    size_t line, column;
+    const struct gm_scene *scene =
+        file->kind == GM_FILE_ROOM ? open_room(file, &fault) : open_system(file, &fault);
+    if (!scene && fault.sentence[0]) {
+        gm_text_place(file->text, fault.offset, &line, &column);
+        gm_refuse(reason, "%s:%zu:%zu: %s", file->path, line, column, fault.sentence);
+    }
+    return scene;
 }
 
 static struct {
     const struct gm_scene *scene; /* NULL: the file was not opened yet */
     const char *file;
     enum gm_file_kind kind;
-    const struct gm_scene *(*open)(const char *file);
 } rows[] = {
-#define GM_SYSTEM_SCENE(name) {.file = name, .kind = GM_FILE_SYSTEM, .open = open_system},
-#define GM_ROOM_SCENE(name) {.file = name, .kind = GM_FILE_ROOM, .open = open_room},
+#define GM_SYSTEM_SCENE(name) {.file = name, .kind = GM_FILE_SYSTEM},
+#define GM_ROOM_SCENE(name) {.file = name, .kind = GM_FILE_ROOM},
 #define GM_SCENE(name) {.scene = &gm_scene_##name},
 #include "scenes/scenes.def"
 #undef GM_SCENE
@@ -88,7 +101,7 @@ const struct gm_scene *gm_scene_at(size_t index)
 {
     pthread_mutex_lock(&opening);
     if (!rows[index].scene) {
-        rows[index].scene = rows[index].open(rows[index].file);
+        rows[index].scene = open_file(gm_built_in_find(rows[index].kind, rows[index].file));
     }
     const struct gm_scene *scene = rows[index].scene;
     pthread_mutex_unlock(&opening);

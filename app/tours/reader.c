@@ -14,7 +14,7 @@
 #include "app/tours/tour.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
-#include "core/expression/nearest.h"
+#include "core/expression/lines.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
 
@@ -22,8 +22,13 @@ enum { MOST_BYTES = 1 << 20, MOST_STEPS = 60, MOST_SCHEMES = 3 };
 
 enum word { TITLE, ABOUT, PLACE, STEP, SAY, ASK, ANSWER, SHOW, UNTIL, SECONDS, AT, STUDY, WATCH, TRY, WORDS };
 
-static const char *const word_names[WORDS] = {"title", "about", "place",   "step", "say",   "ask",   "answer",
-                                              "show",  "until", "seconds", "at",   "study", "watch", "try"};
+static const struct gm_line_word lines[WORDS] = {
+    {"title", GM_LINE_ADDED, 0},   {"about", GM_LINE_ADDED, 0}, {"place", GM_LINE_ADDED, 0},
+    {"step", GM_LINE_ADDED, 0},    {"say", GM_LINE_ADDED, 0},   {"ask", GM_LINE_ADDED, 0},
+    {"answer", GM_LINE_ADDED, 0},  {"show", GM_LINE_ADDED, 0},  {"until", GM_LINE_ADDED, 0},
+    {"seconds", GM_LINE_ADDED, 0}, {"at", GM_LINE_ADDED, 0},    {"study", GM_LINE_ADDED, 0},
+    {"watch", GM_LINE_ADDED, 0},   {"try", GM_LINE_ADDED, 0}};
+static const struct gm_line_words line_words = {"a tour", lines, WORDS, "; docs/tours.md names them"};
 
 struct entry {
     enum word word;
@@ -57,94 +62,59 @@ __attribute__((format(printf, 3, 4))) _Noreturn static void refuse(const struct 
     gm_arena_refuse(reader->arena, "%.100s, line %ld: %.380s", reader->name, line, sentence);
 }
 
-static const char *word_name(size_t i, const void *data)
+static long line_of(const struct reader *reader, size_t offset)
 {
-    return (void)data, word_names[i];
+    size_t line, column;
+    gm_text_place(reader->text, offset, &line, &column);
+    return (long)line;
 }
 
-static bool is_blank(char letter)
+/* The text of a value: its lines with a blank between them, but for those that begin with #. */
+static char *text_of(const struct reader *reader, struct gm_span value)
 {
-    return letter == ' ' || letter == '\t';
-}
-
-static char *behind_blanks(char *text)
-{
-    while (is_blank(*text)) {
-        text++;
+    char *text = gm_arena_take(reader->arena, value.end - value.begin + 1, 1), *out = text;
+    for (size_t at = value.begin; at < value.end;) {
+        const char *from = reader->text + at, *newline = memchr(from, '\n', value.end - at);
+        const size_t length = newline ? (size_t)(newline - from) : value.end - at,
+                     blanks = strspn(from, " \t\r");
+        if (blanks < length && from[blanks] != '#') {
+            out = mempcpy(out, " ", (size_t)(out > text));
+            out = mempcpy(out, from + blanks, length - blanks);
+        }
+        while (out > text && strchr(" \t\r", out[-1])) {
+            *--out = '\0';
+        }
+        at += length + 1;
     }
     return text;
 }
 
-/* Returns true if a text has no letters that a terminal would obey, and no bytes outside letters. */
-static bool is_readable(const char *text)
+/* Leaves the body if the text has that fault. */
+static void need(const struct reader *reader, bool good, const struct gm_fault *fault)
 {
-    for (uint32_t code; (code = gm_text_next(&text)) != 0;) {
-        if (code != '\t' && !gm_text_is_shown(code)) {
-            return false;
-        }
+    if (!good) {
+        refuse(reader, line_of(reader, fault->offset), "%s", fault->sentence);
     }
-    return true;
-}
-
-/* A line that begins with a blank continues the text above. */
-static void continue_entry(const struct reader *reader, long line, const char *text)
-{
-    if (reader->count == 0) {
-        refuse(reader, line, "it begins with a blank, but there is no text above to continue");
-    }
-    struct entry *last = &reader->entries[reader->count - 1];
-    last->text = gm_arena_print(reader->arena, "%s%s%s", last->text, last->text[0] ? " " : "", text);
-}
-
-static void read_line(struct reader *reader, long line, char *text)
-{
-    size_t length = strlen(text);
-    while (length > 0 && (is_blank(text[length - 1]) || text[length - 1] == '\r')) {
-        text[--length] = '\0';
-    }
-    if (!is_readable(text)) {
-        refuse(reader, line, "it holds a byte that is not UTF-8");
-    }
-    const char *at = behind_blanks(text);
-    if (*at == '\0' || *at == '#') {
-        return;
-    }
-    if (at > text) {
-        continue_entry(reader, line, at);
-        return;
-    }
-    char *colon = strchr(text, ':'), word[32];
-    if (!colon) {
-        refuse(reader, line, "it is neither \"word: text\" nor, beginning with a blank, more of it");
-    }
-    snprintf(word, sizeof word, "%.*s", (int)(colon - text < 31 ? colon - text : 31), text);
-    size_t i = 0;
-    while (i < WORDS && strcmp(word_names[i], word) != 0) {
-        i++;
-    }
-    if (i == WORDS) {
-        const char *near = gm_nearest(word, WORDS, word_name, NULL);
-        refuse(reader, line, "a tour has no word \"%s:\"%s%s%s", word, near ? "; did you mean " : "",
-               near ? near : "", near ? ":" : "");
-    }
-    reader->entries =
-        gm_arena_resize(reader->arena, reader->entries, reader->count + 1, sizeof *reader->entries);
-    reader->entries[reader->count++] = (struct entry){(enum word)i, line, behind_blanks(colon + 1)};
 }
 
 static void read_lines(struct reader *reader)
 {
-    char *text = gm_arena_take(reader->arena, reader->size + 1, 1), *const end = text + reader->size;
-    memcpy(text, reader->text, reader->size);
-    for (long line = 1; text < end; line++) {
-        char *newline = memchr(text, '\n', (size_t)(end - text)), *const stop = newline ? newline : end;
-        *stop = '\0';
-        if (strlen(text) < (size_t)(stop - text)) {
-            refuse(reader, line, "it holds a byte 0, so this is not text");
+    struct gm_text_line line;
+    struct gm_fault fault;
+    size_t word;
+    need(reader, gm_lines_are_text(reader->text, reader->size, &fault), &fault);
+    for (size_t at = 0; gm_lines_next(reader->text, reader->size, &at, &line, &fault);) {
+        need(reader, gm_line_find(&line_words, reader->text, &line, &word, &fault), &fault);
+        char *text = text_of(reader, line.value);
+        const long number = line_of(reader, line.word.begin);
+        if (!gm_text_is_plain(text)) {
+            refuse(reader, number, "it holds a character that cannot be shown");
         }
-        read_line(reader, line, text);
-        text = stop + 1;
+        reader->entries =
+            gm_arena_resize(reader->arena, reader->entries, reader->count + 1, sizeof *reader->entries);
+        reader->entries[reader->count++] = (struct entry){(enum word)word, number, text};
     }
+    need(reader, !fault.sentence[0], &fault);
 }
 
 static double read_number(const struct reader *reader, const struct entry *entry)
@@ -158,11 +128,8 @@ static double read_number(const struct reader *reader, const struct entry *entry
 
 static void take_text(const struct reader *reader, const struct entry *entry, char **place)
 {
-    if (!entry->text[0]) {
-        refuse(reader, entry->line, "there is no text after %s:", word_names[entry->word]);
-    }
     if (*place) {
-        refuse(reader, entry->line, "%s: is given twice", word_names[entry->word]);
+        refuse(reader, entry->line, "%s: is given twice", lines[entry->word].word);
     }
     *place = entry->text;
 }
@@ -290,7 +257,7 @@ static void take_entry(const struct reader *reader, const struct entry *entry, s
         break;
     default:
         if (!places[entry->word]) {
-            refuse(reader, entry->line, "%s: belongs before the first step:", word_names[entry->word]);
+            refuse(reader, entry->line, "%s: belongs before the first step:", lines[entry->word].word);
         }
         take_text(reader, entry, places[entry->word]);
     }
@@ -381,7 +348,7 @@ static void read_head(const struct reader *reader, size_t count)
             tour->place = (long)place;
             break;
         default:
-            refuse(reader, entry->line, "%s: belongs after the first step:", word_names[entry->word]);
+            refuse(reader, entry->line, "%s: belongs after the first step:", lines[entry->word].word);
         }
     }
     if (!tour->title) {

@@ -15,7 +15,6 @@
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
-#include "core/expression/nearest.h"
 #include "core/memory.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
@@ -484,9 +483,9 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
 {
     const struct gm_scene *scene = gm_scene_called(words[0]);
     *status = GM_EXIT_USAGE;
-    if (scene && scene->parameter_count == 0) { /* there was no memory to open its file */
-        *status = GM_EXIT_MEMORY;
-        gm_refuse(message, "not enough memory");
+    if (scene && scene->parameter_count == 0) { /* its file could not be opened */
+        *status = gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_FILE;
+        scene->setup(NULL, NULL, message);
         return NULL;
     }
     if (!scene && gm_system_is(words[0])) {
@@ -533,13 +532,13 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, int 
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, (shown ? arguments.count : count) - 1, read + 1,
                               schemes, message);
-    if (!good && words.count > 0) {
-        snprintf(request->refused, sizeof request->refused, "%s", words.list[words.count - 1].key);
+    if (!good) {
+        memcpy(request->refused, words.refused, sizeof request->refused);
     }
     size_t lanes;
     if (good && shown && !gm_arguments_have(&given, "overlay=") &&
         !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
-        good = gm_words_separate(&words) || gm_refuse(message, "not enough memory");
+        gm_words_separate(&words);
     }
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, recalled, message);

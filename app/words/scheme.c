@@ -267,11 +267,10 @@ bool gm_scheme_check(const char *name, size_t *at, char *message)
 {
     struct reading reading = {.message = message};
     const struct gm_scheme *made = NULL;
-    bool unreadable;
+    int status;
     *at = 0;
     if (is_path(name) || !is_user(name) || !gm_text_is_plain(name)) {
-        made = gm_scheme_named(name, &unreadable, message);
-        return made || (!message[0] && gm_scheme_refuse(NULL, name, message));
+        return gm_scheme_sought(name, &status, message);
     }
     if (open_source(&reading, name, NULL)) {
         made = gm_user_scheme_open(&reading.source, &reading.fault);

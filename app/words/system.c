@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
 #include "app/base/arguments.h"
 #include "app/base/files.h"
@@ -25,16 +24,13 @@
 
 const char gm_system_typed[] = "system";
 
-/* Reads a whole file, but only the length of a system's that is too large: the reader refuses it. */
+/* The whole text of a file is read. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
-    struct stat about;
-    const bool large = most == GM_LARGEST_SYSTEM && !file->built_in && stat(file->path, &about) == 0 &&
-                       S_ISREG(about.st_mode) && about.st_size > GM_LARGEST_SYSTEM;
     written->path = file->path;
-    written->length = large ? (size_t)about.st_size : 0;
-    written->text = large ? strdup("") : gm_file_read(file, most, &written->length, message);
-    return written->text || (large && gm_refuse(message, "not enough memory"));
+    written->text = written->source = gm_file_read(file, most, &written->size, message);
+    written->length = written->size;
+    return written->source;
 }
 
 int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
@@ -51,14 +47,15 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
              : !gm_typed_file_write(&written, &place, message)) {
         status = file ? GM_EXIT_FILE : GM_EXIT_USAGE;
         status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : status;
-    } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault)) {
+    } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault) ||
+               written.missing) {
         if (gm_memory_refusals() != refusals) { /* whatever else is blamed */
             fault = (struct gm_fault){0};
         }
         status = gm_typed_file_fault(&written, &fault, &place, message);
     }
     system->typed = !file;
-    free(written.text);
+    gm_typed_file_close(&written);
     return status;
 }
 
@@ -179,7 +176,7 @@ static bool choose_words(struct making *making)
     bool good = gm_arguments_add(words, written->words[0]);
     for (int i = 1; i < written->count && good; i++) {
         const char *word = written->words[i];
-        bool chosen = gm_typed_file_has(written, word);
+        bool chosen = gm_typed_file_has(written, i);
         for (size_t k = system->parameters; k < system->velocities; k++) {
             const char *name = system->variables[k].name;
             const char *value = system->variables[k].fixed ? gm_word_after(word, name) : NULL;
@@ -317,19 +314,18 @@ static void find_largest(struct making *making)
 }
 
 /* Reports a lack of memory, with the largest length. */
-static void refuse_memory(const struct making *making)
+static void refuse_memory(struct making *making)
 {
-    const struct gm_typed_file *written = &making->written;
     struct gm_fault fault = {.offset = making->largest_place};
-    if (!(making->largest > 0) || !written->path) {
-        gm_refuse(making->message, "not enough memory%s",
-                  making->largest > 0 ? " for lists and sums of this length" : "");
-        return;
-    }
     snprintf(fault.sentence, sizeof fault.sentence, "not enough memory for %s = %.6g", making->largest_name,
              making->largest);
-    gm_place_report(written->path, written->text, &fault, making->message);
-    gm_place_show(written->text, written->length, fault.offset, making->message);
+    if (making->largest > 0 && making->written.path) {
+        refuse_text(making, &fault);
+    } else {
+        gm_refuse(making->message, "not enough memory%s",
+                  making->largest > 0 ? " for lists and sums of this length" : "");
+    }
+    making->trial->status = GM_EXIT_MEMORY;
 }
 
 /* Makes a scene of the text, or finds the existing one. */
@@ -340,7 +336,8 @@ static void make(struct making *making)
     struct gm_fault fault;
     if (making->room) {
         gm_arguments_add(&made->words, written->words[0]);
-    } else if (!gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault)) {
+    } else if (!gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault) ||
+               written->missing) {
         refuse_text(making, &fault);
         return;
     } else {
@@ -378,9 +375,9 @@ static bool write_text(struct making *making)
     if (recalled) {
         snprintf(making->file.path, sizeof making->file.path, "%s", word);
         written->path = making->file.path;
-        written->text = strdup(recalled->text);
-        written->length = strlen(recalled->text);
-        if (!written->text) {
+        written->source = strdup(recalled->text);
+        written->size = strlen(recalled->text);
+        if (!written->source) {
             return gm_refuse(making->message, "not enough memory");
         }
     } else if (gm_file_find(making->room ? GM_FILE_ROOM : GM_FILE_SYSTEM, word, &making->file)) {
@@ -396,13 +393,10 @@ static bool write_text(struct making *making)
     if (making->room) {
         return true;
     }
-    if (written->length > GM_LARGEST_SYSTEM || !gm_lines_are_text(written->text, written->length, &fault)) {
-        /* the file is too long and was not read, or its bytes are not text and end strings early: the
-           reader reports it */
-        gm_system_read(&making->first, written->text, written->length, NULL, 0, &fault);
+    if (!gm_lines_are_text(written->source, written->size, &fault)) { /* a zero byte ends strings early */
         return refuse_text(making, &fault);
     }
-    return gm_typed_file_replace(written) || gm_refuse(making->message, "not enough memory");
+    return gm_typed_file_replace(written, making->message);
 }
 
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message)
@@ -425,14 +419,13 @@ bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[]
                 trial->made->close(trial->made->scene);
             }
             trial->scene = trial->made->scene = NULL;
-            trial->status = GM_EXIT_MEMORY;
             refuse_memory(&making);
         }
         pthread_mutex_unlock(&making_one);
     }
     gm_system_close(&making.first);
     free(making.values);
-    free(making.written.text);
+    gm_typed_file_close(&making.written);
     return trial->scene != NULL;
 }
 

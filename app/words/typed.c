@@ -10,7 +10,6 @@
 #include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/words.h"
-#include "core/memory.h"
 
 /* ---- words ---- */
 
@@ -257,33 +256,31 @@ static char *scheme_of(const char *line, size_t *begin)
     return strndup(line + from, to - from);
 }
 
-const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)
+/* Checks a scheme, and keeps it in *kept unless that is NULL. */
+static bool read_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault)
 {
-    size_t begin = 0;
-    char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "";
-    bool unreadable;
+    size_t begin = 0, at = 0;
+    int status;
+    char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "not enough memory";
     *fault = (struct gm_typed_fault){.at = -1};
-    const struct gm_scheme *scheme = name ? gm_scheme_named(name, &unreadable, message) : NULL;
-    if (!scheme) {
-        if (name && !message[0]) {
-            gm_scheme_refuse(NULL, name, message);
-        }
-        fail(fault, name ? message : "not enough memory");
+    const bool good = name && (kept ? (*kept = gm_scheme_sought(name, &status, message)) != NULL
+                                    : gm_scheme_check(name, &at, message));
+    if (!good) {
+        fail(fault, message);
+        fault->at = kept ? -1 : (long)(begin + at);
     }
     free(name);
+    return good;
+}
+
+const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)
+{
+    const struct gm_scheme *scheme = NULL;
+    read_scheme(line, &scheme, fault);
     return scheme;
 }
 
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
 {
-    size_t begin = 0, at = 0;
-    char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "";
-    *fault = (struct gm_typed_fault){.at = -1};
-    const bool good = name && gm_scheme_check(name, &at, message);
-    if (!good) {
-        fail(fault, name ? message : "not enough memory");
-        fault->at = (long)(begin + at);
-    }
-    free(name);
-    return good;
+    return read_scheme(line, NULL, fault);
 }

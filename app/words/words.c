@@ -9,6 +9,7 @@
 
 #include "app/words/names.h"
 #include "core/aliases.h"
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/parameter.h"
@@ -94,9 +95,10 @@ static const char *fault_of(const struct gm_range *range, bool whole)
     return NULL;
 }
 
-/* Reads "END..END:COUNT" or "END..END:logCOUNT" with ends for gm_number_parse. Returns false with a
-   sentence (GM_MESSAGE bytes) that names the key. `whole`: its values must be whole numbers. */
-static bool parse_range(struct gm_range *range, const char *key, const char *text, bool whole, char *message)
+/* Reads "END..END:COUNT" or "END..END:logCOUNT" with ends for gm_number_parse, or leaves the body. `whole`:
+   its values must be whole numbers. */
+static void parse_range(struct gm_arena *arena, struct gm_range *range, const char *key, const char *text,
+                        bool whole)
 {
     const char *between = strstr(text, ".."), *colon = strrchr(text, ':');
     const char *fault = "a range is START..END:COUNT, or START..END:logCOUNT for equal factors";
@@ -116,9 +118,8 @@ static bool parse_range(struct gm_range *range, const char *key, const char *tex
         }
     }
     if (fault) {
-        snprintf(message, GM_MESSAGE, "%s=%.80s: %s", key, text, fault);
+        gm_arena_refuse(arena, "%s=%.80s: %s", key, text, fault);
     }
-    return !fault;
 }
 
 const struct gm_common_key gm_common_keys[] = {
@@ -156,41 +157,22 @@ static const char *key_name(size_t i, const void *data)
 
 void gm_words_close(struct gm_words *words)
 {
-    for (size_t i = 0; i < words->count; i++) {
-        free(words->list[i].key);
-        for (size_t k = 0; k < words->list[i].piece_count; k++) {
-            free(words->list[i].pieces[k].text);
-        }
-    }
-    words->count = 0;
+    gm_arena_close(words->arena);
+    *words = (struct gm_words){0};
 }
 
-/* Returns false when out of memory, or with a sentence. */
-static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
+static void add_value(struct gm_arena *arena, struct gm_word *list, const char *text, size_t length)
 {
     if (length == 0) {
-        return gm_refuse(message, "%s= has an empty value", list->key);
+        gm_arena_refuse(arena, "%s= has an empty value", list->key);
     }
     if (list->piece_count == GM_MOST_PIECES) {
-        return gm_refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
-                         GM_MOST_PIECES, 2 * GM_MOST_PIECES);
+        gm_arena_refuse(arena, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
+                        GM_MOST_PIECES, 2 * GM_MOST_PIECES);
     }
-    struct gm_word_piece *piece = &list->pieces[list->piece_count];
-    *piece = (struct gm_word_piece){.text = strndup(text, length)};
-    list->piece_count += piece->text != NULL;
+    list->pieces[list->piece_count++] =
+        (struct gm_word_piece){.text = gm_arena_print(arena, "%.*s", (int)length, text)};
     list->count++;
-    return piece->text != NULL;
-}
-
-/* Gives a piece another text, or its own. Returns false when out of memory. */
-static bool set_text(struct gm_word_piece *piece, const char *text)
-{
-    char *copy = strdup(text);
-    if (copy) {
-        free(piece->text);
-        piece->text = copy;
-    }
-    return copy != NULL;
 }
 
 const struct gm_parameter *gm_word_parameter(const struct gm_scene *scene, const char *key)
@@ -206,19 +188,15 @@ bool gm_word_is_number(const struct gm_scene *scene, const char *key)
 }
 
 /* Replaces the last piece of a list of numbers by its values, if it is a range. */
-static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
+static void read_range(struct gm_arena *arena, struct gm_word *list, const struct gm_scene *scene)
 {
     struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
-    if (!is_range(piece->text) || !gm_word_is_number(scene, list->key)) {
-        return true;
+    if (is_range(piece->text) && gm_word_is_number(scene, list->key)) {
+        const struct gm_parameter *row = gm_word_parameter(scene, list->key);
+        const bool whole = !row || row->type == GM_INTEGER; /* steps= has no row */
+        parse_range(arena, &piece->range, list->key, piece->text, whole);
+        list->count += piece->range.count - 1;
     }
-    const struct gm_parameter *row = gm_word_parameter(scene, list->key);
-    const bool whole = !row || row->type == GM_INTEGER; /* steps= has no row */
-    if (!parse_range(&piece->range, list->key, piece->text, whole, message)) {
-        return false;
-    }
-    list->count += piece->range.count - 1;
-    return true;
 }
 
 /* The piece that value `index` belongs to, and the index within it. */
@@ -374,63 +352,6 @@ void gm_words_assignment(const struct gm_scene *scene, const char *key, const ch
     }
 }
 
-/* `next`: the word after it, or NULL. */
-static bool read_word(struct gm_words *words, const struct gm_scene *scene, const char *word,
-                      const char *next, char *message)
-{
-    const char *equals = strchr(word, '=');
-    if (!equals || equals == word) {
-        char meant[128];
-        gm_words_assignment(scene, word, next && !strchr(next, '=') ? next : NULL, meant, sizeof meant);
-        return gm_refuse(message, "\"%.60s\" is not of the form key=value%s", word, meant);
-    }
-    if (has_orders(word)) {
-        return gm_refuse(message, "\"%.60s\" holds a character that cannot be shown", word);
-    }
-    if (words->count == GM_MOST_WORDS) {
-        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
-    }
-    struct gm_word *list = &words->list[words->count];
-    *list = (struct gm_word){.key = strndup(word, (size_t)(equals - word))};
-    if (!list->key) {
-        return false;
-    }
-    words->count++;
-    if (!known_key(scene, list->key)) {
-        const char *near = key_meant(scene, list->key);
-        char typed[256];
-        gm_arguments_tell_scene(scene, typed, sizeof typed);
-        return gm_refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
-                         near ? "; did you mean " : "; see geomint list ", near ? near : typed);
-    }
-    for (size_t i = 0; i + 1 < words->count; i++) {
-        if (strcmp(words->list[i].key, list->key) == 0) {
-            return gm_refuse(message, "%s= is given twice", list->key);
-        }
-    }
-    const char *at = equals + 1;
-    const bool whole = is_whole(gm_scene_parameter(scene, list->key), at);
-    for (;;) {
-        const char *comma = whole ? NULL : next_comma(at);
-        if (!add_value(list, at, comma ? (size_t)(comma - at) : strlen(at), message)) {
-            return false;
-        }
-        char number[48];
-        const size_t last = list->piece_count - 1;
-        if (begins_with_zero(list->pieces[last].text) &&
-            gm_words_decimal_comma(list, last, number, sizeof number)) {
-            return gm_refuse(message, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
-        }
-        if (!read_range(list, scene, message)) {
-            return false;
-        }
-        if (!comma) {
-            return true;
-        }
-        at = comma + 1;
-    }
-}
-
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key)
 {
     for (size_t i = 0; i < words->count; i++) {
@@ -439,6 +360,59 @@ const struct gm_word *gm_words_find(const struct gm_words *words, const char *ke
         }
     }
     return NULL;
+}
+
+/* A list of values for a key, behind the others. */
+static struct gm_word *new_list(struct gm_words *words, const char *key)
+{
+    if (words->count == GM_MOST_WORDS) {
+        gm_arena_refuse(words->arena, "more than %d keys", GM_MOST_WORDS);
+    }
+    snprintf(words->refused, sizeof words->refused, "%s", key);
+    words->list[words->count] = (struct gm_word){.key = key};
+    return &words->list[words->count++];
+}
+
+/* `next`: the word after it, or NULL. */
+static void read_word(struct gm_words *words, const struct gm_scene *scene, const char *word,
+                      const char *next)
+{
+    struct gm_arena *arena = words->arena;
+    const char *equals = strchr(word, '=');
+    if (!equals || equals == word) {
+        char meant[128];
+        gm_words_assignment(scene, word, next && !strchr(next, '=') ? next : NULL, meant, sizeof meant);
+        gm_arena_refuse(arena, "\"%.60s\" is not of the form key=value%s", word, meant);
+    }
+    if (has_orders(word)) {
+        gm_arena_refuse(arena, "\"%.60s\" holds a character that cannot be shown", word);
+    }
+    struct gm_word *list = new_list(words, gm_arena_print(arena, "%.*s", (int)(equals - word), word));
+    if (!known_key(scene, list->key)) {
+        const char *near = key_meant(scene, list->key);
+        char typed[256];
+        gm_arguments_tell_scene(scene, typed, sizeof typed);
+        gm_arena_refuse(arena, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
+                        near ? "; did you mean " : "; see geomint list ", near ? near : typed);
+    }
+    if (gm_words_find(words, list->key) != list) {
+        gm_arena_refuse(arena, "%s= is given twice", list->key);
+    }
+    const bool whole = is_whole(gm_scene_parameter(scene, list->key), equals + 1);
+    for (const char *at = equals + 1, *comma = equals; comma; at = comma + 1) {
+        comma = whole ? NULL : next_comma(at);
+        add_value(arena, list, at, comma ? (size_t)(comma - at) : strlen(at));
+        char number[48];
+        const size_t last = list->piece_count - 1;
+        if (begins_with_zero(list->pieces[last].text) &&
+            gm_words_decimal_comma(list, last, number, sizeof number)) {
+            gm_arena_refuse(arena, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
+        }
+        read_range(arena, list, scene);
+        if (!comma) {
+            break;
+        }
+    }
 }
 
 size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane)
@@ -530,60 +504,49 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
 }
 
 /* The first `count` of these schemes, as if they had been typed in front. */
-static bool prefer(struct gm_words *words, const char *const *names, size_t count, char *message)
+static void prefer(struct gm_words *words, const char *const *names, size_t count)
 {
     if (gm_words_find(words, "scheme")) {
-        return true;
+        return;
     }
-    if (words->count == GM_MOST_WORDS) {
-        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
+    struct gm_word list = *new_list(words, "scheme");
+    for (size_t i = 0; i < count && names[i]; i++) {
+        add_value(words->arena, &list, names[i], strlen(names[i]));
     }
-    struct gm_word list = {.key = strdup("scheme")};
-    bool good = list.key != NULL;
-    for (size_t i = 0; good && i < count && names[i]; i++) {
-        good = add_value(&list, names[i], strlen(names[i]), message);
-    }
-    memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
+    memmove(&words->list[1], &words->list[0], (words->count - 1) * sizeof words->list[0]);
     words->list[0] = list;
-    words->count++;
-    return good;
 }
 
 /* Checks that each common key that is not a lane's has one value, one of its choices. */
-static bool check_choices(const struct gm_words *words, char *message)
+static void check_choices(const struct gm_words *words)
 {
     for (size_t i = 0; i < gm_common_key_count; i++) {
         const struct gm_common_key *key = &gm_common_keys[i];
         const struct gm_word *word = key->choices[0] ? gm_words_find(words, key->name) : NULL;
         if (word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
                                          strcmp(word->pieces[0].text, key->choices[1]) != 0))) {
-            return gm_refuse(message, "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
+            gm_arena_refuse(words->arena, "%s= is one of: %s, %s", key->name, key->choices[0],
+                            key->choices[1]);
         }
     }
-    return true;
 }
 
-/* Gives every scheme its own name. Returns false when out of memory. */
-static bool name_schemes(struct gm_words *words, const struct gm_scene *scene)
+/* Gives every scheme its own name. */
+static void name_schemes(struct gm_words *words, const struct gm_scene *scene)
 {
-    bool good = true;
-    for (size_t i = 0; i < words->count; i++) {
-        struct gm_word *word = &words->list[i];
-        for (size_t k = 0; strcmp(word->key, "scheme") == 0 && k < word->piece_count; k++) {
-            good = set_text(&word->pieces[k], gm_scheme_own_name(scene, word->pieces[k].text)) && good;
-        }
+    struct gm_word *word = (struct gm_word *)gm_words_find(words, "scheme");
+    for (size_t k = 0; word && k < word->piece_count; k++) {
+        word->pieces[k].text =
+            gm_arena_print(words->arena, "%s", gm_scheme_own_name(scene, word->pieces[k].text));
     }
-    return good;
 }
 
-bool gm_words_separate(struct gm_words *words)
+void gm_words_separate(struct gm_words *words)
 {
-    bool good = true;
-    for (size_t i = 0; i < words->count; i++) {
-        struct gm_word *word = &words->list[i];
-        good = (strcmp(word->key, "overlay") != 0 || set_text(&word->pieces[0], "no")) && good;
+    struct gm_word *word = (struct gm_word *)gm_words_find(words, "overlay");
+    if (word) {
+        word->pieces[0].text = "no";
     }
-    return good;
 }
 
 bool gm_words_chosen(const struct gm_words *words, const char *key)
@@ -592,25 +555,42 @@ bool gm_words_chosen(const struct gm_words *words, const char *key)
     return word && strcmp(word->pieces[0].text, gm_common_key_find(key)->choices[1]) == 0;
 }
 
+/* Typed words while they are read. */
+struct typing {
+    struct gm_words *words;
+    const struct gm_scene *scene;
+    int count;
+    char *const *typed;
+    size_t schemes;
+};
+
+static void read_words(struct gm_arena *arena, void *data)
+{
+    const struct typing *typing = data;
+    struct gm_words *words = typing->words;
+    const struct gm_scene *scene = typing->scene;
+    const struct gm_preference *preference = preferred(scene, typing->count, typing->typed);
+    (void)arena;
+    for (int i = 0; i < typing->count; i++) {
+        if (!is_of_scene(scene, typing->typed[i])) {
+            read_word(words, scene, typing->typed[i], i + 1 < typing->count ? typing->typed[i + 1] : NULL);
+        }
+    }
+    name_schemes(words, scene);
+    check_choices(words);
+    prefer(words, preference ? preference->schemes : scene->schemes, typing->schemes);
+    words->zip = gm_words_chosen(words, "zip");
+}
+
 bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
                    size_t schemes, char *message)
 {
-    const struct gm_preference *preference = preferred(scene, count, typed);
+    struct typing typing = {words, scene, count, typed, schemes};
     memset(words, 0, sizeof *words);
-    gm_refuse(message, "not enough memory");
-    for (int i = 0; i < count; i++) {
-        const char *next = i + 1 < count ? typed[i + 1] : NULL;
-        if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], next, message)) {
-            return false;
-        }
-    }
-    if (!name_schemes(words, scene) || !check_choices(words, message) ||
-        !prefer(words, preference ? preference->schemes : scene->schemes, schemes, message)) {
-        return false;
-    }
-    words->zip = gm_words_chosen(words, "zip");
-    message[0] = '\0';
-    return true;
+    words->arena = gm_arena_open();
+    const bool good = gm_arena_run(words->arena, read_words, &typing);
+    gm_refuse(message, "%s", good ? "" : gm_arena_reason(words->arena));
+    return good;
 }
 
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)

@@ -26,12 +26,12 @@ enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64 };
 
 /* A piece between two commas: a value, or a range of values. */
 struct gm_word_piece {
-    char *text;
+    const char *text;
     struct gm_range range; /* count 0: none */
 };
 
 struct gm_word {
-    char *key;
+    const char *key;
     struct gm_word_piece pieces[GM_MOST_PIECES];
     size_t piece_count;
     size_t count; /* number of values */
@@ -41,6 +41,8 @@ struct gm_words {
     struct gm_word list[GM_MOST_WORDS];
     size_t count;
     bool zip;
+    char refused[48];       /* the last key that was read, if the words were refused */
+    struct gm_arena *arena; /* the texts */
 };
 
 /* The keys that every scene has beside its parameters and its schemes'. */
@@ -82,8 +84,8 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
 
-/* Changes overlay=yes to overlay=no: there are more lanes than colours. Returns false when out of memory. */
-bool gm_words_separate(struct gm_words *words);
+/* Changes overlay=yes to overlay=no: there are more lanes than colours. */
+void gm_words_separate(struct gm_words *words);
 
 /* Returns true if a common key with choices has the second one: yes, cost. */
 bool gm_words_chosen(const struct gm_words *words, const char *key);

@@ -190,14 +190,13 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
     return true;
 }
 
-static bool pass(struct blocks *blocks, const struct gm_text_line *line, struct gm_fault *fault)
+static bool pass(struct blocks *blocks, const struct gm_text_line *line, bool own, struct gm_fault *fault)
 {
-    const size_t word = gm_span_among(blocks->text, line->word, own_words);
-    if (word == WHEN) {
+    if (own && gm_span_among(blocks->text, line->word, own_words) == WHEN) {
         return begin_block(blocks, line->value, fault);
     }
     blocks->empty = false;
-    return word != CHOICE || !blocks->open ||
+    return !own || !blocks->open ||
            gm_fail(fault, line->word.begin,
                    "a choice belongs outside of blocks: write \"when: always\" above it");
 }
@@ -218,21 +217,17 @@ static struct gm_span assignments(const char *text, struct gm_span rest)
    outside of them with the same word and name. */
 struct heading {
     const char *text;
-    struct gm_text_line line;
     struct gm_span name;
-    bool inside, goes;
+    size_t word, line; /* number of the line */
+    bool inside;
 };
-
-static int compare_spans(const char *text, struct gm_span a, struct gm_span b)
-{
-    const size_t one = a.end - a.begin, other = b.end - b.begin;
-    return one != other ? (one > other) - (one < other) : memcmp(text + a.begin, text + b.begin, one);
-}
 
 static int compare_headings(const struct heading *a, const struct heading *b)
 {
-    const int words = compare_spans(a->text, a->line.word, b->line.word);
-    return words != 0 ? words : compare_spans(a->text, a->name, b->name);
+    const size_t one = a->name.end - a->name.begin, other = b->name.end - b->name.begin;
+    return a->word != b->word ? (a->word > b->word) - (a->word < b->word)
+           : one != other     ? (one > other) - (one < other)
+                              : memcmp(a->text + a->name.begin, b->text + b->name.begin, one);
 }
 
 /* Equal headings are in the order: inside of blocks, outside. */
@@ -243,70 +238,102 @@ static int compare(const void *a, const void *b)
     return headings != 0 ? headings : other->inside - one->inside;
 }
 
-/* Adds a line once, or with each of its names. Returns the new number of headings. */
-static size_t add_line(struct heading *list, size_t count, struct heading heading, bool named)
+/* Adds a heading once, or with each name of its line. Returns the new number of headings. */
+static size_t add_headings(struct heading *list, size_t count, struct heading heading, struct gm_span rest,
+                           bool named)
 {
-    const char *text = heading.text;
-    struct gm_span rest = assignments(text, heading.line.value), piece;
+    struct gm_span piece;
     list[count] = heading;
-    while (named && gm_span_take(text, &rest, ",", &piece)) {
-        const size_t equals = gm_span_until(text, piece, "=");
-        list[count].name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals});
-        count += equals < piece.end && list[count].name.begin < list[count].name.end;
+    rest = assignments(heading.text, rest);
+    while (named && gm_span_take(heading.text, &rest, ",", &piece)) {
+        const size_t equals = gm_span_until(heading.text, piece, "=");
         list[count] = heading;
+        list[count].name = gm_span_trimmed(heading.text, (struct gm_span){piece.begin, equals});
+        count += equals < piece.end && list[count].name.begin < list[count].name.end;
     }
     return count + !named;
 }
 
-/* Makes a comment of a line. */
-static void remove_line(char *text, const struct gm_text_line *line)
-{
-    for (size_t i = line->word.begin; i < line->value.end; i++) {
-        text[i] = text[i] == '\n' || text[i] == '\r' ? text[i] : '#';
-    }
-}
-
 /* Removes the lines outside of blocks that a line in a block replaces. */
-static void replace(char *text, struct heading *list, size_t count)
+static void remove_replaced(struct gm_read_lines *lines, struct heading *list, size_t count)
 {
-    qsort(list, count, sizeof *list, compare);
+    size_t kept = 0;
+    if (count > 0) {
+        qsort(list, count, sizeof *list, compare);
+    }
     for (size_t i = 0, first = 0; i < count; i++) {
         first = compare_headings(&list[first], &list[i]) == 0 ? first : i;
-        list[i].goes = list[first].inside && !list[i].inside;
-    }
-    for (size_t i = 0; i < count; i++) { /* all were compared while the text was whole */
-        if (list[i].goes) {
-            remove_line(text, &list[i].line);
+        if (list[first].inside && !list[i].inside) {
+            lines->list[list[i].line].word = lines->words->count;
         }
     }
+    for (size_t i = 0; i < lines->count; i++) {
+        if (lines->list[i].word < lines->words->count) {
+            lines->list[kept++] = lines->list[i];
+        }
+    }
+    lines->count = kept;
 }
 
-bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
-                      enum gm_line_identity (*identity)(const char *text, struct gm_span word),
-                      struct gm_fault *fault)
+/* Reads the lines and their headings, for which there is room. */
+static bool read_lines(struct gm_read_lines *lines, struct heading *headings, struct gm_fault *fault)
 {
-    struct blocks blocks = {.choices = choices, .text = text};
+    const struct gm_line_word *words = lines->words->list;
+    const char *text = lines->text;
+    const bool chosen = lines->choices && lines->choices->count > 0;
+    struct blocks blocks = {.choices = lines->choices, .text = text};
     struct gm_text_line line;
-    size_t count = 0, most = 1;
-    for (size_t i = 0; i < length && choices->count > 0; i++) {
-        most += text[i] == '\n' || text[i] == '=';
-    }
-    struct heading *list = malloc((most + 1) * sizeof *list);
-    bool good = list != NULL;
-    for (size_t at = 0; good && gm_lines_next(text, length, &at, &line, fault);) {
-        good = pass(&blocks, &line, fault);
-        const enum gm_line_identity kind = identity(text, line.word);
-        if (gm_span_among(text, line.word, own_words) <= WHEN || (blocks.open && !blocks.holds)) {
-            remove_line(text, &line);
-        } else if (choices->count > 0 && kind != GM_LINE_ADDED) {
-            const struct heading heading = {.text = text, .line = line, .inside = blocks.open};
-            count = add_line(list, count, heading, kind == GM_LINE_NAMED);
+    size_t count = 0, word;
+    bool given[GM_MOST_LINE_WORDS] = {false};
+    for (size_t at = lines->span.begin; gm_lines_next(text, lines->span.end, &at, &line, fault);) {
+        const bool own = lines->choices && gm_span_among(text, line.word, own_words) <= WHEN;
+        if (!pass(&blocks, &line, own, fault) ||
+            !(own || gm_line_find(lines->words, text, &line, &word, fault))) {
+            return false;
         }
+        if (!own && blocks.open && !(words[word].kinds & lines->inside)) {
+            return gm_fail(fault, line.word.begin,
+                           "this line cannot depend on a choice: write it outside of blocks");
+        }
+        if (own || (blocks.open && !blocks.holds)) {
+            continue;
+        }
+        if (chosen && words[word].identity != GM_LINE_ADDED) {
+            const struct heading heading = {text, {0, 0}, word, lines->count, blocks.open};
+            count = add_headings(headings, count, heading, line.value, words[word].identity == GM_LINE_NAMED);
+        }
+        lines->list[lines->count++] = (struct gm_read_line){word, line.word.begin, line.value};
     }
-    good = good && end_block(&blocks, fault);
-    if (good) {
-        replace(text, list, count);
+    if (fault->sentence[0] || !end_block(&blocks, fault)) {
+        return false;
     }
-    free(list);
+    remove_replaced(lines, headings, count);
+    for (size_t i = 0; i < lines->count; i++) {
+        word = lines->list[i].word;
+        if (given[word] && words[word].identity == GM_LINE_ONCE) {
+            return gm_fail(fault, lines->list[i].place, "%s: is given twice", words[word].word);
+        }
+        given[word] = true;
+    }
+    return true;
+}
+
+bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
+{
+    size_t most = 1;
+    for (size_t i = lines->span.begin; i < lines->span.end; i++) {
+        most += lines->text[i] == ':' || lines->text[i] == '=';
+    }
+    const bool chosen = lines->choices && lines->choices->count > 0;
+    struct heading *headings = malloc((chosen ? most : 1) * sizeof *headings);
+    lines->list = malloc(most * sizeof *lines->list);
+    *fault = (struct gm_fault){0};
+    const bool good = lines->list && headings && read_lines(lines, headings, fault);
+    free(headings);
+    if (!good) {
+        free(lines->list);
+        lines->list = NULL;
+        lines->count = 0;
+    }
     return good;
 }

@@ -33,14 +33,26 @@ const struct gm_written_choice *gm_choice_named(const struct gm_written_choices 
 /* Chooses a word. Returns false if there is no such choice or it lacks the word. */
 bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word);
 
-/* The identity of lines with one word: one such line, lines that differ by names, or lines that are all
-   added. */
-enum gm_line_identity { GM_LINE_ONCE, GM_LINE_NAMED, GM_LINE_ADDED };
+/* A line of a file: its word, by its number, the place of that, and its value. */
+struct gm_read_line {
+    size_t word, place;
+    struct gm_span value;
+};
 
-/* Makes comments of the lines choice: and when: and of all lines that do not hold; the others keep their
-   offsets. Returns false with a fault. */
-bool gm_choices_apply(const struct gm_written_choices *choices, char *text, size_t length,
-                      enum gm_line_identity (*identity)(const char *text, struct gm_span word),
-                      struct gm_fault *fault);
+/* The lines of text[begin .. end) that hold. */
+struct gm_read_lines {
+    const struct gm_line_words *words;
+    const struct gm_written_choices *choices; /* NULL: such files have none */
+    unsigned inside;                          /* kinds of which lines in blocks must have one */
+    const char *text;
+    struct gm_span span;
+    struct gm_read_line *list; /* malloc'ed; NULL with a fault */
+    size_t count;
+};
+enum { GM_MOST_LINE_WORDS = 128 };
+/* Reads the lines, but choice: and when:, and those that do not hold. False with a fault, whose sentence is
+   empty when out of memory: a line whose word is none of these, a second one of a word with one line, a line
+   without a value. */
+bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault);
 
 #endif

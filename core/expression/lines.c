@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/expression/nearest.h"
+
 static bool is_blank(char character)
 {
     return character == ' ' || character == '\t' || character == '\n' || character == '\r';
@@ -68,12 +70,14 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
     *at += *at == 0 && gm_text_has_mark(text, length) ? GM_TEXT_MARK : 0;
     while (*at < length) {
         const size_t begin = *at;
-        size_t end = begin;
-        /* a line, and the following lines that begin with a blank */
+        size_t end = begin, next = begin;
+        /* a line, and those behind it that begin with a blank, with empty lines and comments between them */
         do {
-            const char *newline = memchr(text + end, '\n', length - end);
-            end = newline ? (size_t)(newline - text) + 1 : length;
-        } while (end < length && (text[end] == ' ' || text[end] == '\t'));
+            const bool more = next == begin || text[next] == ' ' || text[next] == '\t';
+            const char *newline = memchr(text + next, '\n', length - next);
+            next = newline ? (size_t)(newline - text) + 1 : length;
+            end = more ? next : end;
+        } while (next < length && strchr(" \t\r\n#", text[next]));
         const struct gm_span span = gm_span_trimmed(text, (struct gm_span){begin, end});
         *at = end;
         if (span.begin == span.end) {
@@ -85,6 +89,41 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
         return split(text, (struct gm_span){span.begin, end}, line, fault);
     }
     return false;
+}
+
+size_t gm_line_word(const struct gm_line_words *words, const char *text, struct gm_span word)
+{
+    size_t i = 0;
+    while (i < words->count && !gm_span_is(text, word, words->list[i].word)) {
+        i++;
+    }
+    return i;
+}
+
+static const char *word_at(size_t i, const void *words)
+{
+    return ((const struct gm_line_words *)words)->list[i].word;
+}
+
+bool gm_line_find(const struct gm_line_words *words, const char *text, const struct gm_text_line *line,
+                  size_t *word, struct gm_fault *fault)
+{
+    const size_t letters = line->word.end - line->word.begin;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), text + line->word.begin);
+    *word = gm_line_word(words, text, line->word);
+    if (*word == words->count) {
+        const char *near = gm_nearest(name, words->count, word_at, words);
+        return gm_fail(fault, line->word.begin, "%s has no line \"%s\"%s%s", words->kind, name,
+                       near ? "; did you mean " : words->help, near ? near : "");
+    }
+    return line->value.begin < line->value.end ||
+           gm_fail(fault, line->word.end + 1, "%s: has no value", name);
+}
+
+bool gm_span_is(const char *text, struct gm_span span, const char *word)
+{
+    return span.end - span.begin == strlen(word) && memcmp(text + span.begin, word, strlen(word)) == 0;
 }
 
 size_t gm_span_until(const char *text, struct gm_span span, const char *separator)
@@ -118,9 +157,8 @@ bool gm_span_take(const char *text, struct gm_span *rest, const char *separator,
 
 size_t gm_span_among(const char *text, struct gm_span span, const char *const *words)
 {
-    const size_t length = span.end - span.begin;
     size_t k = 0;
-    while (words[k] && (strlen(words[k]) != length || memcmp(words[k], text + span.begin, length) != 0)) {
+    while (words[k] && !gm_span_is(text, span, words[k])) {
         k++;
     }
     return k;

@@ -15,8 +15,7 @@ char *gm_file_line(const char *text, size_t length, const char *word)
     struct gm_fault fault;
     size_t at = 0;
     while (gm_lines_next(text, length, &at, &line, &fault)) {
-        if (line.word.end - line.word.begin == strlen(word) &&
-            memcmp(text + line.word.begin, word, strlen(word)) == 0) {
+        if (gm_span_is(text, line.word, word)) {
             return gm_span_words(text, line.value);
         }
     }

@@ -2,7 +2,6 @@
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
 #include "core/basics.h"
-#include "core/expression/nearest.h"
 #include "core/model/scope.h"
 
 #include <float.h>
@@ -24,23 +23,42 @@ static const char *const keys[GM_ROOM_KEYS] = {
 /* The lines that hold pairs key = formula: the keys they may have, those that they must, and those of which
    they need one; and of what they are the only one of their name. */
 static const struct {
-    const char *word;
     unsigned may, must, some;
     enum { SIDE, THING, START, EXACT } names; /* the last two have none */
-} words[] = {
-    [GM_ROOM_INLET] = {"inlet", ENTERING | CARRIED, 0, ENTERING, SIDE},
-    [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0, 0, SIDE},
-    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT | 1u << GM_ROOM_SLIP, 0,
-                      0, SIDE},
-    [GM_ROOM_BOUNDARY] = {"boundary", MOTION | CARRIED, 1u << GM_ROOM_STREAM_FUNCTION, 0, SIDE},
-    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | PLACE, 1u << GM_ROOM_RATE, 0, THING},
-    [GM_ROOM_PROBE] = {"probe", PLACE, PLACE, 0, THING},
-    [GM_ROOM_START] = {"start", CARRIED | 1u << GM_ROOM_VORTICITY, 0, CARRIED | 1u << GM_ROOM_VORTICITY,
-                       START},
-    [GM_ROOM_EXACT] = {"exact", MOTION | 1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TOTAL_PRESSURE, 0,
+} pairs[] = {
+    [GM_ROOM_INLET] = {ENTERING | CARRIED, 0, ENTERING, SIDE},
+    [GM_ROOM_OUTLET] = {1u << GM_ROOM_FLOW, 0, 0, SIDE},
+    [GM_ROOM_WALL] = {CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT | 1u << GM_ROOM_SLIP, 0, 0,
+                      SIDE},
+    [GM_ROOM_BOUNDARY] = {MOTION | CARRIED, 1u << GM_ROOM_STREAM_FUNCTION, 0, SIDE},
+    [GM_ROOM_SOURCE] = {1u << GM_ROOM_RATE | PLACE, 1u << GM_ROOM_RATE, 0, THING},
+    [GM_ROOM_PROBE] = {PLACE, PLACE, 0, THING},
+    [GM_ROOM_START] = {CARRIED | 1u << GM_ROOM_VORTICITY, 0, CARRIED | 1u << GM_ROOM_VORTICITY, START},
+    [GM_ROOM_EXACT] = {MOTION | 1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TOTAL_PRESSURE, 0,
                        1u << GM_ROOM_STREAM_FUNCTION, EXACT},
 };
-enum { WORDS = GM_COUNT(words) };
+enum { PAIRS = GM_COUNT(pairs), PARAMETER = PAIRS };
+
+/* All lines; those with pairs first, in the order of enum gm_room_word. FREE: also in a block of a choice. */
+enum { FREE = 1, ONCE = GM_LINE_ONCE, NAMED = GM_LINE_NAMED, OFTEN = GM_LINE_ADDED };
+static const char reference[] = "reference-temperature";
+static const struct gm_line_word words[] = {
+    {"inlet", OFTEN, FREE},      {"outlet", OFTEN, FREE}, {"wall", OFTEN, FREE},
+    {"boundary", OFTEN, FREE},   {"source", OFTEN, FREE}, {"probe", OFTEN, FREE},
+    {"start", ONCE, FREE},       {"exact", ONCE, FREE},   {"parameter", OFTEN, 0},
+    {"geomint", ONCE, 0},        {"title", ONCE, 0},      {"about", ONCE, 0},
+    {"watch", ONCE, 0},          {"reference", ONCE, 0},  {"units", ONCE, 0},
+    {"scalar", ONCE, 0},         {"time", ONCE, FREE},    {"subtitle", ONCE, FREE},
+    {"caption", ONCE, FREE},     {"mesh", ONCE, FREE},    {"viscosity", ONCE, 0},
+    {"diffusivity", ONCE, 0},    {"reynolds", ONCE, 0},   {"schmidt", ONCE, 0},
+    {"buoyancy", ONCE, 0},       {reference, ONCE, 0},    {"dt", ONCE, 0},
+    {"until", ONCE, 0},          {"colours", ONCE, FREE}, {"levels", ONCE, FREE},
+    {"exact-while", ONCE, FREE}, {"schemes", ONCE, 0},    {"lanes", ONCE, 0},
+    {"work", ONCE, 0},           {"stability", ONCE, 0},  {"graph", OFTEN, FREE},
+    {"table", OFTEN, 0},         {"figure", OFTEN, 0},    {"side", NAMED, FREE},
+    {"observe", NAMED, 0},       {"profile", NAMED, 0}};
+static const struct gm_line_words line_words = {
+    "a room", words, GM_COUNT(words), "; geomint list office --source prints a room with its lines"};
 
 /* The variables of formulas. */
 enum { PART, X, Y, TIME, VARIABLES };
@@ -224,28 +242,24 @@ bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm
 
 static bool is_word(const struct gm_room *room, struct gm_span span, const char *word)
 {
-    return span.end - span.begin == strlen(word) &&
-           memcmp(room->text + span.begin, word, span.end - span.begin) == 0;
+    return gm_span_is(room->text, span, word);
 }
 
-static bool find_line(const struct gm_room *room, const char *word, size_t number, struct gm_text_line *line)
+static const struct gm_read_line *find_line(const struct gm_room *room, const char *word, size_t number)
 {
-    struct gm_fault fault;
-    size_t at = 0;
-    while (gm_lines_next(room->text, room->length, &at, line, &fault)) {
-        if (is_word(room, line->word, word) && number-- == 0) {
-            return true;
+    for (size_t i = 0; i < room->said_count; i++) {
+        if (strcmp(words[room->said[i].word].word, word) == 0 && number-- == 0) {
+            return &room->said[i];
         }
     }
-    return false;
+    return NULL;
 }
 
 bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value)
 {
-    struct gm_text_line line;
-    const bool said = find_line(room, word, number, &line);
-    *value = said ? line.value : (struct gm_span){0, 0};
-    return said;
+    const struct gm_read_line *line = find_line(room, word, number);
+    *value = line ? line->value : (struct gm_span){0, 0};
+    return line;
 }
 
 /* Takes the first word of a span off its front. */
@@ -329,10 +343,10 @@ static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
                (strncmp(room->text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
             key--;
         }
-        if (length == 0 || key < 0 || !(words[word].may >> key & 1)) {
+        if (length == 0 || key < 0 || !(pairs[word].may >> key & 1)) {
             gm_room_refuse(room, rest.begin, "%s: takes %s%s", words[word].word,
-                           list_keys(words[word].may, ", ", list, sizeof list),
-                           given || words[word].names >= START ? ""
+                           list_keys(pairs[word].may, ", ", list, sizeof list),
+                           given || pairs[word].names >= START ? ""
                                                                : "; a name with blanks is in double quotes");
         }
         size_t equals = rest.begin + length;
@@ -351,7 +365,7 @@ static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
         given |= 1u << key;
         rest.begin = end;
     }
-    const unsigned missing = words[word].must & ~given;
+    const unsigned missing = pairs[word].must & ~given;
     if (missing) {
         gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
                        list_keys(missing & -missing, "", list, sizeof list));
@@ -362,20 +376,20 @@ static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
     if (given & PLACE && (given & PLACE) != PLACE) {
         gm_room_refuse(room, line->place, "%s: has x = and y =, or neither", words[word].word);
     }
-    if (words[word].some && !(given & words[word].some)) {
+    if (pairs[word].some && !(given & pairs[word].some)) {
         gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
-                       list_keys(words[word].some, " or ", list, sizeof list));
+                       list_keys(pairs[word].some, " or ", list, sizeof list));
     }
 }
 
-static void read_line(struct gm_room *room, enum gm_room_word word, struct gm_text_line text_line)
+static void read_line(struct gm_room *room, const struct gm_read_line *said)
 {
-    struct gm_span value = text_line.value;
+    const enum gm_room_word word = (enum gm_room_word)said->word;
+    struct gm_span value = said->value;
     room->lines = gm_arena_resize(room->arena, room->lines, room->count + 1, sizeof *room->lines);
     struct gm_room_line *line = &room->lines[room->count];
-    *line = (struct gm_room_line){.word = word,
-                                  .place = value.begin < value.end ? value.begin : text_line.word.begin};
-    if (words[word].names < START) {
+    *line = (struct gm_room_line){.word = word, .place = value.begin};
+    if (pairs[word].names < START) {
         const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
         struct gm_span name = {value.begin + quoted, value.begin + quoted};
         while (name.end < value.end &&
@@ -393,11 +407,11 @@ static void read_line(struct gm_room *room, enum gm_room_word word, struct gm_te
         value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
     }
     for (size_t i = 0; i < room->count; i++) {
-        if (words[room->lines[i].word].names == words[word].names &&
+        if (pairs[room->lines[i].word].names == pairs[word].names &&
             strcmp(room->lines[i].name, line->name) == 0) {
             gm_room_refuse(room, line->place, "%.63s%s",
-                           words[word].names >= START ? words[word].word : line->name,
-                           words[word].names >= START ? ": is given twice" : " is named twice");
+                           pairs[word].names >= START ? words[word].word : line->name,
+                           pairs[word].names >= START ? ": is given twice" : " is named twice");
         }
     }
     room->count++;
@@ -484,7 +498,7 @@ static void check_free(const struct gm_room *room, const char *name, size_t plac
         reserved |= strcmp(name, measures[i]) == 0;
     }
     if (reserved) {
-        gm_room_refuse(room, place, "the name %.60s is reserved", name);
+        gm_room_refuse(room, place, "the name %.60s" GM_RESERVED, name);
     }
 }
 
@@ -510,7 +524,6 @@ static void read_parameter(struct gm_room *room, struct gm_span rest, const stru
     parameter->name = gm_room_keep(room, (struct gm_span){head.begin, equals});
     parameter->text = gm_room_keep(room, value);
     parameter->meaning = gm_room_keep(room, rest);
-    gm_number_parse(parameter->text, &parameter->value);
     const size_t letters = strlen(parameter->name);
     if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
         gm_choice_named(&room->choices, parameter->name) ||
@@ -519,32 +532,11 @@ static void read_parameter(struct gm_room *room, struct gm_span rest, const stru
     }
     for (size_t i = 0; i < input->count; i++) {
         if (strcmp(input->given[i].name, parameter->name) == 0) {
-            parameter->text = input->given[i].text ? gm_arena_print(room->arena, "%s", input->given[i].text)
-                                                   : parameter->text;
-            parameter->value = input->given[i].text ? NAN : input->given[i].value;
+            parameter->text = gm_arena_print(room->arena, "%s", input->given[i].text);
         }
     }
+    gm_number_parse(parameter->text, &parameter->value);
     check_free(room, parameter->name, head.begin);
-}
-
-static const char reference[] = "reference-temperature";
-
-/* The lines that hold no pairs: those before `parameter` may come once, those from `side` on once with each
-   name. */
-enum { OFTEN = 26, NAMED = 30 };
-static const char *const others[] = {
-    "geomint",     "title",    "about",   "watch",   "reference", "units",       "scalar",
-    "time",        "subtitle", "caption", "mesh",    "viscosity", "diffusivity", "reynolds",
-    "schmidt",     "buoyancy", reference, "dt",      "until",     "colours",     "levels",
-    "exact-while", "schemes",  "lanes",   "work",    "stability", "parameter",   "graph",
-    "table",       "figure",   "side",    "observe", "profile",   NULL};
-enum { OTHERS = GM_COUNT(others) - 1 };
-
-/* The word of line type i. */
-static const char *line_word(size_t i, const void *data)
-{
-    (void)data;
-    return i < WORDS ? words[i].word : others[i - WORDS];
 }
 
 /* Returns true if the values of two lines begin with the same name. */
@@ -554,24 +546,20 @@ static bool share_name(const char *one, const char *other)
     return letters == strcspn(other, "; \t\r\n") && memcmp(one, other, letters) == 0;
 }
 
-/* Refuses a line without a value, and a repeated one. */
-static void check_line(const struct gm_room *room, struct gm_text_line line, size_t other)
+/* Refuses a line that is named like one before it with the same word. */
+static void check_name(const struct gm_room *room, size_t i)
 {
-    struct gm_span earlier;
-    for (size_t i = 0; gm_room_said(room, others[other], i, &earlier) && earlier.begin < line.value.begin;
-         i++) {
-        if (other < OFTEN ||
-            (other >= NAMED && share_name(room->text + earlier.begin, room->text + line.value.begin))) {
-            gm_room_refuse(room, line.word.begin, "%s: is given twice", others[other]);
+    const struct gm_read_line *line = &room->said[i];
+    for (size_t k = 0; k < i && words[line->word].identity == GM_LINE_NAMED; k++) {
+        if (room->said[k].word == line->word &&
+            share_name(room->text + room->said[k].value.begin, room->text + line->value.begin)) {
+            gm_room_refuse(room, line->place, "%s: is given twice", words[line->word].word);
         }
-    }
-    if (line.value.begin == line.value.end) {
-        gm_room_refuse(room, line.word.begin, "%s: has no value", others[other]);
     }
 }
 
 /* Reads a line with a single value; other lines are read by the room's scene. */
-static void read_single(struct gm_room *room, struct gm_text_line line)
+static void read_single(struct gm_room *room, const struct gm_read_line *line)
 {
     const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
                                reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
@@ -596,8 +584,8 @@ static void read_single(struct gm_room *room, struct gm_text_line line)
         {"until", NULL, &room->until, gm_room_until},
     };
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        struct gm_span value = line.value, rest = line.value, piece;
-        if (!is_word(room, line.word, rows[i].word)) {
+        struct gm_span value = line->value, rest = line->value, piece;
+        if (strcmp(words[line->word].word, rows[i].word) != 0) {
             continue;
         }
         if (rows[i].text) {
@@ -627,8 +615,8 @@ static void read_single(struct gm_room *room, struct gm_text_line line)
 /* The start of the first line with this word; 0: none. */
 static size_t place_of(const struct gm_room *room, const char *word)
 {
-    struct gm_text_line line;
-    return find_line(room, word, 0, &line) ? line.word.begin : 0;
+    const struct gm_read_line *line = find_line(room, word, 0);
+    return line ? line->place : 0;
 }
 
 /* Completes values, and refuses missing ones and those that are given twice. */
@@ -662,7 +650,7 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, input->given[k].name); i++) {
             if (strcmp(input->given[k].name, numbers[i].name) == 0) {
                 room->reynolds = i == 0 ? NAN : room->reynolds;
-                *numbers[i].number = input->given[k].value;
+                gm_number_parse(input->given[k].text, numbers[i].number);
             }
         }
     }
@@ -706,66 +694,25 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
 }
 
-/* A line in a block of a choice replaces one outside if only one is allowed. */
-static enum gm_line_identity identity(const char *text, struct gm_span word)
-{
-    const char *const single[] = {words[GM_ROOM_START].word, words[GM_ROOM_EXACT].word, NULL};
-    return single[gm_span_among(text, word, single)] || gm_span_among(text, word, others) < OFTEN
-               ? GM_LINE_ONCE
-               : GM_LINE_ADDED;
-}
-
-/* Makes comments of lines that hold for other words of a choice. */
-static void choose_lines(struct gm_room *room, const struct gm_room_input *input)
+/* Reads the lines that hold for the given words of choices. */
+static void read_lines(struct gm_room *room, const struct gm_room_input *input)
 {
     struct gm_written_choices *choices = &room->choices;
-    static const char *const chosen[] = {"time",   "subtitle",    "caption", "mesh", "colours",
-                                         "levels", "exact-while", "graph",   "side", NULL};
-    struct gm_text_line line;
-    bool inside = false;
+    struct gm_read_lines lines = {.words = &line_words,
+                                  .choices = choices,
+                                  .inside = FREE,
+                                  .text = room->text,
+                                  .span = {0, room->length}};
     gm_room_need(room, gm_choices_read(choices, room->text, room->length, room->fault));
-    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, room->fault);) {
-        const bool fixed = gm_span_among(room->text, line.word, others) < OTHERS &&
-                           !chosen[gm_span_among(room->text, line.word, chosen)];
-        inside = is_word(room, line.word, "when") ? !is_word(room, line.value, "always") : inside;
-        if (inside && fixed) {
-            gm_room_refuse(room, line.word.begin,
-                           "this line cannot depend on a choice: write it outside of blocks");
-        }
-    }
     for (size_t i = 0; i < choices->count; i++) {
         check_free(room, choices->list[i].name, choices->list[i].place);
     }
     for (size_t i = 0; i < input->count; i++) {
-        if (input->given[i].text) {
-            gm_choices_take(choices, input->given[i].name, input->given[i].text);
-        }
+        gm_choices_take(choices, input->given[i].name, input->given[i].text);
     }
-    gm_room_need(room, gm_choices_apply(choices, room->text, room->length, identity, room->fault));
-}
-
-/* A line that declares no parameter. */
-static void read_any(struct gm_room *room, struct gm_text_line line)
-{
-    const size_t other = gm_span_among(room->text, line.word, others);
-    if (other < OTHERS) {
-        check_line(room, line, other);
-        read_single(room, line);
-        return;
-    }
-    for (int i = 0; i < WORDS; i++) {
-        if (is_word(room, line.word, words[i].word)) {
-            read_line(room, (enum gm_room_word)i, line);
-            return;
-        }
-    }
-    char name[41];
-    const size_t letters = line.word.end - line.word.begin;
-    snprintf(name, sizeof name, "%.*s", (int)(letters < 40 ? letters : 40), room->text + line.word.begin);
-    const char *near = gm_nearest(name, WORDS + OTHERS, line_word, NULL);
-    gm_room_refuse(room, line.word.begin, "a room has no line %s:; %s%s%s", name,
-                   near ? "did you mean " : "geomint list office --source prints a room with its lines",
-                   near ? near : "", near ? ":" : "");
+    gm_room_need(room, gm_lines_read(&lines, room->fault));
+    room->said = gm_arena_keep(room->arena, lines.list, free);
+    room->said_count = lines.count;
 }
 
 static void close_graph(void *graph)
@@ -791,7 +738,6 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
                              .dt_range = gm_room_dt,
                              .outlet = GM_VERTEX_SOFT,
                              .measures = {NAN, NAN, NAN, NAN}};
-    struct gm_text_line line;
     struct gm_span value;
     double holds = 1;
     *fault = (struct gm_fault){0};
@@ -799,16 +745,19 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
     gm_arena_keep(arena, &room->graph, close_graph);
     memcpy(room->text, input->text, room->length);
     gm_room_need(room, gm_lines_are_text(room->text, room->length, fault));
-    choose_lines(room, input);
-    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, fault);) {
-        if (is_word(room, line.word, "parameter")) {
-            read_parameter(room, line.value, input);
+    read_lines(room, input);
+    for (size_t i = 0; gm_room_said(room, words[PARAMETER].word, i, &value); i++) {
+        read_parameter(room, value, input);
+    }
+    for (size_t i = 0; i < room->said_count; i++) {
+        check_name(room, i);
+        if (room->said[i].word < PAIRS) {
+            read_line(room, &room->said[i]);
+        } else {
+            read_single(room, &room->said[i]);
         }
     }
-    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, fault);) {
-        read_any(room, line);
-    }
-    gm_room_need(room, !fault->sentence[0] && !room->graph.failed);
+    gm_room_need(room, !room->graph.failed);
     if (gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
         gm_room_refuse(room, value.begin, "this program reads files of format 1, not %.*s",
                        (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
@@ -1045,13 +994,9 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
 /* The conditions of the line `side:` of that name; false if it is missing. */
 static bool find_side(const struct gm_room *room, const char *side, struct gm_span *conditions)
 {
-    struct gm_text_line line;
-    struct gm_fault fault;
     struct gm_span name;
-    for (size_t at = 0; gm_lines_next(room->text, room->length, &at, &line, &fault);) {
-        *conditions = line.value;
-        if (is_word(room, line.word, "side") && gm_span_take(room->text, conditions, ";", &name) &&
-            is_word(room, name, side)) {
+    for (size_t i = 0; gm_room_said(room, "side", i, conditions); i++) {
+        if (gm_span_take(room->text, conditions, ";", &name) && is_word(room, name, side)) {
             return true;
         }
     }

@@ -67,12 +67,6 @@ struct gm_room_parameter {
     size_t place;                /* position in the text */
 };
 
-/* The value that a caller gives to a parameter or a choice: a number, or words in `text`. */
-struct gm_room_given {
-    const char *name, *text;
-    double value;
-};
-
 /* The measures of a room's flow, which are names in formulas that are evaluated after it is made. */
 enum gm_room_measure {
     GM_ROOM_PERIMETER,
@@ -85,8 +79,10 @@ enum gm_room_measure {
 struct gm_room {
     struct gm_arena *arena; /* all that is read */
     struct gm_fault *fault; /* of the text, while it is read */
-    char *text;             /* text of the file; lines for other words of a choice are comments */
+    char *text;             /* text of the file */
     size_t length;
+    struct gm_read_line *said; /* its lines that hold */
+    size_t said_count;
     struct gm_formula graph;
     double *scratch; /* a number for each node of the graph */
     struct gm_room_line *lines;
@@ -114,10 +110,11 @@ struct gm_room {
 };
 
 /* A text, which is copied, and the values that a caller gives. */
+struct gm_system_value;
 struct gm_room_input {
     const char *text;
     size_t length;
-    const struct gm_room_given *given;
+    const struct gm_system_value *given; /* of parameters and choices */
     size_t count;
 };
 

@@ -62,7 +62,7 @@ static bool add_numbers(struct gm_reading *reading, struct gm_system_option *opt
 /* True for the word that stands for the default list. */
 static bool is_usual(const struct gm_reading *reading, struct gm_span value)
 {
-    return value.end - value.begin == 5 && memcmp(reading->text + value.begin, "usual", 5) == 0;
+    return gm_span_is(reading->text, value, "usual");
 }
 
 /* low .. high */

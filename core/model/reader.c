@@ -259,7 +259,7 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     }
     const size_t length = strlen(item->name);
     if (gm_reading_reserves(item->name, length)) {
-        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s is reserved", item->name);
+        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s" GM_RESERVED, item->name);
     }
     const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
     if (named && named->place != target.name.begin) {
@@ -303,7 +303,7 @@ static bool read_level(struct gm_reading *reading, const struct gm_system_line *
     if (!item) {
         return false;
     }
-    item->in_section = piece.end - piece.begin == 7 && memcmp(reading->text + piece.begin, "section", 7) == 0;
+    item->in_section = gm_span_is(reading->text, piece, "section");
     if (item->in_section) {
         gm_span_take(reading->text, &rest, ";", &piece);
     }
@@ -398,7 +398,7 @@ static bool read_section(struct gm_reading *reading, const struct gm_system_line
         return gm_fail_first(&reading->fault, piece.begin, "a section shows two values: ; x, p_x");
     }
     rest = gm_span_trimmed(reading->text, rest);
-    item->alone = rest.end - rest.begin == 5 && memcmp(reading->text + rest.begin, "alone", 5) == 0;
+    item->alone = gm_span_is(reading->text, rest, "alone");
     if (rest.begin < rest.end && !item->alone) {
         return gm_fail_first(&reading->fault, rest.begin,
                              "\"alone\" was expected: the section is the usual picture");
@@ -616,7 +616,7 @@ static bool read_compiled(struct gm_reading *reading, const struct gm_system_lin
         gm_reading_entry(reading, text + name.begin, name.end - name.begin, false, 0);
     double number;
     long low, high;
-    if (equals == piece.end && name.end - name.begin == 3 && memcmp(text + name.begin, "yes", 3) == 0) {
+    if (equals == piece.end && gm_span_is(text, name, "yes")) {
         return true;
     }
     if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
@@ -706,8 +706,8 @@ static bool read_tie(struct gm_reading *reading, const struct gm_system_line *li
     const size_t length = gm_name_length(text + product.begin, product.end - product.begin),
                  times = product.begin + length;
     const struct gm_entry *entry = gm_reading_entry(reading, text + product.begin, length, false, 0);
-    if (step.end - step.begin != 2 || memcmp(text + step.begin, "dt", 2) != 0 || times >= product.end ||
-        text[times] != '*' || !entry || entry->role != GM_ENTRY_PARAMETER) {
+    if (!gm_span_is(text, step, "dt") || times >= product.end || text[times] != '*' || !entry ||
+        entry->role != GM_ENTRY_PARAMETER) {
         return gm_fail_first(&reading->fault, line->value.begin,
                              "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
     }
@@ -982,6 +982,7 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
     if (system->source) {
         memcpy(system->source, text, length);
         system->length = length;
+        reading.text = system->source; /* it ends with a zero */
     }
     const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
     gm_reading_close(&reading);

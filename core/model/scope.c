@@ -25,18 +25,20 @@ enum {
     ANY = MOTION | LINE
 };
 
-const struct gm_system_word_row gm_system_words[GM_WORDS] = {
+const struct gm_line_word gm_system_words[GM_WORDS] = {
 #define GM_WORD(constant, word, identity, kinds, reader) {word, (enum gm_line_identity)identity, kinds},
 #include "core/model/words.def"
 #undef GM_WORD
 };
+
+static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS,
+                                           "; docs/systems.md names them"};
 
 void gm_reading_close(struct gm_reading *reading)
 {
     for (size_t i = 0; i < reading->entry_count; i++) {
         free(reading->entries[i].name);
     }
-    free(reading->chosen);
     free(reading->entries);
     free(reading->table);
 }
@@ -53,12 +55,6 @@ bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, 
     return true;
 }
 
-static const char *word_at(size_t i, const void *data)
-{
-    (void)data;
-    return gm_system_words[i].word;
-}
-
 bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
     if (!reading->fault.failed) {
@@ -68,77 +64,31 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
     return false;
 }
 
-static enum gm_system_word word_of(const char *text, struct gm_span span)
-{
-    enum gm_system_word word = 0;
-    while (word < GM_WORDS &&
-           (strlen(gm_system_words[word].word) != span.end - span.begin ||
-            memcmp(gm_system_words[word].word, text + span.begin, span.end - span.begin) != 0)) {
-        word++;
-    }
-    return word;
-}
-
-static enum gm_line_identity identity_of(const char *text, struct gm_span span)
-{
-    const enum gm_system_word word = word_of(text, span);
-    return word < GM_WORDS ? gm_system_words[word].identity : GM_LINE_ADDED;
-}
-
-/* Replaces the text by the lines of the chosen words. */
-static bool choose_lines(struct gm_reading *reading)
+bool gm_reading_lines(struct gm_reading *reading)
 {
     struct gm_written_choices *choices = &reading->system->choices;
+    struct gm_read_lines lines = {.words = &words,
+                                  .choices = choices,
+                                  .inside = ~0u,
+                                  .text = reading->text,
+                                  .span = {0, reading->length}};
     struct gm_fault fault = {0};
-    reading->chosen = strndup(reading->text, reading->length);
-    bool good = reading->chosen && gm_choices_read(choices, reading->text, reading->length, &fault);
+    bool good = gm_choices_read(choices, reading->text, reading->length, &fault);
     for (size_t i = 0; good && i < reading->value_count; i++) {
         gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
     }
-    good = good && gm_choices_apply(choices, reading->chosen, reading->length, identity_of, &fault);
-    reading->text = reading->chosen ? reading->chosen : reading->text;
-    return good || (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                                      : gm_fail_memory(&reading->fault));
-}
-
-static bool read_line(struct gm_reading *reading, const struct gm_text_line *text_line)
-{
-    const size_t place = text_line->word.begin, letters = text_line->word.end - place;
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), reading->text + place);
-    const enum gm_system_word word = word_of(reading->text, text_line->word);
-    if (word == GM_WORDS) {
-        const char *near = gm_nearest(name, GM_WORDS, word_at, NULL);
-        return gm_fail_first(&reading->fault, place, "a system has no line \"%s\"%s%s", name,
-                             near ? "; did you mean " : "", near ? near : "");
+    good = good && gm_lines_read(&lines, &fault);
+    reading->lines =
+        good ? gm_arena_take(reading->system->arena, lines.count + 1, sizeof *reading->lines) : NULL;
+    for (size_t i = 0; reading->lines && i < lines.count; i++) {
+        const struct gm_read_line *line = &lines.list[i];
+        reading->lines[reading->line_count++] =
+            (struct gm_system_line){(enum gm_system_word)line->word, line->place, line->value};
     }
-    for (size_t i = 0; i < reading->line_count && gm_system_words[word].identity == GM_LINE_ONCE; i++) {
-        if (reading->lines[i].word == word) {
-            return gm_fail_first(&reading->fault, place, "%s is given twice", name);
-        }
-    }
-    if (!gm_reading_reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
-        return false;
-    }
-    const struct gm_span value = text_line->value;
-    reading->lines[reading->line_count++] = (struct gm_system_line){word, place, value};
-    return value.begin < value.end ||
-           gm_fail_first(&reading->fault, place + letters + 1, "%s: has no value", name);
-}
-
-bool gm_reading_lines(struct gm_reading *reading)
-{
-    struct gm_text_line line;
-    struct gm_fault fault;
-    if (!choose_lines(reading)) {
-        return false;
-    }
-    for (size_t at = 0; gm_lines_next(reading->text, reading->length, &at, &line, &fault);) {
-        if (!read_line(reading, &line)) {
-            return false;
-        }
-    }
-    return !fault.sentence[0] || gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    free(lines.list);
+    return reading->lines ||
+           (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                              : gm_fail_memory(&reading->fault));
 }
 
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
@@ -234,11 +184,11 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     if (is_place(reading, &entry)) {
         return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
     }
-    const bool is_word =
-        entry.role == GM_ENTRY_CHOICE && word_of(entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
+    const bool is_word = entry.role == GM_ENTRY_CHOICE &&
+                         gm_line_word(&words, entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
     if (is_word || is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
-        return gm_fail_first(&reading->fault, entry.place, "the name %.*s is reserved", brief, entry.name);
+        return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);
     }
     if (reading->entry_count == reading->entry_capacity) {
         const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;

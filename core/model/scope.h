@@ -8,12 +8,7 @@
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name
    that needs another one first waits for it. A function that returns false has set reading->fault. */
 
-struct gm_system_word_row {
-    const char *word;
-    enum gm_line_identity identity;
-    unsigned kinds; /* 1 << enum gm_system_kind, for each kind that may have it */
-};
-extern const struct gm_system_word_row gm_system_words[GM_WORDS];
+extern const struct gm_line_word gm_system_words[GM_WORDS]; /* kinds: enum gm_system_kind */
 
 struct gm_system_line {
     enum gm_system_word word;
@@ -49,7 +44,6 @@ struct gm_reading {
     struct gm_user_system *system;
     const char *text;
     size_t length;
-    char *chosen; /* own copy of the text, in which lines of other choices are comments */
     struct gm_system_line *lines;
     size_t line_count;
     struct gm_entry *entries;
@@ -86,6 +80,7 @@ bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struc
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
 
 /* True if a name is a key of command lines, a column of tables or a function. */
+#define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
 bool gm_reading_reserves(const char *name, size_t length);
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,

@@ -28,7 +28,7 @@ enum gm_system_word {
     GM_WORDS
 };
 
-enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
+enum { GM_LARGEST_SYSTEM = 100 << 20, GM_MOST_COMPONENTS = 100000 };
 
 /* The last parameters of every field: half_length, points. */
 enum { GM_RING_PARAMETERS = 2 };

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/expression/choices.h"
 #include "core/expression/nearest.h"
 
 enum {
@@ -22,12 +23,21 @@ enum {
     ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT
 };
 
-static const struct {
-    const char *word;
-    enum { TEXT, NAMED, ROW, MATRIX, SCHEME } holds;
-    unsigned kinds;
-} words[GM_SCHEME_WORDS] = {
-#define GM_SCHEME_WORD(constant, word, holds, kinds) {word, holds, kinds},
+static const struct gm_line_word words[GM_SCHEME_WORDS] = {
+#define GM_SCHEME_WORD(constant, word, holds, kinds) {word, GM_LINE_ADDED, kinds},
+#include "core/theory/scheme_words.def"
+#undef GM_SCHEME_WORD
+};
+static const struct gm_line_words lines_of_schemes = {"a scheme", words, GM_SCHEME_WORDS,
+                                                      "; docs/own-schemes.md names them"};
+static const enum {
+    TEXT,
+    NAMED,
+    ROW,
+    MATRIX,
+    SCHEME
+} holds[GM_SCHEME_WORDS] = {
+#define GM_SCHEME_WORD(constant, word, holds, kinds) holds,
 #include "core/theory/scheme_words.def"
 #undef GM_SCHEME_WORD
 };
@@ -90,16 +100,11 @@ const char *gm_written_kind_name(enum gm_written_kind kind)
     return kinds[kind].name;
 }
 
-static bool is_called(const char *text, size_t length, const char *name)
-{
-    return strlen(name) == length && memcmp(text, name, length) == 0;
-}
-
 /* Returns GM_WRITTEN_KINDS if no kind has that name. */
 static enum gm_written_kind kind_of(const char *text, size_t length)
 {
     enum gm_written_kind kind = 0;
-    while (kind < GM_WRITTEN_KINDS && !is_called(text, length, kinds[kind].name)) {
+    while (kind < GM_WRITTEN_KINDS && !gm_span_is(text, (struct gm_span){0, length}, kinds[kind].name)) {
         kind++;
     }
     return kind;
@@ -120,11 +125,6 @@ bool gm_written_is_word(const char *text, size_t length)
     return end < length && text[end] == '(' && kind_of(text, end) < GM_WRITTEN_KINDS;
 }
 
-static const char *word_name(size_t i, const void *data)
-{
-    return (void)data, words[i].word;
-}
-
 static const char *kind_name(size_t i, const void *data)
 {
     return (void)data, kinds[i].name;
@@ -133,15 +133,12 @@ static const char *kind_name(size_t i, const void *data)
 static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t place, struct gm_span value)
 {
     struct gm_written_scheme *scheme = reading->scheme;
-    const char *comment = words[word].holds == TEXT || words[word].holds == SCHEME
+    const char *comment = holds[word] == TEXT || holds[word] == SCHEME
                               ? memchr(reading->text + value.begin, '#', value.end - value.begin)
                               : NULL;
     if (comment) {
         value =
             gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
-    }
-    if (value.begin == value.end) {
-        return gm_fail_first(&reading->fault, place, "%s: has no value", words[word].word);
     }
     if (word == GM_SCHEME_WORD_LET) {
         if (scheme->let_count == GM_MOST_LETS) {
@@ -151,28 +148,10 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
         return true;
     }
     if (scheme->lines[word].said) {
-        return gm_fail_first(&reading->fault, place, "%s is given twice", words[word].word);
+        return gm_fail_first(&reading->fault, place, "%s: is given twice", words[word].word);
     }
     scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
     return true;
-}
-
-static bool take_named(struct reading *reading, const struct gm_text_line *line)
-{
-    const char *name = reading->text + line->word.begin;
-    const size_t length = line->word.end - line->word.begin;
-    enum gm_scheme_word word = 0;
-    while (word < GM_SCHEME_WORDS && !is_called(name, length, words[word].word)) {
-        word++;
-    }
-    if (word < GM_SCHEME_WORDS) {
-        return take_line(reading, word, line->word.begin, line->value);
-    }
-    char copy[41];
-    snprintf(copy, sizeof copy, "%.*s", brief(line->word), name);
-    const char *near = gm_nearest(copy, GM_SCHEME_WORDS, word_name, NULL);
-    return gm_fail_first(&reading->fault, line->word.begin, "a scheme has no line \"%s\"%s%s", copy,
-                         near ? "; did you mean " : "", near ? near : "");
 }
 
 static bool find_kind(struct reading *reading, struct gm_span name)
@@ -194,15 +173,18 @@ static bool find_kind(struct reading *reading, struct gm_span name)
 
 static bool read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_text_line line;
     struct gm_fault fault;
-    for (size_t at = span.begin; gm_lines_next(reading->text, span.end, &at, &line, &fault);) {
-        if (!take_named(reading, &line)) {
-            return false;
-        }
+    struct gm_read_lines lines = {.words = &lines_of_schemes, .text = reading->text, .span = span};
+    if (!gm_lines_read(&lines, &fault)) {
+        return fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
+                                 : gm_fail_memory(&reading->fault);
     }
-    if (fault.sentence[0]) {
-        return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    for (size_t i = 0; i < lines.count && !reading->fault.failed; i++) {
+        take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
+    }
+    free(lines.list);
+    if (reading->fault.failed) {
+        return false;
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
     return kind->said ? find_kind(reading, kind->value)
@@ -234,6 +216,7 @@ static bool read_word(struct reading *reading, struct gm_span span)
         return gm_fail_first(&reading->fault, close + 1, "the scheme ends before this");
     }
     struct gm_span rest = {open + 1, close}, segment;
+    struct gm_fault fault;
     int positional = 0;
     find_kind(reading, (struct gm_span){span.begin, open});
     while (!reading->fault.failed && gm_span_take(text, &rest, ";", &segment)) {
@@ -242,7 +225,12 @@ static bool read_word(struct reading *reading, struct gm_span span)
         if (name > 0 && colon < segment.end && text[colon] == ':') {
             const struct gm_text_line line = {
                 {segment.begin, colon}, gm_span_trimmed(text, (struct gm_span){colon + 1, segment.end})};
-            take_named(reading, &line);
+            size_t word;
+            if (gm_line_find(&lines_of_schemes, text, &line, &word, &fault)) {
+                take_line(reading, (enum gm_scheme_word)word, segment.begin, line.value);
+            } else {
+                gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+            }
         } else if (positional < kinds[reading->scheme->kind].count) {
             take_line(reading, kinds[reading->scheme->kind].positional[positional++], segment.begin, segment);
         } else {
@@ -465,7 +453,7 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
     struct gm_written_line *line = &reading->scheme->lines[word];
     const bool stages = words[word].kinds & TABLEAUS;
     const int most = stages ? GM_MOST_STAGES : GM_MOST_SUBSTEPS;
-    const size_t capacity = (size_t)most * (words[word].holds == MATRIX ? (size_t)most : 1);
+    const size_t capacity = (size_t)most * (holds[word] == MATRIX ? (size_t)most : 1);
     line->numbers = calloc(capacity, sizeof *line->numbers);
     reading->nodes[word] = calloc(capacity, sizeof *reading->nodes[word]);
     if (!line->numbers || !reading->nodes[word]) {
@@ -475,8 +463,8 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
     for (int count = 0; take_piece(reading, &rows, "|", &row); line->rows++) {
         const size_t begin = row.begin;
         int columns = 0;
-        if (line->rows == (words[word].holds == MATRIX ? most : 1)) {
-            return words[word].holds == MATRIX
+        if (line->rows == (holds[word] == MATRIX ? most : 1)) {
+            return holds[word] == MATRIX
                        ? gm_fail_first(&reading->fault, begin, "a scheme has at most %d stages", most)
                        : gm_fail_first(&reading->fault, begin, "%s is one row", words[word].word);
         }
@@ -630,7 +618,7 @@ static bool check_tableau(struct reading *reading)
     const int stages = a->rows;
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         const struct gm_written_line *line = &scheme->lines[word];
-        if (words[word].holds == MATRIX && line->said && line->rows != line->columns) {
+        if (holds[word] == MATRIX && line->said && line->rows != line->columns) {
             return gm_fail_first(&reading->fault, line->value.begin,
                                  "%s has %d rows of %d entries: it is not square", words[word].word,
                                  line->rows, line->columns);
@@ -667,7 +655,7 @@ static bool check_steps(struct reading *reading)
 
 static bool is_text(const struct reading *reading, const struct gm_written_line *line, const char *word)
 {
-    return is_called(reading->text + line->value.begin, line->value.end - line->value.begin, word);
+    return gm_span_is(reading->text, line->value, word);
 }
 
 static bool check_pieces(struct reading *reading)
@@ -749,7 +737,7 @@ static bool read(struct reading *reading, struct gm_span span)
         return false;
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        const bool numbers = words[word].holds == ROW || words[word].holds == MATRIX;
+        const bool numbers = holds[word] == ROW || holds[word] == MATRIX;
         reading->sums = word == GM_SCHEME_WORD_C && scheme->kind != GM_WRITTEN_NYSTROM;
         if (numbers && scheme->lines[word].said && !read_numbers(reading, word)) {
             return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
@@ -823,7 +811,7 @@ char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
         free(value);
     }
     for (enum gm_scheme_word word = GM_SCHEME_WORD_ORDER; word < GM_SCHEME_WORDS; word++) {
-        if (scheme->lines[word].said && words[word].holds == SCHEME) {
+        if (scheme->lines[word].said && holds[word] == SCHEME) {
             put(stream, words[word].word, schemes[word]);
         } else if (scheme->lines[word].said) {
             char *value = gm_span_words(scheme->text, scheme->lines[word].value);

@@ -12,6 +12,7 @@
 #include "core/basics.h"
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
+#include "core/model/system.h"
 #include "scenes/flow/observables.h"
 #include "scenes/flow/room_lines.h"
 
@@ -180,16 +181,13 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
                                 const char *outlet, struct gm_fault *fault)
 {
     const struct gm_scene *scene = &user_room->scene;
-    struct gm_room_given given[GM_ROOM_ROWS];
+    struct gm_system_value given[GM_ROOM_ROWS];
+    char texts[GM_ROOM_ROWS][GM_TEXT_SIZE];
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
-        const char *place = (const char *)chosen + row->offset;
-        const double value = gm_parameter_get(row, chosen);
-        given[i] = (struct gm_room_given){.name = row->key, .value = value};
-        given[i].text = place == chosen->outlet  ? outlet
-                        : row->type == GM_TEXT   ? place
-                        : row->type == GM_CHOICE ? row->choices[(int)value]
-                                                 : NULL;
+        const bool is_outlet = (const char *)chosen + row->offset == chosen->outlet;
+        given[i].name = row->key;
+        given[i].text = is_outlet ? outlet : gm_parameter_format(row, chosen, texts[i], sizeof texts[i]);
     }
     const struct gm_room_file *file = &user_room->file;
     return gm_room_open(&(struct gm_room_input){file->text, file->length, given, scene->parameter_count},

@@ -262,7 +262,7 @@ wrong() {
         printf '%b\n' "$2"; } | sed "${3:-}" >wrong.room
     refused 1 "$1" run ./wrong.room steps=1
 }
-wrong 'wrong.room:5:1: a room has no line inlt:; did you mean inlet:' 'inlt: vent flow = 1'
+wrong 'wrong.room:5:1: a room has no line "inlt"; did you mean inlet' 'inlt: vent flow = 1'
 wrong 'wrong.room:5:8: inlet: needs speed = or flow =' 'inlet: vent'
 wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' 'inlet: vent tangential = 1'
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
@@ -293,7 +293,7 @@ wrong 'wrong.room:5:20: a flow is that of a whole side' 'inlet: vent flow = x'
 wrong 'wrong.room:5:14: .* a place is two numbers' 'probe: q x = y y = 1'
 wrong 'too much for a number' 'inlet: vent flow = 1e308\ninlet: 4 flow = 1e308'
 wrong 'the temperature is not finite at' 'start: temperature = 1/(x-x)\nbuoyancy: 1'
-wrong 'wrong.room:5:1: start: needs scalar = or temperature =' 'start:'
+wrong 'wrong.room:5:7: start: has no value' 'start:'
 wrong 'start: takes scalar =, temperature =' 'start: rate = 1'
 wrong 'wrong.room:5:1: viscosity: and reynolds: say the same' 'reynolds: 100'
 wrong 'wrong.room:6:1: diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
@@ -373,7 +373,7 @@ wrong 'wrong.room:5:7: a unit of time is a positive number' 'time: 0; s'
 wrong 'wrong.room:5:21: slip is 1, or 0 where the wall holds the air' 'wall: pillar slip = 2'
 wrong 'wrong.room:5:20: the vorticity is not finite at (0, 0)' 'start: vorticity = 1/(x - x)'
 wrong 'wrong.room:5:7: side: is of a rectangle' 'side: in; x = 0'
-wrong 'wrong.room:5:1: a room has no line zzzzzzz:; geomint list office --source prints a room' 'zzzzzzz: 1'
+wrong 'wrong.room:5:1: a room has no line "zzzzzzz"; geomint list office --source prints a room' 'zzzzzzz: 1'
 wrong 'wrong.room:7:1: this line cannot depend on a choice' 'choice: a = b of b, c\nwhen: a = c\nuntil: 3'
 refused 1 '^geomint: curves of the group door have a line already: door$' \
     run room "mesh=$meshes/hole.msh" inlet=door outlet=door steps=1

@@ -225,8 +225,19 @@ printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
 refused 1 "^geomint: bracket= replaces a line of a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
 # a formula that is none is told before values are asked for, and one without its scene finds it
-refused 1 'in H=, column 1: the formula ends where a number' run system H=
+refused 1 'in H=, column 1: H: has no value' run system H=
 refused 1 'in H=, column 8: the formula ends where a number' run system H='p^2/2 +'
+refused 1 'in x=, column 1: a formula was expected' run system rate='x = y' x= y=2
+# what is missing is told after a fault of a formula; lines below a typed one keep their numbers
+refused 1 'in k=, column 3: the formula ends' run system H='p^2/2 + k*q + m' k=3+
+printf 'coordinates: q\nmomenta: p\nH: p^2/2\n  + q^2\nparameter: k = 1 +\nstart: q = 1, p = 0\n' >below.system
+refused 1 'below.system:5:19: the formula ends' run ./below.system H='p^2/2'
+refused 1 'in H=, column 1: H: has no value' run ./below.system H=
+# a line goes on behind empty lines and comments; a reserved name says why
+printf 'coordinates: q\nmomenta: p\nH: p^2/2\n\n# half\n  + q^2/2\nstart: q = 1, p = 0\n' >apart.system
+status 0 run ./apart.system steps=1
+printf 'coordinates: q\nmomenta: p\nparameter: trails = 1\nH: p^2/2 + trails*q^2\nstart: q = 1, p = 0\n' >trails.system
+refused 1 'trails.system:3:12: the name trails is reserved: it is a key' run ./trails.system
 refused 1 'in H=, column 9: there is no function foo' run system H='p^2/2 + foo(q)'
 refused 1 'a product is written with \*: q\*(' run system H='p^2/2 + q(1 + q)'
 refused 1 'in rate=, column 15: the formula ends' run system rate='x = y, y = -x*'
@@ -239,8 +250,8 @@ head -c 3 /dev/zero >>zero.system
 refused 1 'zero.system:1:4: a byte is 0' list zero.system
 awk 'BEGIN { printf "coordinates: q\nH: "; for (i = 0; i < 1000000; i++) printf "(" }' >deep.system
 refused 1 'nested more than' list deep.system
-truncate -s 100000001 large.system
-refused 1 'at most 100 MB' list large.system
+truncate -s 104857601 large.system
+refused 3 'it has 100 MB, more than 100' list large.system
 refused 3 'No such file' list none.system
 mkdir folder.system
 refused 3 'Is a directory' list folder.system

@@ -103,15 +103,15 @@ broken 'broken.tour, line 1: a tour begins with title:' </dev/null
 broken 'line 1: there is no step: after this' <<'END'
 title: x
 END
-broken 'line 2: it is neither' <<'END'
+broken 'line 2: a line needs a word and a colon' <<'END'
 title: x
 hello
 END
-broken 'line 2: a tour has no word "stp:"; did you mean step:' <<'END'
+broken 'line 2: a tour has no line "stp"; did you mean step' <<'END'
 title: x
 stp: y
 END
-broken 'line 1: it begins with a blank' <<'END'
+broken 'line 1: this line continues another, but it is the first' <<'END'
  and more
 END
 broken 'line 2: say: belongs after the first step:' <<'END'
@@ -241,9 +241,9 @@ say: y
 show: disc
 say: z
 END
-printf 'title: a\033[2Jb\n' | broken 'line 1: it holds a byte that is not UTF-8'
-printf 'title: \377\n' | broken 'line 1: it holds a byte that is not UTF-8'
-printf 'title: x\nstep: \000\n' | broken 'line 2: it holds a byte 0'
+printf 'title: a\033[2Jb\n' | broken 'line 1: it holds a character that cannot be shown'
+printf 'title: \377\n' | broken 'line 1: the byte 0xff is not UTF-8'
+printf 'title: x\nstep: \000\n' | broken 'line 2: a byte is 0: this is not text'
 
 [ "$failures" = 0 ] && echo "tours: all passed"
 exit $((failures > 0))

@@ -908,7 +908,7 @@ static void refusals(void **unused)
         {"kind: runge-cutta\na: 1/2\nb: 1\n", "runge-cutta", "did you mean runge-kutta"},
         {"kind: explicit\nkind: explicit\n", "kind: explicit\n", "given twice"},
         {"geomint: 2\nkind: runge-kutta\na: 1/2\nb: 1\n", "2\nkind", "later format"},
-        {"kind: runge-kutta\na:\nb: 1\n", "a:", "has no value"},
+        {"kind: runge-kutta\na:\nb: 1\n", "\nb: 1", "has no value"},
         {"kind: runge-kutta\na: 1/2\nb: \033[31m1\n", "\033", ""},
         {"kind: runge-kutta\ntitle: a; b\na: 1/2\nb: 1\n", "a; b", "no semicolon"},
         {"kind: runge-kutta\ntitle: Kutta]s\na: 1/2\nb: 1\n", "Kutta]s",

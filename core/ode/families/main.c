@@ -98,9 +98,7 @@ static void put_line(FILE *out, const struct gm_written_scheme *scheme, enum gm_
 
 static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word word, const char *text)
 {
-    const struct gm_span value = scheme->lines[word].value;
-    return scheme->lines[word].said && value.end - value.begin == strlen(text) &&
-           memcmp(scheme->text + value.begin, text, strlen(text)) == 0;
+    return scheme->lines[word].said && gm_span_is(scheme->text, scheme->lines[word].value, text);
 }
 
 enum family { IMPLICIT, SPLITTING, COMPOSITIONS, TEXTS, FAMILIES };
