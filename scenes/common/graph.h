@@ -20,6 +20,9 @@ const char *gm_step_text(struct gm_picture *picture, double dt);
 const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);
 
+/* The value of an observable at the start. */
+double gm_start_of(const struct gm_lane *lane, size_t series);
+
 /* The title of an error's graph, with the divisor of the errors in these lanes. */
 const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                            size_t series);

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pendulum, H = p^2/2 - cos q, with and without two tangent vectors. */
+/* The pendulum, H = p^2/2 - cos q. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(pendulum)
-GM_LOOPS_DECLARE(pendulum_tangent)
 GM_ENERGY_DECLARE(pendulum)
-GM_ENERGY_DECLARE(pendulum_tangent)
 
 const struct gm_problem gm_problem_pendulum = {
     .name = "pendulum",
@@ -22,22 +20,5 @@ const struct gm_problem gm_problem_pendulum = {
                 &(const struct gm_hamiltonian){.energy = gm_energy_pendulum, .formula = gm_formula_pendulum},
             .lagrangian = &(const struct gm_lagrangian){.potential = gm_potential_pendulum},
             .loops = GM_LOOPS(pendulum),
-        },
-};
-
-const struct gm_problem gm_problem_pendulum_tangent = {
-    .name = "pendulum",
-    .n = 6,
-    .m = 1,
-    .kind = &gm_kind_ode,
-    .facets =
-        &(const struct gm_ode){
-            .components = "q xi1 xi2 p eta1 eta2",
-            .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_pendulum_tangent,
-                                                          .partial = true,
-                                                          .formula = gm_formula_pendulum_tangent},
-            .motion = &gm_problem_pendulum,
-            .loops = GM_LOOPS(pendulum_tangent),
         },
 };

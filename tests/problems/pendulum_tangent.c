@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pendulum with two tangent vectors. */
+#include "core/ode/hamiltonian.h"
+#include "core/ode/kernel/loops.h"
+#include "tests/problems/problems.h"
+
+GM_LOOPS_DECLARE(pendulum_tangent)
+GM_ENERGY_DECLARE(pendulum_tangent)
+
+const struct gm_problem gm_problem_pendulum_tangent = {
+    .name = "pendulum",
+    .n = 6,
+    .m = 1,
+    .kind = &gm_kind_ode,
+    .facets =
+        &(const struct gm_ode){
+            .components = "q xi1 xi2 p eta1 eta2",
+            .split = &(const struct gm_split){.nystrom = true},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_pendulum_tangent,
+                                                          .partial = true,
+                                                          .formula = gm_formula_pendulum_tangent},
+            .loops = GM_LOOPS(pendulum_tangent),
+        },
+};
