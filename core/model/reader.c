@@ -671,76 +671,62 @@ static bool read_energy(struct gm_reading *reading, const struct gm_system_line 
            gm_reading_formula(reading, energy, &reading->system->energy);
 }
 
-/* F; low .. high; meaning */
+/* Takes the name of a key off the front of NAME = F; an empty one without it. False with a fault. */
+static bool take_key(struct gm_reading *reading, struct gm_span *value, struct gm_span *key)
+{
+    struct gm_target target;
+    *key = (struct gm_span){0, 0};
+    if (gm_span_until(reading->text, *value, "=") == value->end) {
+        return true;
+    }
+    if (!gm_reading_assignment(reading, *value, &target)) {
+        return false;
+    }
+    const char *name = reading->text + target.name.begin;
+    const size_t length = target.name.end - target.name.begin;
+    *key = target.name;
+    *value = target.value;
+    return (target.index.begin == target.index.end && !gm_reading_reserves(name, length) &&
+            !gm_reading_entry(reading, name, length, false, 0)) ||
+           gm_fail_first(&reading->fault, key->begin, "the name %.*s is taken",
+                         (int)(length < 60 ? length : 60), name);
+}
+
+/* F; low .. high; meaning; of members and spread also KEY = F */
 static bool read_timing(struct gm_reading *reading, const struct gm_system_line *line)
 {
     const char *word = gm_system_words[line->word].word;
-    struct gm_span rest = line->value, value;
+    const bool counts = line->word == GM_WORD_MEMBERS, spreads = line->word == GM_WORD_SPREAD;
+    struct gm_span rest = line->value, value, key = {0, 0};
     struct gm_written_range range;
     double number;
     gm_span_take(reading->text, &rest, ";", &value);
-    if (!gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
+    if (((counts || spreads) && !take_key(reading, &value, &key)) ||
+        !gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
         return false;
     }
     if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
         return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be %s", word, number,
                              line->word == GM_WORD_DT ? "above 0" : "0 or more");
     }
+    if ((counts && (number < 1 || number != floor(number))) || ((counts || spreads) && number > 1e6)) {
+        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be a %s to 1e6", word,
+                             number, counts ? "whole number from 1" : "number from 0");
+    }
     if (number < range.low || number > range.high) {
         return gm_fail_first(&reading->fault, value.begin, "%s is %g, and its range is from %g to %g", word,
                              number, range.low, range.high);
     }
     reading->system->texts[line->word] = gm_reading_text(reading, value);
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    struct gm_system_item *item = add_item(reading, line, key);
     if (!item || !add_formula(reading, item, value)) {
         return false;
     }
+    item->value = number;
     item->low = range.low;
     item->high = range.high;
     item->text = gm_reading_text(reading, range.meaning);
     return item->text != NULL;
-}
-
-/* [KEY =] number; low .. high; meaning */
-static bool read_members(struct gm_reading *reading, const struct gm_system_line *line)
-{
-    const char *word = gm_system_words[line->word].word;
-    const bool whole = line->word == GM_WORD_MEMBERS;
-    struct gm_span rest = line->value, value;
-    struct gm_target target = {0};
-    struct gm_written_range range;
-    double number;
-    gm_span_take(reading->text, &rest, ";", &value);
-    if (gm_span_until(reading->text, value, "=") < value.end) {
-        if (!gm_reading_assignment(reading, value, &target)) {
-            return false;
-        }
-        const char *key = reading->text + target.name.begin;
-        const size_t length = target.name.end - target.name.begin;
-        if (target.index.begin < target.index.end || gm_reading_reserves(key, length) ||
-            gm_reading_entry(reading, key, length, false, 0)) {
-            return gm_fail_first(&reading->fault, target.name.begin, "the name %.*s is taken",
-                                 (int)(length < 60 ? length : 60), key);
-        }
-        value = target.value;
-    }
-    if (!gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
-        return false;
-    }
-    const double least = fmax(isnan(range.low) ? 0 : range.low, whole ? 1 : 0),
-                 most = fmin(isnan(range.high) ? 1e6 : range.high, 1e6);
-    if (!(number >= least && number <= most) || (whole && number != floor(number))) {
-        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be a %snumber from %g to %g",
-                             word, number, whole ? "whole " : "", least, most);
-    }
-    struct gm_system_item *item = add_item(reading, line, target.name);
-    if (item) {
-        item->low = least;
-        item->high = most;
-        item->text = gm_reading_text(reading, range.meaning);
-        reading->system->texts[line->word] = gm_reading_text(reading, value);
-    }
-    return !reading->fault.failed;
 }
 
 /* dt = KEY*F: either of the step and a parameter follows from the other; F has no such parameter. */

@@ -88,7 +88,7 @@ struct gm_system_item {
     gm_node_id *nodes;
     size_t count;
     double low, high;       /* range of dt, until, members, spread; their meaning is the text; NaN: none */
-    double value;           /* compile: value of the parameter */
+    double value;           /* of the parameter that compile: names; of dt, until, members, spread */
     size_t variable;        /* compile: number of the parameter */
     bool periodic;          /* a section at equal times: nodes[0] is the period */
     bool in_section;        /* a level in the section */

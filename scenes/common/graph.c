@@ -235,15 +235,6 @@ struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk 
     return panel;
 }
 
-bool gm_walk_has_left(const struct gm_walk *walk, bool (*has_left)(const struct gm_lane *lane))
-{
-    bool left = true;
-    for (size_t i = 0; i < walk->count; i++) {
-        left = left && (walk->lanes[i]->shown.panel != walk->panel || has_left(walk->lanes[i]));
-    }
-    return left;
-}
-
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
 {
     bool one = true;

@@ -472,11 +472,15 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
         if (item) {
             row->key = item->name[0] ? item->name : row->key;
             row->help = item->text[0] ? item->text : row->help;
-            row->standard = system_scene->system.texts[word];
-            row->lowest = item->low;
-            row->highest = item->high;
-            row->logarithmic = item->low > 0;
+            row->standard =
+                gm_kept_number(&system_scene->texts, item->value, system_scene->system.texts[word]);
+            row->lowest = fmax(item->low, row->lowest);
+            row->highest = fmin(item->high, row->highest);
+            row->logarithmic = row->lowest > 0;
             system_scene->centre += word == GM_WORD_MEMBERS && item->name[0];
+            if (!row->standard) {
+                return false;
+            }
         }
     }
     return true;

@@ -61,7 +61,7 @@ struct gm_compiled_kernel {
 };
 #define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)
 #define GM_COMPILED_NAME_(problem) gm_compiled_##problem
-/* Returns the program's loops of a kernel with this text, for so many members; NULL: not compiled in. */
+/* Returns the program's loops of a kernel with this text, for a number of members; NULL: not compiled in. */
 const struct gm_loops *gm_compiled_loops(const char *text, size_t members);
 /* Returns true if the program has loops of a system with this number of components. */
 bool gm_compiled_has(size_t components);

@@ -10,7 +10,7 @@ enum {
     DRAWN = 1024,    /* most points of a curved edge */
     TURN = 12,       /* earlier shapes: older ones have faded */
     MOST_TURNS = 16, /* most turns of an angle in one outline */
-    MOST_DOTS = 64   /* so many members are drawn as dots on their curved edge */
+    MOST_DOTS = 64   /* most members that are drawn as dots on their curved edge */
 };
 
 bool gm_system_is_disc(const struct gm_lane *lane, const struct gm_sight *sight)

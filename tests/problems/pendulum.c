@@ -2,7 +2,7 @@
 /* The pendulum, H = p^2/2 - cos q. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(pendulum)
 GM_ENERGY_DECLARE(pendulum)
