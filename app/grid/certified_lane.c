@@ -11,39 +11,32 @@
 #include "core/field/field.h"
 #include "core/memory.h"
 #include "core/mesh/moving_mesh.h"
-#include "core/ode/ode.h"
+#include "core/ode/user/problem.h"
 #include "core/schemes.h"
-
-enum { MOST_WITH_TANGENTS = 8 }; /* components */
 
 struct kept {
     const struct gm_lane *lane;
     const struct gm_problem *problem; /* the problem of one member */
     const struct gm_observable *row;
     /* the part of `problem` without tangents that is certified; NULL: all */
-    const struct gm_problem *motion;
+    const struct gm_user_motion *motion;
 };
-
-/* The place among the components with tangents of one of the motion alone. */
-static size_t place_of(const struct gm_problem *motion, size_t n, size_t component)
-{
-    const size_t half = motion->n / 2;
-    return component < half ? component : n / 2 + component - half;
-}
 
 static double value_of_kept(const void *data, const double *y, const double *memory)
 {
     const struct kept *kept = data;
-    double whole[MOST_WITH_TANGENTS] = {0};
+    double *whole = kept->motion ? calloc(kept->problem->n, sizeof *whole) : NULL;
     struct gm_view view = gm_lane_view(kept->lane);
     view.problem = kept->problem;
-    for (size_t c = 0; kept->motion && c < kept->motion->n; c++) {
-        whole[place_of(kept->motion, kept->problem->n, c)] = y[c];
+    for (size_t c = 0; whole && c < kept->motion->problem.n; c++) {
+        whole[gm_system_component(kept->motion->whole, c, 0)] = y[c];
     }
     view.start = view.state = kept->motion ? whole : y;
     view.memory = memory;
     view.observable = kept->row;
-    return kept->row->evaluate(&view);
+    const double value = view.state ? kept->row->evaluate(&view) : NAN; /* refused memory is noted */
+    free(whole);
+    return value;
 }
 
 /* The error against the exact solution of the lane's scene. */
@@ -130,16 +123,16 @@ static struct gm_certificate certify(struct gm_arena *arena, const struct gm_lan
     struct gm_problem problem = lane->problem;
     const unsigned long refusals = gm_memory_refusals();
     problem.m = 1;
-    const struct gm_problem *const motion = problem.kind == &gm_kind_ode ? gm_ode_of(&problem)->motion : NULL;
-    struct gm_problem alone = motion ? *motion : problem;
-    alone.parameters = problem.parameters;
+    const bool written = problem.kind == &gm_kind_ode && gm_ode_of(&problem)->written;
+    const struct gm_user_motion *motion = written ? gm_user_problem_motion(arena, &problem) : NULL;
+    const struct gm_problem alone = motion ? motion->problem : problem;
     double *start = gm_arena_take(arena, problem.n, sizeof *start);
     struct kept *data = gm_arena_take(arena, scene->observable_count, sizeof *data);
     struct gm_kept *kept = gm_arena_take(arena, scene->observable_count, sizeof *kept);
     struct grid grids[1 + FINER] = {
         {.lane = lane, .system = {.problem = &alone, .start = start, .dt = lane->run->dt, .kept = kept}}};
     for (size_t c = 0; c < alone.n; c++) {
-        start[c] = lane->start[(motion ? place_of(motion, problem.n, c) : c) * lane->problem.m];
+        start[c] = lane->start[(motion ? gm_system_component(motion->whole, c, 0) : c) * lane->problem.m];
     }
     for (size_t i = 0; i < scene->observable_count; i++) {
         const struct gm_observable *row = &scene->observables[i];

@@ -74,9 +74,9 @@ static size_t put_values(FILE *stream, const char *text, struct gm_span pairs, c
 char *gm_system_now(const struct gm_scene *scene, const void *parameters)
 {
     /* before lanes: of one number, which a key sets; after them: of values */
-    enum { DT, LANES = 5, PARAMETER, START };
+    enum { DT, MEMBERS = 2, LANES = 5, PARAMETER, START, SPREAD };
     static const char *const lines[] = {"dt",    "until",     "members", "half_length", "points",
-                                        "lanes", "parameter", "start",   NULL};
+                                        "lanes", "parameter", "start",   "spread",      NULL};
     const struct gm_parameter *rows[LANES];
     bool put[LANES];
     char *text = NULL, number[GM_TEXT_SIZE];
@@ -102,14 +102,22 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
         if (i == LANES) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
+        } else if (i == PARAMETER || i == START ||
+                   ((i == MEMBERS || i == SPREAD) &&
+                    memchr(scene->text + value.begin, '=', value.end - value.begin))) {
+            fwrite(scene->text + from, 1, value.begin - from, stream);
+            from = put_values(stream, scene->text, value, scene, parameters);
+            const size_t length = gm_name_length(scene->text + value.begin, value.end - value.begin);
+            const struct gm_span key = {value.begin, value.begin + length};
+            const size_t called = gm_span_among(scene->text, key, lines);
+            if (called < LANES) {
+                put[called] = false; /* a key of the system, called as the line of a field */
+            }
         } else if (i < LANES && put[i]) { /* the range stays */
             fwrite(scene->text + from, 1, value.begin - from, stream);
             fputs(gm_parameter_format(rows[i], parameters, number, sizeof number), stream);
             from = value.end;
             put[i] = false;
-        } else if (i == PARAMETER || i == START) {
-            fwrite(scene->text + from, 1, value.begin - from, stream);
-            from = put_values(stream, scene->text, value, scene, parameters);
         }
     }
     if (stream) {

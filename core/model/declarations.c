@@ -344,8 +344,37 @@ static bool add_components_in_order(struct gm_reading *reading, enum gm_system_w
     return !reading->fault.failed;
 }
 
+/* Adds the tangents of all components: xi1_q, xi2_q. */
+static bool add_tangents(struct gm_reading *reading)
+{
+    const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_TANGENTS);
+    const size_t n = reading->component_count;
+    long count = 0;
+    if (!line || reading->without_tangents) {
+        return true;
+    }
+    if (!gm_reading_whole(reading, line->value, &count)) {
+        return false;
+    }
+    if (count < 1 || count > GM_MOST_TANGENTS || (size_t)count > n) {
+        return gm_fail_first(&reading->fault, line->value.begin,
+                             "tangents is %ld: there are 1 to %zu tangents of %zu component%s", count,
+                             n < GM_MOST_TANGENTS ? n : GM_MOST_TANGENTS, n, gm_plural((double)n));
+    }
+    if (gm_reading_line(reading, GM_WORD_CONSTRAINT)) {
+        return gm_fail_first(&reading->fault, line->place, "a system with constraints has no tangents");
+    }
+    for (long k = 1; k <= count && !reading->fault.failed; k++) {
+        char before[32];
+        snprintf(before, sizeof before, "xi%ld_", k);
+        add_derived(reading, before, "", GM_ENTRY_COMPONENT, &reading->component_count, n);
+    }
+    reading->system->tangents = (size_t)count;
+    return !reading->fault.failed;
+}
+
 /* Reorders variables: parameters, components, velocities become components, t, parameters, velocities,
-   components at the start, components of the exact solution. */
+   components at the start, components of the exact solution. Tangents move behind what they belong to. */
 static bool arrange(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -365,8 +394,16 @@ static bool arrange(struct gm_reading *reading)
         memcpy(all + n + 1, met, p * sizeof *all);
         memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
     }
-    system->variables = all;
     system->n = n;
+    for (size_t i = 0; i < reading->entry_count && system->tangents > 0; i++) {
+        struct gm_entry *entry = &reading->entries[i];
+        if (entry->role == GM_ENTRY_COMPONENT) {
+            const size_t from = entry->number, motion = gm_system_motion(system);
+            entry->number = gm_system_component(system, from % motion, from / motion);
+            all[entry->number] = met[p + from];
+        }
+    }
+    system->variables = all;
     system->parameters = n + 1;
     system->velocities = n + 1 + p;
     system->initial = system->velocities + v;
@@ -493,7 +530,8 @@ bool gm_declared_state(struct gm_reading *reading)
     }
     char t[] = "t";
     const struct gm_entry time = {.name = t, .length = 1, .role = GM_ENTRY_TIME};
-    return !reading->fault.failed && arrange(reading) && gm_reading_add(reading, time);
+    return !reading->fault.failed && add_tangents(reading) && arrange(reading) &&
+           gm_reading_add(reading, time);
 }
 
 bool gm_declared_relations(struct gm_reading *reading)

@@ -65,6 +65,32 @@ static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *g
     free(marked);
 }
 
+static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
+{
+    return gm_derivative_along(&system->graph, node, direction, system->n + 1);
+}
+
+/* The rates of tangents: the derivatives of the motion's rates along them. */
+static void derive_tangents(struct gm_user_system *system)
+{
+    const size_t n = gm_system_motion(system);
+    gm_node_id *direction = gm_system_no_nodes(system, system->n + 1);
+    system->graph.failed |= !direction;
+    for (size_t i = 0; direction && i <= system->n; i++) {
+        direction[i] = gm_formula_constant(&system->graph, 0);
+    }
+    for (size_t k = 1; k <= system->tangents && !system->graph.failed; k++) {
+        for (size_t c = 0; c < n; c++) {
+            direction[gm_system_component(system, c, 0)] =
+                gm_formula_variable(&system->graph, gm_system_component(system, c, k));
+        }
+        for (size_t c = 0; c < n && !system->graph.failed; c++) {
+            system->rates[gm_system_component(system, c, k)] =
+                along(system, system->rates[gm_system_component(system, c, 0)], direction);
+        }
+    }
+}
+
 static bool derive(struct gm_user_system *system)
 {
     const size_t half = system->n / 2;
@@ -87,6 +113,7 @@ static bool derive(struct gm_user_system *system)
         system->rates[1] = gm_negative(&system->graph, gradient[0]);
     }
     free(gradient);
+    derive_tangents(system);
     bool *marked = calloc(system->variable_count, sizeof *marked);
     bool *timed = NULL;
     if (marked && !system->graph.failed) {
@@ -101,11 +128,6 @@ static bool derive(struct gm_user_system *system)
     const bool good = timed && !system->graph.failed;
     free(timed);
     return good;
-}
-
-static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
-{
-    return gm_derivative_along(&system->graph, node, direction, system->n + 1);
 }
 
 /* True for a velocity of a Lagrangian. */
@@ -1166,10 +1188,32 @@ static bool check_matrices(struct gm_user_system *system, struct gm_fault *fault
            check_line(system, 1, fault);
 }
 
+static bool is_tangent(struct gm_formula *graph, gm_node_id part, const void *system)
+{
+    const struct gm_node *node = &graph->nodes[part];
+    return node->operation == GM_VARIABLE && gm_system_is_tangent(system, node->a);
+}
+
+/* The motion does not depend on its tangents. */
+static bool check_tangents(struct gm_user_system *system, struct gm_fault *fault)
+{
+    const size_t n = gm_system_motion(system);
+    for (size_t c = 0; c <= n && system->tangents > 0; c++) {
+        const bool energy = c == n && system->kind == GM_CANONICAL;
+        const gm_node_id node =
+                             energy ? system->energy : system->rates[gm_system_component(system, c % n, 0)],
+                         part = gm_formula_first(&system->graph, node, is_tangent, system);
+        if (part != GM_NO_NODE) {
+            return gm_fail(fault, system->graph.places[part], "the motion does not depend on its tangents");
+        }
+    }
+    return true;
+}
+
 bool gm_equations_derive(struct gm_user_system *system, struct gm_fault *fault)
 {
     *fault = (struct gm_fault){0};
-    if (!derive(system)) {
+    if (!derive(system) || !check_tangents(system, fault)) {
         return false;
     }
     if (gm_system_is_field(system)) {

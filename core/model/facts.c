@@ -485,7 +485,8 @@ static void find_mechanical(struct gm_user_system *system, struct gm_finding *fi
 {
     struct gm_finding common = findings[GM_FACT_SEPARABLE];
     const size_t n = system->n;
-    const bool canonical = system->kind == GM_CANONICAL;
+    const bool canonical =
+        system->kind == GM_CANONICAL && system->tangents == 0; /* else more moves than H says */
     const bool holds = is_of_unit_mass(system, findings, &common, all, own);
     const gm_node_id potential = holds ? potential_of(system) : GM_NO_NODE;
     static const enum gm_fact facts[] = {GM_FACT_FAST_LINEAR, GM_FACT_KEPLER_SPLIT, GM_FACT_LAGRANGIAN};

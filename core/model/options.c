@@ -15,7 +15,7 @@
 
 static const struct row {
     const char *word;
-    enum { NOTHING, TEXT, NUMBER, NUMBERS, RANGE, FORMULA, NAMED_FORMULA } follows;
+    enum { NOTHING, TEXT, WORD, NUMBER, NUMBERS, RANGE, FORMULA, NAMED_FORMULA } follows;
     uint64_t lines;
 } rows[GM_OPTIONS] = {
 #define GM_OPTION(constant, word, follows, lines) {word, follows, lines},
@@ -93,6 +93,19 @@ static bool add_formula(struct gm_reading *reading, struct gm_system_option *opt
                               &option->node);
 }
 
+/* A word for show= that it does not have already. */
+static bool add_word(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
+{
+    static const char *const taken[] = {"all", "section", "modified", NULL};
+    const size_t length = value.end - value.begin;
+    option->text = gm_reading_text(reading, value);
+    return option->text &&
+           ((gm_name_length(reading->text + value.begin, length) == length &&
+             gm_span_among(reading->text, value, taken) == 3) ||
+            gm_fail_first(&reading->fault, value.begin, "%.60s is not a new word for show=, as in show plane",
+                          option->text));
+}
+
 static bool read_value(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
 {
     switch (rows[option->word].follows) {
@@ -100,6 +113,8 @@ static bool read_value(struct gm_reading *reading, struct gm_system_option *opti
         return true;
     case TEXT:
         return (option->text = gm_reading_text(reading, value)) != NULL;
+    case WORD:
+        return add_word(reading, option, value);
     case NUMBER: /* a field's scale may depend on parameters, and have a name */
         return option->word == GM_OPTION_SCALE && gm_system_is_field(reading->system)
                    ? add_formula(reading, option, value, gm_span_until(reading->text, value, "=") < value.end)
@@ -128,9 +143,10 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
     const bool some = value.begin < value.end;
     size_t row = find_row(lines, text, letters);
     const bool is_range = row == GM_OPTIONS && gm_span_until(reading->text, piece, "..") < piece.end;
-    if ((row == GM_OPTION_WHILE || row == GM_OPTION_ON) &&
+    if ((row == GM_OPTION_WHILE || row == GM_OPTION_ON || row == GM_OPTION_SHOW) &&
         (row == GM_OPTION_ON) != gm_system_is_field(reading->system)) {
-        row = GM_OPTIONS; /* an integral applies always, and no other quantity has a grid */
+        row =
+            GM_OPTIONS; /* an integral applies always, no other quantity has a grid, fields show their own words */
     }
     row = is_range ? find_row(lines, "range", 5) : row;
     if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY with its values */

@@ -75,6 +75,11 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
     }
     struct gm_system_variable *variable =
         &system->variables[(is_velocity ? system->velocities : 0) + entry->number];
+    if (gm_system_is_tangent(system, entry->number) && !is_velocity) {
+        return gm_fail_first(&reading->fault, target->name.begin,
+                             "%s is of a tangent, whose start and rate follow from the system",
+                             variable->name);
+    }
     gm_node_id *place = word == GM_WORD_START   ? &variable->start
                         : word == GM_WORD_FORCE ? &variable->force
                         : word == GM_WORD_EXACT ? &variable->exact
@@ -666,30 +671,58 @@ static bool read_energy(struct gm_reading *reading, const struct gm_system_line 
            gm_reading_formula(reading, energy, &reading->system->energy);
 }
 
-/* F; low .. high; meaning */
+/* Takes the name of a key off the front of NAME = F; an empty one without it. False with a fault. */
+static bool take_key(struct gm_reading *reading, struct gm_span *value, struct gm_span *key)
+{
+    struct gm_target target;
+    *key = (struct gm_span){0, 0};
+    if (gm_span_until(reading->text, *value, "=") == value->end) {
+        return true;
+    }
+    if (!gm_reading_assignment(reading, *value, &target)) {
+        return false;
+    }
+    const char *name = reading->text + target.name.begin;
+    const size_t length = target.name.end - target.name.begin;
+    *key = target.name;
+    *value = target.value;
+    return (target.index.begin == target.index.end && !gm_reading_reserves(name, length) &&
+            !gm_reading_entry(reading, name, length, false, 0)) ||
+           gm_fail_first(&reading->fault, key->begin, "the name %.*s is taken",
+                         (int)(length < 60 ? length : 60), name);
+}
+
+/* F; low .. high; meaning; of members and spread also KEY = F */
 static bool read_timing(struct gm_reading *reading, const struct gm_system_line *line)
 {
     const char *word = gm_system_words[line->word].word;
-    struct gm_span rest = line->value, value;
+    const bool counts = line->word == GM_WORD_MEMBERS, spreads = line->word == GM_WORD_SPREAD;
+    struct gm_span rest = line->value, value, key = {0, 0};
     struct gm_written_range range;
     double number;
     gm_span_take(reading->text, &rest, ";", &value);
-    if (!gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
+    if (((counts || spreads) && !take_key(reading, &value, &key)) ||
+        !gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
         return false;
     }
     if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
         return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be %s", word, number,
                              line->word == GM_WORD_DT ? "above 0" : "0 or more");
     }
+    if ((counts && (number < 1 || number != floor(number))) || ((counts || spreads) && number > 1e6)) {
+        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be a %s to 1e6", word,
+                             number, counts ? "whole number from 1" : "number from 0");
+    }
     if (number < range.low || number > range.high) {
         return gm_fail_first(&reading->fault, value.begin, "%s is %g, and its range is from %g to %g", word,
                              number, range.low, range.high);
     }
     reading->system->texts[line->word] = gm_reading_text(reading, value);
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    struct gm_system_item *item = add_item(reading, line, key);
     if (!item || !add_formula(reading, item, value)) {
         return false;
     }
+    item->value = number;
     item->low = range.low;
     item->high = range.high;
     item->text = gm_reading_text(reading, range.meaning);
@@ -885,6 +918,13 @@ static bool start_exactly(struct gm_user_system *system)
     return values && !system->graph.failed;
 }
 
+/* True if a tangent starts along a component: the first along the first coordinate, the next along its momentum. */
+static bool is_along(const struct gm_user_system *system, size_t component, size_t tangent)
+{
+    const size_t half = gm_system_motion(system) / 2, k = tangent - 1;
+    return component == (system->kind == GM_CANONICAL ? k % 2 * half + k / 2 : k);
+}
+
 static bool is_complete(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -894,8 +934,15 @@ static bool is_complete(struct gm_reading *reading)
     if (gm_system_is_field(system) && !start_exactly(system)) {
         return gm_fail_memory(&reading->fault);
     }
+    for (size_t k = 1; k <= system->tangents; k++) {
+        for (size_t c = 0; c < gm_system_motion(system); c++) {
+            struct gm_system_variable *variable = &system->variables[gm_system_component(system, c, k)];
+            variable->start = gm_formula_constant(&system->graph, is_along(system, c, k));
+            variable->derived = true;
+        }
+    }
     for (size_t i = 0; i < system->n && rates; i++) {
-        if (system->rates[i] == GM_NO_NODE) {
+        if (system->rates[i] == GM_NO_NODE && !gm_system_is_tangent(system, i)) {
             return gm_fail_first(&reading->fault, gm_reading_line(reading, GM_WORD_RATE)->value.begin,
                                  "there is no rate of %s", system->variables[i].name);
         }
@@ -972,6 +1019,9 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
                                  .values = values,
                                  .value_count = count,
                                  .fault = {.fault = fault}};
+    for (size_t i = 0; i < count; i++) {
+        reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
+    }
     *system = (struct gm_user_system){0};
     *fault = (struct gm_fault){0};
     gm_formula_open(&system->graph);

@@ -35,6 +35,7 @@ enum { GM_RING_PARAMETERS = 2 };
 
 /* Limits of an evolution: fields, and the order of derivatives over x in their rates. */
 enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
+enum { GM_MOST_TANGENTS = 8 };
 /* The most components of a system of matrices. */
 enum { GM_MOST_OF_MATRICES = 8 };
 
@@ -86,8 +87,8 @@ struct gm_system_item {
     size_t place; /* offset of the line's text */
     gm_node_id *nodes;
     size_t count;
-    double low, high;       /* range of dt and until, with their meaning as the text; NaN: none */
-    double value;           /* compile: value of the parameter */
+    double low, high;       /* range of dt, until, members, spread; their meaning is the text; NaN: none */
+    double value;           /* of the parameter that compile: names; of dt, until, members, spread */
     size_t variable;        /* compile: number of the parameter */
     bool periodic;          /* a section at equal times: nodes[0] is the period */
     bool in_section;        /* a level in the section */
@@ -110,7 +111,8 @@ struct gm_user_system {
     struct gm_formula graph;
     char *texts[GM_WORDS]; /* texts of the words that have one; NULL: not given */
     size_t n;
-    bool timed; /* equations depend on t */
+    size_t tangents; /* tangent vectors that are carried along; their components are among the n */
+    bool timed;      /* equations depend on t */
     struct gm_system_variable *variables;
     size_t variable_count, parameters, velocities, initial,
         exact;         /* first numbers; parameters end at velocities; `exact` is variable_count for fields */
@@ -132,7 +134,9 @@ struct gm_user_system {
     size_t part_count;  /* number of read nodes; later ones are derived */
 };
 
-/* A new value of a parameter, "N", "5", or a new word of a choice. */
+/* A new value of a parameter, "N", "5", or a new word of a choice. With the name GM_WITHOUT_TANGENTS the motion alone
+   is read. */
+#define GM_WITHOUT_TANGENTS "tangents:"
 struct gm_system_value {
     const char *name, *text;
 };
@@ -143,6 +147,27 @@ void gm_system_close(struct gm_user_system *system);
 static inline bool gm_system_is_field(const struct gm_user_system *system)
 {
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
+}
+
+/* The number of components without tangents. */
+static inline size_t gm_system_motion(const struct gm_user_system *system)
+{
+    return system->n / (1 + system->tangents);
+}
+
+/* The number of component c of the motion, or of tangent `tangent` from 1 on: the coordinates, their tangents one
+   after another, the momenta, their tangents; or components, then their tangents. */
+static inline size_t gm_system_component(const struct gm_user_system *system, size_t c, size_t tangent)
+{
+    const size_t list = gm_system_motion(system) / (system->kind == GM_CANONICAL ? 2 : 1);
+    return (c / list * (1 + system->tangents) + tangent) * list + c % list;
+}
+
+/* True if a component belongs to a tangent. */
+static inline bool gm_system_is_tangent(const struct gm_user_system *system, size_t component)
+{
+    const size_t list = gm_system_motion(system) / (system->kind == GM_CANONICAL ? 2 : 1);
+    return component < system->n && component / list % (1 + system->tangents) > 0;
 }
 
 /* Returns the derivative of a node over one variable; GM_NO_NODE when out of memory, which the graph notes. */

@@ -166,8 +166,6 @@ struct gm_ode {
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;
-    /* The motion without its tangents, if they are carried along; its q and p are the first of each half. */
-    const struct gm_problem *motion;
     /* Makes the parts that schemes with these needs (GM_NEEDS_...) use and that are otherwise made at first
        use; NULL: nothing to make. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);

@@ -213,7 +213,7 @@ static bool is_due(const struct gm_entries *entries, const struct gm_track *trac
     }
     const double last = entries->times[entries->count - 1];
     const double interval =
-        (track->interval ? track->interval(view->parameters) : track->every) * (double)entries->every;
+        (track->interval ? track->interval(view->parameters) : 0) * (double)entries->every;
     return interval > 0 ? intervals(view, interval, view->t) != intervals(view, interval, last)
                         : view->t != last;
 }

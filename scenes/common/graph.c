@@ -235,15 +235,6 @@ struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk 
     return panel;
 }
 
-bool gm_walk_has_left(const struct gm_walk *walk, bool (*has_left)(const struct gm_lane *lane))
-{
-    bool left = true;
-    for (size_t i = 0; i < walk->count; i++) {
-        left = left && (walk->lanes[i]->shown.panel != walk->panel || has_left(walk->lanes[i]));
-    }
-    return left;
-}
-
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
 {
     bool one = true;
@@ -353,12 +344,9 @@ int gm_asked_series(struct gm_picture *picture, const struct gm_scene *scene, co
     return series;
 }
 
-static double divisor_of(const struct gm_lane *lane, size_t series, bool relative)
+double gm_start_of(const struct gm_lane *lane, size_t series)
 {
     const struct gm_observable *observable = gm_scene_observable_at(lane->scene, series);
-    if (!relative) {
-        return 1;
-    }
     struct gm_view view = gm_lane_view(lane);
     view.state = view.start;
     view.t = view.t0;
@@ -464,7 +452,7 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
                        double *points)
 {
     const size_t made =
-        history_points(lane, series, divisor_of(lane, series, graph->relative), graph, points);
+        history_points(lane, series, graph->relative ? gm_start_of(lane, series) : 1, graph, points);
     if (graph->floor > 0) {
         cut(points, made, graph->floor);
     }

@@ -20,6 +20,9 @@ const char *gm_step_text(struct gm_picture *picture, double dt);
 const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);
 
+/* The value of an observable at the start. */
+double gm_start_of(const struct gm_lane *lane, size_t series);
+
 /* The title of an error's graph, with the divisor of the errors in these lanes. */
 const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                            size_t series);
@@ -55,8 +58,6 @@ bool gm_walk_next(struct gm_walk *walk);
 /* Adds the panel of a state with the name and colour of the current lane. Its note is gm_lane_failure, or
    else `otherwise`; lanes that share the panel are named instead. */
 struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *otherwise);
-/* True if all lanes of the panel have left the range of the others: the panel has a scale of its own. */
-bool gm_walk_has_left(const struct gm_walk *walk, bool (*has_left)(const struct gm_lane *lane));
 
 /* True if all lanes have the time step of the first. */
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count);

@@ -85,8 +85,7 @@ struct gm_track {
     const char *key;
     size_t numbers;                                /* numbers per entry; 0: given by `width` */
     size_t (*width)(const struct gm_view *view);   /* numbers per entry */
-    double every;                                  /* interval of model time; 0: each observed step */
-    double (*interval)(const void *parameters);    /* interval of model time, if not NULL */
+    double (*interval)(const void *parameters);    /* interval of model time; NULL: each observed step */
     double (*section)(const struct gm_view *view); /* reads active components only */
     bool (*admits)(const struct gm_view *view);
     bool again; /* uses the scheme to find the crossing, if it can repeat the step, of one member */

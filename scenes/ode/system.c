@@ -222,7 +222,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
         gm_user_problem_close(problem);
         return false;
     }
-    problem->m = system_scene->hook ? system_scene->hook->members : (size_t)lane->members;
+    problem->m =
+        system_scene->hook ? system_scene->hook->members : (size_t)lane->members + system_scene->centre;
     return true;
 }
 
@@ -462,7 +463,28 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
         GM_CAMERA_ROWS(struct gm_system_lane, camera),
     };
     const size_t skipped = gm_system_skipped(system_scene);
-    return gm_system_make_rows(system_scene, timing, common + skipped, GM_COUNT(common) - skipped, typed);
+    if (!gm_system_make_rows(system_scene, timing, common + skipped, GM_COUNT(common) - skipped, typed)) {
+        return false;
+    }
+    for (int k = 0; k < 2 && !system_scene->hook; k++) {
+        const enum gm_system_word word = k ? GM_WORD_SPREAD : GM_WORD_MEMBERS;
+        const struct gm_system_item *item = gm_system_item_of(&system_scene->system, word, 0);
+        struct gm_parameter *row = &system_scene->common[k ? GM_ROW_SPREAD : GM_ROW_MEMBERS];
+        if (item) {
+            row->key = item->name[0] ? item->name : row->key;
+            row->help = item->text[0] ? item->text : row->help;
+            row->standard =
+                gm_kept_number(&system_scene->texts, item->value, system_scene->system.texts[word]);
+            row->lowest = fmax(item->low, row->lowest);
+            row->highest = fmin(item->high, row->highest);
+            row->logarithmic = row->lowest > 0;
+            system_scene->centre += word == GM_WORD_MEMBERS && item->name[0];
+            if (!row->standard) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 /* Makes dt and until, from the file, or from the system's frequency. */
@@ -472,7 +494,9 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
     gm_parameters_reset(system_scene->rows + GM_SYSTEM_ROWS, system_scene->row_count - GM_SYSTEM_ROWS,
                         system_scene->initial);
     system_scene->initial->members = 1;
-    system_scene->radian = radian_time(system_scene->initial);
+    int exponent; /* without the round-off of differences: shapes are at multiples of pi/6 for a unit frequency */
+    const double part = frexp(radian_time(system_scene->initial), &exponent);
+    system_scene->radian = ldexp(round(ldexp(part, 20)), exponent - 20);
     double numbers[GM_SYSTEM_TIMES];
     if (!gm_system_open_timing(system_scene, numbers, sentence)) {
         return false;
@@ -638,16 +662,7 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .failure = gm_system_tell_failure,
     };
     const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
-    const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
-    if (members && !system_scene->hook &&
-        gm_parameter_set(&system_scene->common[GM_ROW_MEMBERS], system_scene->initial, members) !=
-            GM_PARSED) {
-        return gm_refuse(sentence, "members: %.60s is not a whole number from 1 to 1e6", members);
-    }
-    if (members && !system_scene->hook) {
-        system_scene->common[GM_ROW_MEMBERS].standard = members;
-    }
     if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
         (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
         !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||

@@ -41,6 +41,13 @@ extern const struct gm_problem gm_problem_fpu_of[GM_FPU_SPRINGS];
    *(const double *)parameters. */
 extern const struct gm_problem gm_problem_spring_pendulum;
 
+extern const struct gm_problem gm_problem_pendulum; /* (q, p), H = p^2/2 - cos q */
+
+/* The oscillator, p^2/2 + q^2/2, and the pendulum with two tangent vectors carried along: (q, xi_1, xi_2,
+   p, eta_1, eta_2). The oscillator has loops of ensembles. */
+extern const struct gm_problem gm_problem_oscillator_tangent;
+extern const struct gm_problem gm_problem_pendulum_tangent;
+
 /* The ABC flow, (x, y, z); parameters: A, B, C as three doubles. */
 extern const struct gm_problem gm_problem_abc;
 

@@ -60,19 +60,19 @@ rm office.msh
 refused 3 'could not be read' run cavity mesh=office.msh steps=1
 
 # JSON has the file and its text
-for word in toda ./toda.system office kepler disc; do
+for word in toda ./toda.system office kepler disc vortices; do
     status 0 list "$word" --json
     python3 -c '
 import json, sys
 about, word, share = json.load(open("out")), sys.argv[1], sys.argv[2]
-path = {"toda": "systems/toda.system", "office": "rooms/office.room", "kepler": "systems/kepler.system", "disc": None}.get(word, word)
+path = {"toda": "systems/toda.system", "office": "rooms/office.room", "kepler": "systems/kepler.system", "disc": "systems/disc.system", "vortices": None}.get(word, word)
 assert about["file"] == path, about["file"]
 text = open(word if path == word else share + "/" + path).read() if path else None
 assert about["source"] == text' "$word" "$share" || fail "list $word --json"
 done
 
 # what has no file, and what there is not
-refused 1 '^geomint: disc has no file$' list disc --source
+refused 1 '^geomint: vortices has no file$' list vortices --source
 refused 1 '^geomint: rk4 has no file$' list rk4 --source
 refused 1 '^geomint: systems has no file$' list systems --source
 refused 1 'did you mean toda' list tota --source

@@ -25,7 +25,7 @@ from with_numpy import numpy
 _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
 resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30 if most < 0 else most, most))  # whatever goes wrong, disks stay usable
 GEOMINT = os.path.abspath(sys.argv[1])
-TANGENTS = ("q", "xi1", "xi2", "p", "eta1", "eta2")  # of the disc: a point with two tangent vectors
+TANGENTS = ("q", "xi1_q", "xi2_q", "p", "xi1_p", "xi2_p")  # of the disc: a point with two tangent vectors
 faults = 0
 
 

@@ -143,7 +143,7 @@ else
     [ ! -s left ] || fail "a full disk keeps $(cat left)"
 fi
 # a built-in problem in C has no engine
-status 0 run disc until=1 --json --engine native
+status 0 run vortices until=1 --json --engine native
 grep -q '"engine"' out && fail "a built-in problem tells an engine"
 
 refused 1 'none of: auto, interpreted, native' run lorenz --engine fast

@@ -27,7 +27,6 @@
 #include "core/ode/families/variational/discrete_lagrangian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/problems/problems.h"
 #include "core/schemes.h"
 #include "tests/problems/problems.h"
 

@@ -15,7 +15,6 @@
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
 #include "core/schemes.h"
 #include "tests/problems/problems.h"
 

@@ -17,6 +17,7 @@
 #include "core/schemes.h"
 #include "render/message.h"
 #include "scenes/common/lane.h"
+#include "scenes/common/system/look.h"
 #include "scenes/ode/system.h"
 #include "tests/common/lane.h"
 
@@ -422,6 +423,143 @@ static void hooks_join(void **unused)
     assert_string_equal(sentence, "hook: there is no hook \"no\"");
 }
 
+/* Tangents are the derivatives of a step over its start: as differences of two near runs, of a rate and of H, with lists,
+   a force and the time. Their area is that of Liouville. */
+static void tangents_are_derivatives(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *names, *scheme;
+        size_t motion, list, tangents; /* components, in lists of so many */
+        double area;                   /* at t = 1; NaN: none */
+    } rows[] = {
+        {"coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nforce: q = -p/5\n", "q xi1_q xi2_q p xi1_p xi2_p",
+         "rk4", 2, 1, 2, 0.818730753},
+        {"coordinates: x[1..2]\nH: (p_x[1]^2 + p_x[2]^2)/2 + (x[1] - x[2])^4 + x[1]^2\n",
+         "x[1] x[2] xi1_x[1] xi1_x[2] xi2_x[1] xi2_x[2] p_x[1] p_x[2] xi1_p_x[1] xi1_p_x[2] xi2_p_x[1] xi2_p_x[2]",
+         "verlet", 4, 2, 2, 1},
+        {"components: a b\nrate: a = sin(b)*t\nrate: b = -a - b\n", "a b xi1_a xi1_b xi2_a xi2_b", "rk4", 2,
+         2, 2, 0.367879441},
+        {"components: a b c\nrate: a = b*c\nrate: b = -a\nrate: c = a*b\n", "a b c xi1_a xi1_b xi1_c",
+         "midpoint", 3, 3, 1, NAN},
+    };
+    for (size_t row = 0; row < GM_COUNT(rows); row++) {
+        char text[600], line[64] = "";
+        const size_t n = rows[row].motion, list = rows[row].list, each = list * (1 + rows[row].tangents);
+        const char *const names[][4] = {
+            {"q", "p"}, {"x[1]", "x[2]", "p_x[1]", "p_x[2]"}, {"a", "b"}, {"a", "b", "c"}};
+        size_t used = 0;
+        for (size_t c = 0; c < n; c++) {
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s = %g",
+                                     c ? ", " : "start: ", names[row][c], 0.4 + 0.3 * (double)c);
+        }
+        snprintf(text + used, sizeof text - used, "\ndt: 0.05\n%stangents: %zu\n", rows[row].text,
+                 rows[row].tangents);
+        const struct gm_scene *scene = scene_of(text);
+        struct gm_lane *lane = running(scene, "", rows[row].scheme, 1);
+        const double *y = gm_run_state(lane->run);
+        char told[200] = "";
+        const struct gm_user_system *system =
+            &((const struct gm_system_lane *)lane->parameters)->owner->system;
+        for (size_t i = 0, at = 0; i < system->n; i++) {
+            at += (size_t)snprintf(told + at, sizeof told - at, "%s%s", i ? " " : "",
+                                   system->variables[i].name);
+        }
+        assert_string_equal(told, rows[row].names);
+        for (size_t k = 0; k < rows[row].tangents; k++) {
+            /* the first tangent starts along the first coordinate, the second along its momentum */
+            const size_t along = list < n ? k % 2 * list + k / 2 : k;
+            double ends[2][4];
+            for (int side = 0; side < 2; side++) {
+                snprintf(line, sizeof line, "%s=%.10g", names[row][along],
+                         0.4 + 0.3 * (double)along + (side ? 1e-5 : -1e-5));
+                struct gm_lane *near = running(scene, line, rows[row].scheme, 1);
+                for (size_t c = 0; c < n; c++) {
+                    ends[side][c] = gm_run_state(near->run)[c / list * each + c % list];
+                }
+                gm_lane_close(near);
+            }
+            for (size_t c = 0; c < n; c++) {
+                const double slope = (ends[1][c] - ends[0][c]) / 2e-5;
+                assert_float_equal(y[c / list * each + (1 + k) * list + c % list], slope, 1e-8);
+            }
+        }
+        if (isnan(rows[row].area)) {
+            assert_int_equal(gm_scene_observable(scene, "area_tangent"), -1);
+        } else {
+            assert_float_equal(test_observed(lane, "area_tangent"), rows[row].area, 1e-6);
+        }
+        assert_null(gm_scene_parameter(scene, "xi1_a")); /* a tangent's start is no key */
+        gm_lane_close(lane);
+        gm_system_scene_close(scene);
+    }
+}
+
+#define PLANE                                                                                                \
+    "coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 0.2, p = 1\nangle: q\ndt: 0.1\nuntil: 3\n"
+
+/* The keys of an ensemble have the file's names and ranges; a key with a name does not count the centre. */
+static void ensembles_have_keys(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of(PLANE "members: points = 4*2; 3 .. 50; on the edge\nspread: radius = 0.3; 0.1 .. 1\n");
+    const struct gm_parameter *points = gm_scene_parameter(scene, "points"),
+                              *radius = gm_scene_parameter(scene, "radius");
+    assert_non_null(points);
+    assert_non_null(radius);
+    assert_true(points->lowest == 3 && points->highest == 50 && radius->lowest == 0.1 &&
+                radius->highest == 1);
+    assert_string_equal(points->help, "on the edge");
+    assert_string_equal(points->standard, "4*2");
+    assert_null(gm_scene_parameter(scene, "members"));
+    assert_null(gm_scene_parameter(scene, "spread"));
+    struct gm_lane *lane = running(scene, "points=5 radius=0.5", "rk4", 0);
+    const double *y = gm_run_state(lane->run);
+    assert_int_equal(lane->problem.m, 6);
+    assert_true(y[5] == 0.2 && y[0] == 0.7 && y[11] == 1);
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+
+    scene = scene_of(PLANE "members: 9; 5 .. 20\nspread: 0.3\n");
+    lane = running(scene, "", "rk4", 0);
+    assert_int_equal(lane->problem.m, 9);
+    assert_float_equal(gm_run_state(lane->run)[0], 0.5, 1e-15);
+    assert_true(gm_scene_parameter(scene, "members")->highest == 20);
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+}
+
+/* A word of show= draws a plane, or one graph, alone. The edge of a disc with tangents is curved, and an angle's outline is
+   drawn once for each turn. */
+static void pictures_are_named(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of(PLANE "members: points = 8; 3 .. 50\ntangents: 2\nview: q, p; show plane\n"
+                       "graph: area; relative; log\ngraph: energy_error; log; show law\n");
+    static const struct {
+        const char *show;
+        size_t panels, corners; /* points of the last closed line in the first panel; 0: none */
+    } rows[] = {{"show=all", 3, 1024}, {"show=plane", 1, 1024}, {"show=law", 1, 0}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_lane *lane = running(scene, rows[i].show, "verlet", 1);
+        struct gm_picture *picture = picture_of(&lane, 1);
+        size_t corners = 0, panels = 0;
+        for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+            panels++;
+        }
+        assert_int_equal(panels, rows[i].panels);
+        for (const struct gm_mark *mark = picture->first->first; mark; mark = mark->next) {
+            corners = mark->closed ? mark->count : corners;
+        }
+        assert_int_equal(corners, rows[i].corners);
+        gm_picture_close(picture);
+        gm_lane_close(lane);
+    }
+    gm_system_scene_close(scene);
+}
+
 /* What a file claims about its scene, and what is wrong with it. */
 static void what_is_wrong_is_named(void **unused)
 {
@@ -467,6 +605,9 @@ int main(void)
         cmocka_unit_test(graphs_are_those_of_the_file),
         cmocka_unit_test(studies_are_those_of_the_file),
         cmocka_unit_test(hooks_join),
+        cmocka_unit_test(tangents_are_derivatives),
+        cmocka_unit_test(ensembles_have_keys),
+        cmocka_unit_test(pictures_are_named),
         cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -172,6 +172,18 @@ static void saved(void **unused)
     assert_non_null(strstr(now, "\nmembers: 9\n"));
     gm_request_close(&request);
     free(now);
+    /* keys with names of the file, one of them that of a field's line */
+    char *named[] = {"named", "points=7", "size=0.5"};
+    assert_true(gm_system_recall("named",
+                                 "coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4\nstart: q = 1, p = 0\n"
+                                 "members: points = 4; 3 .. 9\nspread: size = 0.1 # small\n"));
+    assert_true(gm_request_parse(&request, 3, named, 1, message));
+    now = gm_system_now(request.scene, request.lanes[0].parameters);
+    assert_non_null(now);
+    assert_non_null(strstr(now, "\nmembers: points = 7; 3 .. 9\nspread: size = 0.5 # small\n"));
+    assert_null(strstr(now, "\npoints: "));
+    gm_request_close(&request);
+    free(now);
 }
 
 /* Writes the schemes of a request, each once, in the order of its lanes. Returns their number. */

@@ -17,7 +17,6 @@
 #include "core/basics.h"
 #include "core/kind.h"
 #include "core/model/equations.h"
-#include "core/ode/problems/problems.h"
 #include "core/ode/user/lazy_tape.h"
 #include "core/ode/user/problem.h"
 #include "core/run.h"

@@ -17,12 +17,12 @@
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/typed.h"
+#include "tests/problems/problems.h"
 
 static const char double_pendulum[] =
     "coordinates: a b\nL: v_a^2 + v_b^2/2 + v_a*v_b*cos(a - b) + 2*cos(a) + cos(b)\n"

@@ -182,11 +182,6 @@ const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
         },
 };
 
-#ifdef GM_KERNEL_KEY
-const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
-    {GM_KERNEL_KEY}, GM_COMPONENTS, &GM_LOOPS_NAME(GM_PROBLEM, GM_ISA)};
-#endif
-
 #if defined(GM_ALONE) && defined(GM_LOOPS_X86)
 /* aliases under the names of other instruction sets */
 #define GM_SAME_LOOPS(isa)                                                                                   \
@@ -196,4 +191,15 @@ const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
 #define GM_IN_QUOTES_(name) #name
 GM_SAME_LOOPS(avx2)
 GM_SAME_LOOPS(avx512)
+#endif
+
+#if defined(GM_KERNEL_KEY) && (defined(GM_ALONE) || defined(GM_BASELINE))
+#ifdef GM_ALONE
+#define GM_OF_ENSEMBLES false
+#else
+#define GM_OF_ENSEMBLES true
+GM_LOOPS_DECLARE(GM_PROBLEM)
+#endif
+const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {
+    {GM_KERNEL_KEY}, GM_COMPONENTS, GM_OF_ENSEMBLES, GM_LOOPS(GM_PROBLEM)};
 #endif

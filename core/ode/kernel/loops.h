@@ -38,17 +38,17 @@ struct gm_loops {
 /* Declares and lists a problem's loops; GM_LOOPS_X86 is set if the build made the wider ones. */
 #ifdef GM_LOOPS_X86
 #define GM_LOOPS_DECLARE(problem)                                                                            \
-    extern const struct gm_loops gm_loops_##problem##_baseline, gm_loops_##problem##_avx2,                   \
-        gm_loops_##problem##_avx512;
+    extern const struct gm_loops GM_LOOPS_NAME(problem, baseline), GM_LOOPS_NAME(problem, avx2),             \
+        GM_LOOPS_NAME(problem, avx512);
 #define GM_LOOPS(problem)                                                                                    \
     {                                                                                                        \
-        &gm_loops_##problem##_baseline, &gm_loops_##problem##_avx2, &gm_loops_##problem##_avx512             \
+        &GM_LOOPS_NAME(problem, baseline), &GM_LOOPS_NAME(problem, avx2), &GM_LOOPS_NAME(problem, avx512)    \
     }
 #else
-#define GM_LOOPS_DECLARE(problem) extern const struct gm_loops gm_loops_##problem##_baseline;
+#define GM_LOOPS_DECLARE(problem) extern const struct gm_loops GM_LOOPS_NAME(problem, baseline);
 #define GM_LOOPS(problem)                                                                                    \
     {                                                                                                        \
-        &gm_loops_##problem##_baseline                                                                       \
+        &GM_LOOPS_NAME(problem, baseline)                                                                    \
     }
 #endif
 
@@ -56,12 +56,13 @@ struct gm_loops {
 struct gm_compiled_kernel {
     uint64_t key[2]; /* the digest of its kernel's text */
     size_t components;
-    const struct gm_loops *loops;
+    bool of_ensembles; /* else they advance an ensemble member by member */
+    const struct gm_loops *loops[GM_ISA_COUNT];
 };
 #define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)
 #define GM_COMPILED_NAME_(problem) gm_compiled_##problem
-/* Returns the program's loops for single runs whose kernel has this text; NULL: not compiled in. */
-const struct gm_loops *gm_compiled_loops(const char *text);
+/* Returns the program's loops of a kernel with this text, for a number of members; NULL: not compiled in. */
+const struct gm_loops *gm_compiled_loops(const char *text, size_t members);
 /* Returns true if the program has loops of a system with this number of components. */
 bool gm_compiled_has(size_t components);
 

@@ -7,12 +7,6 @@
 /* Problems with fixed structure; a scene copies one and sets m, and parameters if it has them. */
 
 extern const struct gm_problem gm_problem_oscillator; /* (q, p), H = p^2/2 + q^2/2 */
-extern const struct gm_problem gm_problem_pendulum;   /* (q, p), H = p^2/2 - cos q */
-
-/* The oscillator and the pendulum with two tangent vectors carried along: (q, xi_1, xi_2, p, eta_1,
-   eta_2). */
-extern const struct gm_problem gm_problem_oscillator_tangent;
-extern const struct gm_problem gm_problem_pendulum_tangent;
 
 /* y' = A y in three dimensions; parameters: A, 9 doubles row by row. */
 extern const struct gm_problem gm_problem_linear;

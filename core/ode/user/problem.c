@@ -519,6 +519,7 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->split.nystrom = gm_user_model_holds(model, values, GM_FACT_NYSTROM);
         self->split.unit_mass = !lagrangian && is_unit_mass(self);
         self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;
+        self->hamiltonian.partial = system->tangents > 0;
         self->hamiltonian.formula = lagrangian || constrained ? NULL : energy_formula;
         self->ode.split = gm_user_model_splits(model, values) ? &self->split : NULL;
         self->ode.hamiltonian = system->timed ? NULL : &self->hamiltonian;
@@ -539,7 +540,8 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
         self->ode.volume = &self->volume;
     }
-    self->split.attracts = self->ode.split && self->ode.hamiltonian && attracts(self, problem);
+    self->split.attracts =
+        self->ode.split && self->ode.hamiltonian && system->tangents == 0 && attracts(self, problem);
 }
 
 bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
@@ -552,6 +554,45 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
         *problem = (struct gm_problem){0};
     }
     return opened;
+}
+
+static void close_motion(void *data)
+{
+    struct gm_user_motion *motion = data;
+    gm_user_problem_close(&motion->problem);
+    gm_user_model_close(&motion->model);
+    gm_system_close(&motion->system);
+}
+
+const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, const struct gm_problem *problem)
+{
+    const struct own *self = own_of(problem);
+    const struct gm_user_system *whole = self->model->system;
+    const size_t choices = whole->choices.count, count = choices + whole->velocities - whole->parameters;
+    if (whole->tangents == 0) {
+        return NULL;
+    }
+    struct gm_user_motion *motion = gm_arena_take(arena, 1, sizeof *motion);
+    struct gm_system_value *values = gm_arena_take(arena, count + 1, sizeof *values);
+    gm_arena_keep(arena, motion, close_motion);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_written_choice *choice = &whole->choices.list[i];
+        const size_t number = whole->parameters + i - choices;
+        values[i] = i < choices
+                        ? (struct gm_system_value){choice->name, choice->words[choice->chosen]}
+                        : (struct gm_system_value){whole->variables[number].name,
+                                                   gm_arena_print(arena, "%.17g", self->values[number])};
+        gm_arena_need(arena, values[i].text != NULL);
+    }
+    values[count] = (struct gm_system_value){GM_WITHOUT_TANGENTS, ""};
+    struct gm_fault fault;
+    motion->whole = whole;
+    gm_arena_need(
+        arena, gm_equations_open(&motion->system, whole->source, whole->length, values, count + 1, &fault) &&
+                   gm_user_model_open(&motion->model, &motion->system));
+    double *start = gm_arena_keep(arena, gm_equations_start(&motion->system, NULL), free);
+    gm_arena_need(arena, gm_user_problem_open(&motion->problem, &motion->model, start));
+    return motion;
 }
 
 /* Makes the tapes from which kernels are written; NULL: a missing one. Returns false when out of memory. */
@@ -609,14 +650,9 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
 
 void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
 {
-    /* The compiled loops advance an ensemble member by member, which is faster than the interpreter for few
-       members (Kepler with scheme=verlet: 0.9 of its time for 13 members, 3 times as long for 100). */
-    enum { FEW = 16 };
     const char *lacks;
-    char *text = problem->m <= FEW && gm_compiled_has(problem->n)
-                     ? gm_user_problem_kernel(problem, over, &lacks)
-                     : NULL;
-    const struct gm_loops *loops = text ? gm_compiled_loops(text) : NULL;
+    char *text = gm_compiled_has(problem->n) ? gm_user_problem_kernel(problem, over, &lacks) : NULL;
+    const struct gm_loops *loops = text ? gm_compiled_loops(text, problem->m) : NULL;
     if (loops) {
         gm_user_problem_take(problem, loops);
     }

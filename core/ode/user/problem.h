@@ -14,6 +14,16 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
                           const double *values);
 void gm_user_problem_close(struct gm_problem *problem);
 
+/* The motion of a system without the tangents that it carries along. */
+struct gm_user_motion {
+    const struct gm_user_system *whole; /* the system with its tangents */
+    struct gm_user_system system;
+    struct gm_user_model model;
+    struct gm_problem problem;
+};
+/* Returns the motion of a problem, in the arena; NULL if it carries no tangents. */
+const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, const struct gm_problem *problem);
+
 struct gm_loops; /* core/ode/kernel/loops.h */
 
 /* Returns the text of its kernels (core/ode/user/kernel.h) for a family that has such loops (`over`, see

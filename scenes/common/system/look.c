@@ -17,6 +17,17 @@ const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
     return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
+const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane)
+{
+    const struct gm_user_system *system = &lane->owner->system;
+    size_t i = 0;
+    while (i < system->item_count &&
+           strcmp(gm_system_option_text(&system->items[i], GM_OPTION_SHOW, ""), lane->show) != 0) {
+        i++;
+    }
+    return i < system->item_count ? &system->items[i] : NULL;
+}
+
 size_t gm_system_centre(const struct gm_view *view)
 {
     return gm_system_scene_of(view)->hook ? 0 : view->problem->m - 1;
@@ -64,6 +75,13 @@ const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
     const struct gm_sight *sight = &system_scene->sights[i < system_scene->sight_count ? i : 0];
     const bool is_plane = sight->over_time || (sight->components[0] == 0 && sight->components[1] == 1);
     return lane->portrait && !is_plane ? &system_scene->sights[system_scene->sight_count - 1] : sight;
+}
+
+const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start)
+{
+    return view->state +
+           gm_system_component(&gm_system_scene_of(view)->system, component > 0, start > 0 ? 2 : 1) *
+               view->problem->m;
 }
 
 /* Writes the exact solution at the current time, from the file, or from the problem. */

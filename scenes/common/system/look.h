@@ -97,6 +97,7 @@ struct gm_system_scene {
     struct gm_tape surfaces;  /* half axes at the start, three per surface */
     struct gm_tape *of_items; /* for each of the system's items that is a text, a requirement or a level */
     size_t disc[2];           /* the components that members differ in */
+    size_t centre;            /* 1: the key of members does not count their centre */
     double radian;            /* 1 / the largest frequency at the start */
     struct gm_figure *figures;
     struct gm_work work;
@@ -146,8 +147,15 @@ static inline size_t gm_system_skipped(const struct gm_system_scene *system_scen
     return system_scene->hook ? GM_ROW_SHOW : 0;
 }
 
+/* Returns the line whose picture the lane's show= names alone; NULL: it names none. */
+const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane);
+
 /* Returns the number of the observed member. */
 size_t gm_system_centre(const struct gm_view *view);
+
+/* Returns the members' derivatives of a component over the start of another one, by the tangents that a plane's
+   members carry. */
+const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start);
 
 /* Writes the values of all variables for one member of a view's state; velocities are NaN, and so is the
    exact solution, if it is not requested or not known. */

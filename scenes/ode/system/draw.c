@@ -12,8 +12,9 @@
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/phase.h"
+#include "scenes/ode/system/shapes.h"
 
-enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
+enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
 
 /* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
 static const double longest_chord = 0.05;
@@ -65,15 +66,6 @@ static double extent(const struct gm_seen *seen)
                 seen->high[2] - seen->low[2]);
 }
 
-/* Returns true if the members are a disc in the plane that is shown. */
-static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
-{
-    const struct gm_system_scene *system_scene = own_of(lane)->owner;
-    return lane->problem.m > 3 && own_of(lane)->shape == GM_SHAPE_DISC && system_scene->system.n == 2 &&
-           sight->components[0] == (long)system_scene->disc[0] &&
-           sight->components[1] == (long)system_scene->disc[1] && !sight->angles[0] && !sight->angles[1];
-}
-
 /* Returns the range of all that a lane has shown up to now. */
 static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_paths *paths, double *numbers)
 {
@@ -86,7 +78,7 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_pat
     for (size_t i = 0; i < paths->member_count; i++) {
         hold(&range, paths->members[i].points, paths->members[i].count * sight->bodies, dimensions);
     }
-    if (is_disc(lane, sight)) {
+    if (gm_system_is_disc(lane, sight)) {
         const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
         hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
     }
@@ -304,38 +296,6 @@ static void draw_members(struct gm_picture *picture, struct gm_panel *panel, con
     }
 }
 
-/* Draws the current disc and earlier ones; the first shape in red. */
-static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
-{
-    const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
-    const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const size_t corners = shapes->width / 2, oldest = shapes->count > TURN ? shapes->count - TURN : 1;
-    for (size_t i = oldest; i < shapes->count; i++) {
-        const double *shape = shapes->values + i * shapes->width;
-        const double fresh = (double)(i + 1 - oldest) / (double)(shapes->count - oldest);
-        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.02 + 0.12 * fresh}, shape,
-                        corners);
-        gm_mark_line(picture, panel, (struct gm_style){role, 0.1 + 0.4 * fresh, 1, GM_SOLID}, shape, corners,
-                     true);
-    }
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values,
-                    corners);
-    gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners,
-                 true);
-    const struct gm_system_scene *system_scene = own_of(lane)->owner;
-    const size_t m = lane->problem.m;
-    const double *y = gm_run_state(lane->run);
-    double *points = gm_picture_memory(picture, 2 * m * sizeof *points);
-    for (size_t i = 0; points && i + 1 < m; i++) {
-        points[2 * i] = y[system_scene->disc[0] * m + i];
-        points[2 * i + 1] = y[system_scene->disc[1] * m + i];
-    }
-    if (points && lane->run->t != lane->t0) {
-        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.42}, points, m - 1);
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, GM_SOLID}, points, m - 1, true);
-    }
-}
-
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_paths *paths, double *numbers)
 {
@@ -345,8 +305,8 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     before.state = view.start;
     before.t = view.t0;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    if (is_disc(lane, sight)) {
-        draw_disc(picture, panel, lane);
+    if (gm_system_is_disc(lane, sight)) {
+        gm_system_draw_shapes(picture, panel, lane);
         return;
     }
     if (lane->problem.m > 1) {
@@ -382,9 +342,10 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
 /* Returns true if both axes are positions, or nearly of one size, and so have one unit. */
 static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
 {
-    const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
-    return !sight->over_time && (strcmp(sight->name, "view") == 0 ||
-                                 (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5));
+    const double wide = panel->x.high - panel->x.low, tall = panel->y.high - panel->y.low;
+    const bool around = (sight->angles[0] && wide == 2 * M_PI) || (sight->angles[1] && tall == 2 * M_PI);
+    return !sight->over_time && !around &&
+           (strcmp(sight->name, "view") == 0 || (wide > 0.4 * tall && wide < 2.5 * tall));
 }
 
 static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_walk *walk,
@@ -393,8 +354,11 @@ static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const 
     const bool is_wide = gm_system_has_portrait(walk->lane->parameters, sight);
     for (size_t k = 0; k < 2; k++) {
         const double margin = is_wide ? (range->high[k] - range->low[k]) / 8 : 0;
-        set_axis(picture, k ? &panel->y : &panel->x, sight->labels[k], sight->angles[k],
-                 range->low[k] - margin, range->high[k] + margin);
+        struct gm_axis *axis = k ? &panel->y : &panel->x;
+        const bool part = gm_system_is_disc(walk->lane, sight) && range->low[k] > -3 && range->high[k] < 3;
+        set_axis(picture, axis, sight->labels[k], sight->angles[k] && !part, range->low[k] - margin,
+                 range->high[k] + margin);
+        axis->scale = sight->angles[k] ? GM_PI : axis->scale;
     }
     if (sight->over_time) {
         gm_time_axis(&panel->x, walk->lanes, walk->count);
@@ -431,19 +395,24 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_wa
     return panel;
 }
 
-/* Returns the current value of the first graph, if that shows the greatest of every stretch of time. */
+/* Returns the current value of the first graph, if that shows the greatest of every stretch of time, or its ratio to
+   the start's, if it shows that. */
 static const char *value_now(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_system_item *item = gm_system_item_of(&own_of(lane)->owner->system, GM_WORD_GRAPH, 0);
-    if (!item || !gm_system_option(item, GM_OPTION_HIGHEST)) {
+    const bool relative = item && gm_system_option(item, GM_OPTION_RELATIVE);
+    if (!item || (!relative && !gm_system_option(item, GM_OPTION_HIGHEST))) {
         return "";
     }
     const size_t series = (size_t)gm_scene_observable(lane->scene, item->name);
+    const struct gm_observable *observable = gm_scene_observable_at(lane->scene, series);
     const double value = gm_lane_observe(lane, series);
-    return isnan(value)
-               ? ""
-               : gm_picture_text(picture, "%s now %s", gm_scene_observable_at(lane->scene, series)->title,
-                                 gm_power_text(picture, value));
+    if (isnan(value)) {
+        return relative && observable->of_members ? "edge not resolved" : "";
+    }
+    return relative ? gm_picture_text(picture, "%s × %.3f", gm_typeset(picture, observable->key),
+                                      value / gm_start_of(lane, series))
+                    : gm_picture_text(picture, "%s now %s", observable->title, gm_power_text(picture, value));
 }
 
 /* Makes the sight and the paths of a lane. False when out of memory. */
@@ -641,6 +610,23 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
     }
 }
 
+/* Draws the graph that show= names alone, in a panel for each lane. */
+static void draw_alone(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       const struct gm_system_item *item)
+{
+    const size_t series = (size_t)gm_scene_observable(lanes[0]->scene, item->name);
+    struct gm_graph graph = {.observable = item->name, .named = true};
+    gm_system_graph(item, &graph);
+    const char *title = graph.title ? graph.title : gm_error_title(picture, lanes, count, series);
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            graph.title = gm_picture_text(picture, "%s: %s", gm_lane_title(walk.lane), title);
+            graph.panel_of = walk.lane;
+            gm_draw_graphs(picture, lanes, count, &graph, 1);
+        }
+    }
+}
+
 /* "m = 1,  Δt = 0.01": the values that all lanes share. */
 static const char *told(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
@@ -679,6 +665,8 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
 {
     const struct gm_system_lane *lane = own_of(lanes[0]);
     const struct gm_system_scene *system_scene = lane->owner;
+    const struct gm_system_item *alone = gm_system_alone(lane);
+    const bool graph_alone = alone && alone->word == GM_WORD_GRAPH;
     const bool one_scheme = has_one_scheme(lanes, count);
     const bool only_section =
         system_scene->has_section && strcmp(lane->show, system_scene->section.name) == 0;
@@ -694,7 +682,7 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     picture->subtitle = gm_picture_text(
         picture, "%s%s",
         gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, told(picture, lanes, count)),
-        gm_system_level_text(picture, lanes, count));
+        graph_alone ? "" : gm_system_level_text(picture, lanes, count));
     picture->caption =
         gm_system_shown_text(picture, lanes, count, GM_WORD_CAPTION, system_scene->scene.watch);
     if (gm_system_has_portrait(lane, gm_system_sight(lane))) {
@@ -702,10 +690,17 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     }
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
+    if (graph_alone) {
+        draw_alone(picture, lanes, count, alone);
+        return;
+    }
     if (only_section) {
         draw_sections(picture, lanes, count);
     } else {
         draw_states(picture, lanes, count);
+    }
+    if (alone) {
+        return;
     }
     /* if there is space for one graph only, it is the section of driven motion, else a conserved quantity */
     const bool section =

@@ -120,15 +120,14 @@ static double solution_error(const struct gm_view *view)
     return error;
 }
 
-/* Fewer points are an ellipse, however far they are from the edge. */
+/* Without tangents, fewer points are an ellipse, however far they are from the edge. */
 enum { LEAST_EDGE = 5 };
 
 static size_t edge_points(const struct gm_view *view)
 {
     const size_t points = view->problem->m - 1;
-    return ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC && points >= LEAST_EDGE
-               ? points
-               : 0;
+    const bool enough = points >= LEAST_EDGE || gm_system_scene_of(view)->system.tangents >= 2;
+    return ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC && enough ? points : 0;
 }
 
 static const char *why_no_area(const struct gm_view *view)
@@ -136,12 +135,30 @@ static const char *why_no_area(const struct gm_view *view)
     return edge_points(view) > 0 ? GM_UNRESOLVED_EDGE : "with members= of at least 6 in a disc alone";
 }
 
-/* Returns the signed area within the members, from the centre so that little cancels. The derivatives are of
-   the trigonometric polynomial through the members, which have no tangents. */
+/* The edge's derivatives: the tangent map that each member carries, of those of the start's edge. */
+static void put_derivatives(const struct gm_view *view, double complex *edge)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const size_t m = view->problem->m, points = m - 1, *disc = system_scene->disc;
+    const double *x = view->start + disc[0] * m, *y = view->start + disc[1] * m;
+    for (size_t i = 0; i < points; i++) {
+        double slope[2];
+        for (size_t k = 0; k < 2; k++) {
+            const double *const along[] = {gm_system_tangent(view, disc[k], disc[0]),
+                                           gm_system_tangent(view, disc[k], disc[1])};
+            slope[k] = along[0][i] * (y[points] - y[i]) + along[1][i] * (x[i] - x[points]);
+        }
+        edge[i] = slope[0] + I * slope[1];
+    }
+}
+
+/* Returns the signed area within the members, from the centre so that little cancels. Without tangents the
+   derivatives are of the trigonometric polynomial through the members. */
 static double area(const struct gm_view *view)
 {
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     const size_t points = edge_points(view), m = view->problem->m;
-    const double *x = view->state, *y = view->state + m;
+    const double *x = view->state + system_scene->disc[0] * m, *y = view->state + system_scene->disc[1] * m;
     if (points == 0) {
         return NAN;
     }
@@ -149,11 +166,34 @@ static double area(const struct gm_view *view)
     for (size_t i = 0; edge && i < points; i++) {
         edge[i] = edge[points + i] = x[i] - x[points] + I * (y[i] - y[points]);
     }
-    const double value = edge && gm_curve_differentiate(edge + points, points)
-                             ? gm_curve_area(edge, edge + points, points)
-                             : NAN;
+    bool found = edge != NULL;
+    if (found && system_scene->system.tangents >= 2) {
+        put_derivatives(view, edge + points);
+    } else if (found) {
+        found = gm_curve_differentiate(edge + points, points);
+    }
+    const double value = found ? gm_curve_area(edge, edge + points, points) : NAN;
     free(edge);
     return value;
+}
+
+/* Returns the mean area of the first two tangents, the sum over coordinates with their momenta. */
+static double area_tangent(const struct gm_view *view)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
+    const size_t m = view->problem->m, pairs = gm_system_motion(system) / 2;
+    double sum = 0;
+    for (size_t c = 0; c < pairs; c++) {
+        const double *q[2], *p[2];
+        for (size_t k = 0; k < 2; k++) {
+            q[k] = view->state + gm_system_component(system, c, 1 + k) * m;
+            p[k] = view->state + gm_system_component(system, pairs + c, 1 + k) * m;
+        }
+        for (size_t i = 0; i < m; i++) {
+            sum += q[0][i] * p[1][i] - q[1][i] * p[0][i];
+        }
+    }
+    return sum / (double)m;
 }
 
 double gm_system_stop(const struct gm_view *view)
@@ -466,7 +506,7 @@ static bool add_solution_error(struct gm_system_scene *system_scene)
 static bool add_area(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
-    return system->n != 2 ||
+    return gm_system_motion(system) != 2 ||
            (add_observable(system_scene,
                            (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
                                                                .why = why_no_area, .of_members = true),
@@ -476,6 +516,20 @@ static bool add_area(struct gm_system_scene *system_scene)
                             (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
                                                                      .why = why_no_area, .of_members = true),
                             GM_NO_NODE, GM_NO_NODE)));
+}
+
+/* Adds the area of a disc, and that of two tangents: of coordinates with their momenta, or in a plane. */
+static bool add_areas(struct gm_system_scene *system_scene)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const bool spanned =
+        system->tangents >= 2 && (system->kind == GM_CANONICAL || gm_system_motion(system) == 2);
+    return add_area(system_scene) &&
+           (!spanned || add_observable(system_scene,
+                                       (struct gm_observable)GM_OBSERVABLE(
+                                           "area_tangent", area_tangent,
+                                           "determinant of the tangent map, mean over the members"),
+                                       GM_NO_NODE, GM_NO_NODE));
 }
 
 /* Refuses the line that makes a second observable of that name; false. */
@@ -499,7 +553,7 @@ bool gm_system_make_observables(struct gm_system_scene *system_scene, const stru
 {
     const struct gm_hook *hook = system_scene->hook;
     const size_t of_hook = hook ? hook->observable_count : 0,
-                 most = system_scene->system.item_count + 9 + of_hook;
+                 most = system_scene->system.item_count + 10 + of_hook;
     system_scene->observables =
         gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->observables);
     system_scene->formulas = gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->formulas);
@@ -508,8 +562,10 @@ bool gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     for (size_t i = 0; good && i < of_hook; i++) {
         good = add_observable(system_scene, hook->observables[i], GM_NO_NODE, GM_NO_NODE);
     }
-    good = good && add_energy(system_scene, problem) && add_steps(system_scene) && add_named(system_scene) &&
-           add_defects(system_scene, problem) && add_solution_error(system_scene) && add_area(system_scene);
+    const bool carried = system_scene->system.tangents > 0; /* for the areas, which come first */
+    good = good && (!carried || add_areas(system_scene)) && add_energy(system_scene, problem) &&
+           add_steps(system_scene) && add_named(system_scene) && add_defects(system_scene, problem) &&
+           add_solution_error(system_scene) && (carried || add_areas(system_scene));
     system_scene->scene.observables = system_scene->observables;
     system_scene->scene.observable_count = system_scene->observable_count;
     for (size_t i = 0; i < system_scene->observable_count && good; i++) {

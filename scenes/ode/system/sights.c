@@ -138,6 +138,7 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
             const char *common = several ? common_name(system_scene, k) : system->variables[at->a].name;
             sight->labels[k] = common ? common : usual[k];
             sight->components[k % 2] = in_space ? -1 : (long)at->a;
+            sight->angles[k % 2] = !in_space && sight->bodies == 1 && system->variables[at->a].angle;
         }
     }
     for (size_t k = 0; k < 3 && !told; k++) {
@@ -204,9 +205,11 @@ static bool add_pair(struct gm_system_scene *system_scene, size_t a, size_t b)
 bool gm_system_make_sights(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
-    const size_t n = system->n, half = n / 2;
+    const size_t n = gm_system_motion(system), half = n / 2;
+    const struct gm_system_item *items = system->items;
     system_scene->sights = gm_arena_take(system->arena, GM_MOST_SIGHTS, sizeof *system_scene->sights);
-    system_scene->shows = gm_arena_take(system->arena, GM_MOST_SIGHTS + 5, sizeof *system_scene->shows);
+    system_scene->shows =
+        gm_arena_take(system->arena, GM_MOST_SIGHTS + 5 + system->item_count, sizeof *system_scene->shows);
     bool good = system_scene->sights && system_scene->shows;
     if (good &&
         (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {
@@ -216,7 +219,7 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         good = good && add_pair(system_scene, 1, 0); /* the component over time */
     }
     for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
-        good = add_pair(system_scene, i, half + i);
+        good = add_pair(system_scene, i, gm_system_component(system, half + i, 0));
     }
     const size_t planar = system->kind <= GM_LAGRANGIAN ? half : n;
     for (size_t i = 0; good && i < planar && n > 1; i++) {
@@ -225,7 +228,8 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         }
     }
     const struct gm_sight *first = &system_scene->sights[0];
-    system_scene->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
+    system_scene->disc[1] =
+        n == 1 ? 0 : gm_system_component(system, system->kind <= GM_LAGRANGIAN ? half : 1, 0);
     if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1 && !first->over_time) {
         system_scene->disc[0] = (size_t)first->components[0];
         system_scene->disc[1] = (size_t)first->components[1];
@@ -250,7 +254,11 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         if (system_scene->has_section) {
             system_scene->shows[shows++] = "section";
         }
-        if (n > 1 && n <= GM_MOST_OVER_TIME) {
+        for (size_t i = 0; i < system->item_count; i++) {
+            system_scene->shows[shows] = gm_system_option_text(&items[i], GM_OPTION_SHOW, NULL);
+            shows += system_scene->shows[shows] != NULL;
+        }
+        if (n > 1 && system->n <= GM_MOST_OVER_TIME) {
             system_scene->shows[shows++] = GM_SHOW_OVER_TIME "all";
         }
         for (size_t i = system_scene->sight_count - system_scene->pair_count; i < system_scene->sight_count;

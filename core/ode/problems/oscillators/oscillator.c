@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The harmonic oscillator, H = p^2/2 + q^2/2, with and without two tangent vectors. */
+/* The harmonic oscillator, H = p^2/2 + q^2/2. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(oscillator)
-GM_LOOPS_DECLARE(oscillator_tangent)
 GM_ENERGY_DECLARE(oscillator)
-GM_ENERGY_DECLARE(oscillator_tangent)
 
 const struct gm_problem gm_problem_oscillator = {
     .name = "oscillator",
@@ -24,24 +22,5 @@ const struct gm_problem gm_problem_oscillator = {
                                                           .formula = gm_formula_oscillator},
             .lagrangian = &(const struct gm_lagrangian){.potential = gm_potential_oscillator},
             .loops = GM_LOOPS(oscillator),
-        },
-};
-
-const struct gm_problem gm_problem_oscillator_tangent = {
-    .name = "oscillator",
-    .n = 6,
-    .m = 1,
-    .kind = &gm_kind_ode,
-    .facets =
-        &(const struct gm_ode){
-            .components = "q xi1 xi2 p eta1 eta2",
-            .quadratic = true,
-            .linear = true,
-            .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator_tangent,
-                                                          .partial = true,
-                                                          .formula = gm_formula_oscillator_tangent},
-            .motion = &gm_problem_oscillator,
-            .loops = GM_LOOPS(oscillator_tangent),
         },
 };

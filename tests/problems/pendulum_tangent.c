@@ -1,29 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pendulum, H = p^2/2 - cos q, with and without two tangent vectors. */
+/* The pendulum with two tangent vectors. */
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/problems/problems.h"
+#include "tests/problems/problems.h"
 
-GM_LOOPS_DECLARE(pendulum)
 GM_LOOPS_DECLARE(pendulum_tangent)
-GM_ENERGY_DECLARE(pendulum)
 GM_ENERGY_DECLARE(pendulum_tangent)
-
-const struct gm_problem gm_problem_pendulum = {
-    .name = "pendulum",
-    .n = 2,
-    .m = 1,
-    .kind = &gm_kind_ode,
-    .facets =
-        &(const struct gm_ode){
-            .components = "q p",
-            .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian =
-                &(const struct gm_hamiltonian){.energy = gm_energy_pendulum, .formula = gm_formula_pendulum},
-            .lagrangian = &(const struct gm_lagrangian){.potential = gm_potential_pendulum},
-            .loops = GM_LOOPS(pendulum),
-        },
-};
 
 const struct gm_problem gm_problem_pendulum_tangent = {
     .name = "pendulum",
@@ -37,7 +19,6 @@ const struct gm_problem gm_problem_pendulum_tangent = {
             .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_pendulum_tangent,
                                                           .partial = true,
                                                           .formula = gm_formula_pendulum_tangent},
-            .motion = &gm_problem_pendulum,
             .loops = GM_LOOPS(pendulum_tangent),
         },
 };
