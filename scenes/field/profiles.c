@@ -235,7 +235,7 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
     size_t made = 0;
     double least = INFINITY, most = -INFINITY;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH,
-                                          gm_picture_text(picture, "%s, so far, over λ", observable->title));
+                                          gm_picture_text(picture, "%s so far, over λ", observable->title));
     for (size_t i = 0; i < count; i++) {
         const double value = largest(lanes[i], series);
         least = fmin(least, lambda_of(lanes[i]));
