@@ -30,13 +30,20 @@ struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_sc
     char contradiction[GM_MESSAGE];
     const struct gm_scene *scene = grid->request.scene;
     struct gm_timing *timing = gm_parameters_copy(scene, cell->spec->parameters);
+    const char *keys[2];
+    size_t count = 0;
     if (timing && grid->parameter) {
         gm_parameter_put(grid->parameter, timing, cell->value);
+        keys[count++] = grid->parameter->key;
     }
     if (timing && grid->ratio) {
         gm_parameter_put(grid->ratio, timing, cell->step);
-        scene->settle(timing, &grid->ratio->key, 1, contradiction);
-    } else if (timing) {
+        keys[count++] = grid->ratio->key;
+    }
+    if (timing && count > 0 && scene->settle) {
+        scene->settle(timing, keys, count, contradiction);
+    }
+    if (timing && !grid->ratio) {
         timing->dt = cell->step * (grid->plan ? grid->plan->unit(timing) : 1);
     }
     cell->dt = timing ? timing->dt : 0;

@@ -45,6 +45,7 @@ static const char *const flags[] = {
     "-fno-builtin-sinh",
     "-fno-builtin-cosh",
     "-fno-builtin-tanh",
+    "-fno-builtin-erfc",
     "-fno-builtin-fmod",
     "-D_GNU_SOURCE",
     "-DGM_PROBLEM=user",

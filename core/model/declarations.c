@@ -175,7 +175,7 @@ static bool add_ring(struct gm_reading *reading)
         enum gm_system_word word;
         double usual;
         const char *meaning;
-    } rows[GM_RING_PARAMETERS] = {{GM_WORD_HALF_LENGTH, 20, "the ring is −half_length ≤ x < half_length"},
+    } rows[GM_RING_PARAMETERS] = {{GM_WORD_HALF_LENGTH, 20, "half the length of the line"},
                                   {GM_WORD_POINTS, 400, "of the grid"}};
     for (size_t i = 0; i < GM_RING_PARAMETERS; i++) {
         const struct gm_system_line *line = gm_reading_line(reading, rows[i].word);
@@ -418,6 +418,7 @@ static bool arrange(struct gm_reading *reading)
         }
         system->variable_count++;
     }
+    all[n].value = 0; /* unless the start names another time */
     return true;
 }
 

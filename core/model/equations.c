@@ -620,7 +620,7 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
     const bool good = variables && values && parts;
     for (size_t i = 0; good && i < system->variable_count; i++) {
         const bool follows = i < system->initial && system->variables[i].start != GM_NO_NODE;
-        variables[i] = i == system->n ? 0 : follows ? NAN : system->variables[i].value;
+        variables[i] = follows ? NAN : system->variables[i].value;
         variables[i] = given && !isnan(given[i]) ? given[i] : variables[i];
     }
     /* a start may depend on others: each round uses the values of the last one */

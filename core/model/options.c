@@ -149,7 +149,9 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
             GM_OPTIONS; /* an integral applies always, no other quantity has a grid, fields show their own words */
     }
     row = is_range ? find_row(lines, "range", 5) : row;
-    if (row == GM_OPTIONS && lines == LINE(STABILITY) && !item->name[0] && some) { /* KEY with its values */
+    const bool is_key = lines == LINE(STABILITY) ||
+                        (lines == LINE(WORK) && gm_reading_entry(reading, text, letters, false, 0));
+    if (row == GM_OPTIONS && is_key && !item->name[0] && some) { /* KEY with its values */
         item->name = gm_reading_text(reading, (struct gm_span){piece.begin, piece.begin + letters});
         row = GM_OPTION_VALUES;
     }

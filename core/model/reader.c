@@ -69,6 +69,12 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
     const enum gm_system_word word = assignment->word;
     const bool is_velocity =
         entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
+    if (entry->role == GM_ENTRY_TIME && word == GM_WORD_START && system->kind == GM_EVOLUTION) {
+        const struct gm_node *time = &system->graph.nodes[node];
+        system->variables[system->n].value = time->operation == GM_CONSTANT ? time->value : NAN;
+        return isfinite(system->variables[system->n].value) ||
+               gm_fail_first(&reading->fault, target->value.begin, "the time of the start is a number");
+    }
     if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
         return gm_fail_first(&reading->fault, target->name.begin, "%.*s is not a component",
                              (int)(entry->length < 60 ? entry->length : 60), entry->name);
@@ -549,7 +555,7 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
     static const struct {
         double low, high;
         const char *told;
-    } ranges[] = {{0.1, 1e5, "a number from 0.1 to 1e5"},
+    } ranges[] = {{0.01, 1e5, "a number from 0.01 to 1e5"},
                   {3, 1e7, "a whole number from 3 to 1e7"},
                   {-1e6, 1e6, "a number"}};
     const size_t row = (size_t)line->word - GM_WORD_HALF_LENGTH;
@@ -561,7 +567,8 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
         return false;
     }
     if (!(number >= ranges[row].low && number <= ranges[row].high) ||
-        (line->word == GM_WORD_POINTS && number != floor(number))) {
+        (line->word == GM_WORD_POINTS && number != floor(number) &&
+         !gm_system_points_follow(reading->system))) {
         return gm_fail_first(&reading->fault, line->value.begin, "%s is %g, and has to be %s",
                              gm_system_words[line->word].word, number, ranges[row].told);
     }
@@ -900,7 +907,7 @@ static bool start_exactly(struct gm_user_system *system)
 {
     gm_node_id *values = gm_system_no_nodes(system, system->variable_count);
     if (values) {
-        values[system->n] = gm_formula_constant(&system->graph, 0);
+        values[system->n] = gm_formula_constant(&system->graph, system->variables[system->n].value);
     }
     for (size_t i = 0; values && i < system->n; i++) {
         const bool is_rate = system->kind == GM_FIELD && i == 1;

@@ -184,8 +184,9 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     if (is_place(reading, &entry)) {
         return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
     }
-    const bool is_word = entry.role == GM_ENTRY_CHOICE &&
-                         gm_line_word(&words, entry.name, (struct gm_span){0, entry.length}) < GM_WORDS;
+    const size_t word = gm_line_word(&words, entry.name, (struct gm_span){0, entry.length});
+    /* a choice between starts may be called so */
+    const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START;
     if (is_word || is_of_ring(reading, &entry) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);

@@ -44,7 +44,7 @@ enum { GM_MOST_OF_MATRICES = 8 };
    components at the start, x(0); and, without fields, n components of the exact solution, exact(x). */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
-    double value;         /* value of a parameter; else NaN */
+    double value;         /* value of a parameter; of t its value at the start; else NaN */
     char *text;           /* text of a parameter's value; else NULL */
     double low, high;     /* range of values; NaN: no range */
     char *meaning, *unit; /* "" or NULL: not given */
@@ -168,6 +168,13 @@ static inline bool gm_system_is_tangent(const struct gm_user_system *system, siz
 {
     const size_t list = gm_system_motion(system) / (system->kind == GM_CANONICAL ? 2 : 1);
     return component < system->n && component / list % (1 + system->tangents) > 0;
+}
+
+/* Returns true if the points of a field's grid follow from parameters. */
+static inline bool gm_system_points_follow(const struct gm_user_system *system)
+{
+    const gm_node_id node = system->variables[system->velocities - 1].start;
+    return node != GM_NO_NODE && system->graph.nodes[node].operation != GM_CONSTANT;
 }
 
 /* Returns the derivative of a node over one variable; GM_NO_NODE when out of memory, which the graph notes. */

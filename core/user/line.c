@@ -34,6 +34,7 @@ bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *s
                        const gm_node_id *start, size_t outputs, const gm_node_id *exact, const double *values)
 {
     line->system = system;
+    line->begin = system->variables[system->n].value;
     return gm_tape_open(&line->start, &system->graph, start, outputs, 1, values) &&
            (!gm_line_is_solved(system) ||
             gm_tape_open(&line->exact, &system->graph, exact, gm_line_components(system), 2, values));
@@ -54,6 +55,11 @@ double gm_user_line_exact(const struct gm_user_line *line, size_t component, dou
     }
     gm_tape_values(&line->exact, place, values, 1);
     return values[component];
+}
+
+void gm_user_line_events(const struct gm_user_line *line, const double *events, size_t count, double *values)
+{
+    gm_tape_values(line->exact.outputs > 0 ? &line->exact : &line->start, events, values, count);
 }
 
 size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
@@ -100,7 +106,7 @@ void gm_user_line_levels(const struct gm_user_line *line, const struct gm_grid1 
             y[first + i] = rates[i];
             y[points + first + i] = known ? 0 : taylor(rates + i, line->start.outputs, some, gap);
             places[i] = gm_grid1_node(grid, first + i);
-            places[some + i] = gap;
+            places[some + i] = line->begin + gap;
         }
         if (known) {
             gm_tape_values(&line->exact, places, y + points + first, some);

@@ -24,6 +24,7 @@ struct gm_user_line {
     const struct gm_user_system *system;
     struct gm_tape start; /* of x: the components, and behind them derivatives over t of the first */
     struct gm_tape exact; /* of x and t; without outputs if the file gives no exact solution */
+    double begin;         /* the time of the start */
 };
 /* `values` are those of all variables (gm_equations_start); of what starts there are `outputs`. False where memory was
    refused. To be closed in both cases. */
@@ -35,6 +36,10 @@ void gm_user_line_close(struct gm_user_line *line);
 /* The exact solution of a component; NaN if the file gives none. */
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
 
+/* Writes the exact solution of the first component at `count` places and times, [places, then times]; without one, what
+   starts there. */
+void gm_user_line_events(const struct gm_user_line *line, const double *events, size_t count, double *values);
+
 /* Writes the outputs at nodes from number `first` on, at most GM_LINE_ROOM, [output * nodes + i]. Returns the number of
    nodes. */
 enum { GM_LINE_ROOM = 128, GM_LINE_BLOCK = GM_LINE_ROOM * GM_MOST_OF_MATRICES };
@@ -43,7 +48,7 @@ size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1
 /* Writes the outputs at all nodes, [output * points + node]. */
 void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y);
 
-/* Writes two levels of one field, at t = 0 and `gap` later, and then the gap. The second is exact if the file gives
+/* Writes two levels of one field, at the start and `gap` later, and then the gap. The second is exact if the file gives
    the exact solution; else it follows from the derivatives over t by Taylor's formula. */
 void gm_user_line_levels(const struct gm_user_line *line, const struct gm_grid1 *grid, double gap, double *y);
 

@@ -28,16 +28,6 @@ double gm_field_u(const struct gm_view *view, size_t node)
     return view->state[node];
 }
 
-double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x))
-{
-    double largest = 0;
-    for (size_t i = 0; i < gm_grid1_seen(&view->problem->line); i++) {
-        const double error = fabs(view->state[i] - exact(view, gm_grid1_node(&view->problem->line, i)));
-        largest = error > largest || isnan(error) ? error : largest;
-    }
-    return largest;
-}
-
 double gm_field_form_residual(const struct gm_view *view)
 {
     return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
@@ -67,11 +57,6 @@ void gm_surface_record(const struct gm_view *view, double (*value)(const struct 
     for (size_t k = 0; k < columns; k++) {
         entry[k] = value(view, k * seen / columns);
     }
-}
-
-void gm_surface_record_u(const struct gm_view *view, double *entry)
-{
-    gm_surface_record(view, gm_field_u, entry);
 }
 
 static double end_of(const struct gm_grid1 *grid)

@@ -24,13 +24,12 @@ struct gm_field_look {
     double low, high;                                      /* the least range of values that is shown */
     enum gm_colour_map map;
     enum gm_scale x_scale; /* GM_PI if the ring is a circle */
+    double reach;          /* half of the line's part that is drawn, of profiles at rest */
     int show;              /* the content of the surfaces: scenes/field/observed.h */
     const char *content;   /* the name of the third law: "mass" */
 };
 
-/* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
-#define GM_HALF_LENGTH(own, member, standard, help)                                                          \
-    GM_REAL_ROW(own, member, "half_length", standard, 0.1, 1e5, help, .logarithmic = true)
+/* The row of a parameter table for the points of the grid, in a member of the scene's own struct. */
 #define GM_POINTS(own, member, standard, least, help)                                                        \
     GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
@@ -42,16 +41,13 @@ struct gm_grid1 gm_between_walls(double half_length, long points);
 /* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);
 
-/* Returns the largest difference of u from its exact value; NaN if that is not known. */
-double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x));
-
 /* Returns the residual of the discrete multisymplectic law of a scheme (core/field/multisymplectic.h). */
 double gm_field_form_residual(const struct gm_view *view);
 #define GM_FORM_RESIDUAL                                                                                     \
     GM_LOG_OBSERVABLE("multisymplectic_residual", gm_field_form_residual,                                    \
                       "residual of the multisymplectic law", .missing = GM_NO_LAW)
 
-/* The track of the surface; `record` fills a row with gm_surface_record, gm_surface_record_u with u. */
+/* The track of the surface; `record` fills a row with gm_surface_record. */
 #define GM_SURFACE_TRACK(record_)                                                                            \
     {                                                                                                        \
         .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
@@ -61,7 +57,6 @@ size_t gm_surface_width(const struct gm_view *view);
 double gm_surface_interval(const void *parameters);
 void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
                        double *entry);
-void gm_surface_record_u(const struct gm_view *view, double *entry);
 
 /* Draws the whole picture but its titles: the clock, the surfaces from track 0, the profiles and
    `graph_count` graphs over time; if a law is shown, its residual replaces the second graph. */

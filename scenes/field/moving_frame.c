@@ -4,15 +4,72 @@
 
 #include <math.h>
 
-const char *const gm_axes_shown[] = {"profiles", "frame", NULL};
-
 enum { MIDDLE = GM_STENCIL / 2 };
 
-size_t gm_stencil_node(const struct gm_grid1 *grid, double place)
+/* Events relative to the node in the middle, which the frame's translations carry to t = x = 0: the nodes at
+   the current level, then at the next one, where only their positions count. */
+struct stencil {
+    bool known; /* there is a frame */
+    struct gm_event seen[2 * GM_STENCIL], carried[2 * GM_STENCIL];
+};
+
+/* The units of x and t, and what is drawn. */
+struct drawn {
+    const struct gm_axes_style *look;
+    const struct stencil *stencils;
+    double h, k;
+};
+
+double gm_exact_at_node(const struct gm_view *view, size_t node)
 {
-    const double nearest = round((place - grid->first) / grid->dx);
-    const double last = (double)grid->points - 1 - MIDDLE;
+    const struct gm_framed *framed = gm_framed_of(view->problem);
+    return gm_frame_exact(framed, gm_frame_rests(framed, view->scheme) ? 0 : framed->lambda,
+                          gm_grid1_node(&view->problem->line, node), view->t);
+}
+
+double gm_frame_travel(const struct gm_view *view)
+{
+    const struct gm_framed *framed = gm_framed_of(view->problem);
+    return gm_frame_rests(framed, view->scheme) ? framed->lambda * (view->t - framed->line.begin) : 0;
+}
+
+/* Returns the place of the node that is shown; 0 if the file has no parameter `at`. */
+static double place_of(const struct gm_lane *lane)
+{
+    const struct gm_parameter *row = gm_scene_parameter(lane->scene, "at");
+    return row ? gm_parameter_get(row, lane->parameters) : 0;
+}
+
+/* Returns the number of the node nearest to the place that has its stencil inside the line; a ring has no ends. */
+static size_t middle_node(const struct gm_lane *lane, const struct gm_view *view)
+{
+    const struct gm_grid1 *grid = &view->problem->line;
+    const bool is_ring = gm_field_of(view->problem)->equation == GM_NEEDS_KDV;
+    const double length = grid->dx * (double)grid->points, place = place_of(lane) + gm_frame_travel(view),
+                 turns = is_ring ? floor((place - grid->first) / length) : 0;
+    const double nearest = round((place - turns * length - grid->first) / grid->dx),
+                 last = (double)grid->points - 1 - MIDDLE;
     return (size_t)fmax(MIDDLE, fmin(last, nearest));
+}
+
+static struct stencil stencil_of(const struct gm_lane *lane, const struct gm_axes_style *look, double h)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_framed *framed = gm_framed_of(view.problem);
+    const double sigma = gm_frame_rests(framed, view.scheme) ? 0 : framed->lambda * view.dt;
+    const size_t j = middle_node(lane, &view);
+    struct stencil made;
+    for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
+        const size_t i = j + e % GM_STENCIL - MIDDLE;
+        const bool next = e >= GM_STENCIL;
+        made.seen[e] = (struct gm_event){
+            .t = next ? view.dt : 0,
+            .x = ((double)i - (double)j) * view.problem->line.dx + (next ? sigma : 0),
+            .u = view.state[i],
+        };
+    }
+    made.known = look->carry(&view, j, h, made.seen, made.carried);
+    return made;
 }
 
 /* Widens an axis by a part of its range on both sides. */
@@ -41,16 +98,17 @@ static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t c
 
 /* The grid around the node, its stencil as points. */
 static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                       const struct gm_moving_frame *stencils, const struct gm_axes_style *look, bool carried)
+                       const struct drawn *drawn, bool carried)
 {
+    const struct stencil *stencils = drawn->stencils;
     struct gm_panel *panel =
         carried ? add(picture, "the same nodes, carried by the frame", "x̂ / h", "t̂ / k")
                 : add(picture, "a node and its neighbours, from each frame", "(x − xⱼ) / h", "(t − tⁿ) / k");
     for (size_t i = 0; i < count; i++) {
         const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
         for (size_t e = 0; stencils[i].known && e < 2 * GM_STENCIL; e++) {
-            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / look->h);
-            gm_range_add(&panel->y.low, &panel->y.high, events[e].t / look->k);
+            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
+            gm_range_add(&panel->y.low, &panel->y.high, events[e].t / drawn->k);
         }
     }
     if (!(panel->x.high > panel->x.low)) {
@@ -67,8 +125,8 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
         }
         double points[2 * 2 * GM_STENCIL];
         for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
-            points[2 * e] = events[e].x / look->h;
-            points[2 * e + 1] = events[e].t / look->k;
+            points[2 * e] = events[e].x / drawn->h;
+            points[2 * e + 1] = events[e].t / drawn->k;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
         gm_mark_line(picture, panel, style, points, GM_STENCIL, false);
@@ -87,9 +145,10 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
 
 /* Draws the values around the node at the current level. */
 static void draw_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                        const struct gm_moving_frame *stencils, const struct gm_axes_style *look,
-                        bool carried)
+                        const struct drawn *drawn, bool carried)
 {
+    const struct stencil *stencils = drawn->stencils;
+    const struct gm_axes_style *look = drawn->look;
     struct gm_panel *panel =
         carried ? add(picture, "the same values, carried", "x̂ / h", look->carried)
                 : add(picture, "the values there, from each frame", "(x − xⱼ) / h", look->value);
@@ -98,7 +157,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     for (size_t i = 0; i < count; i++) {
         const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
         for (size_t e = 0; stencils[i].known && e < GM_STENCIL; e++) {
-            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / look->h);
+            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
             gm_range_add(&panel->y.low, &panel->y.high, events[e].u);
         }
     }
@@ -119,7 +178,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
         }
         double points[2 * GM_STENCIL];
         for (size_t e = 0; e < GM_STENCIL; e++) {
-            points[2 * e] = events[e].x / look->h;
+            points[2 * e] = events[e].x / drawn->h;
             points[2 * e + 1] = events[e].u;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
@@ -139,11 +198,23 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
 }
 
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_moving_frame *stencils, const struct gm_axes_style *look)
+                          const struct gm_axes_style *look)
 {
-    picture->state_columns = 2;
-    draw_nodes(picture, lanes, count, stencils, look, false);
-    draw_nodes(picture, lanes, count, stencils, look, true);
-    draw_values(picture, lanes, count, stencils, look, false);
-    draw_values(picture, lanes, count, stencils, look, true);
+    struct stencil *stencils = gm_picture_memory(picture, count * sizeof *stencils);
+    const struct drawn drawn = {look, stencils, lanes[0]->problem.line.dx, lanes[0]->run->dt};
+    gm_draw_clock(picture, lanes, count);
+    picture->title = look->title;
+    picture->subtitle =
+        gm_picture_text(picture, "the node nearest to x = %g%s,  h = %.3g,  k = %s%s", place_of(lanes[0]),
+                        look->constant, drawn.h, gm_step_text(picture, drawn.k), look->note);
+    for (size_t i = 0; stencils && i < count; i++) {
+        stencils[i] = stencil_of(lanes[i], look, drawn.h);
+    }
+    if (stencils) {
+        picture->state_columns = 2;
+        draw_nodes(picture, lanes, count, &drawn, false);
+        draw_nodes(picture, lanes, count, &drawn, true);
+        draw_values(picture, lanes, count, &drawn, false);
+        draw_values(picture, lanes, count, &drawn, true);
+    }
 }

@@ -10,35 +10,25 @@
 
 enum { GM_STENCIL = 5 /* nodes, the one that is stepped in the middle */ };
 
-/* Events relative to the node in the middle, which the frame's translations carry to t = x = 0: the nodes at
-   the current level, then at the next one, where only their positions count. */
-struct gm_moving_frame {
-    bool known; /* there is such a node, and a frame */
-    struct gm_event seen[2 * GM_STENCIL], carried[2 * GM_STENCIL];
-};
+/* The exact value at a node; what starts there if the file gives none. */
+double gm_exact_at_node(const struct gm_view *view, size_t node);
 
-/* The values that are shown, as a choice's list, and the row for it. */
-enum { GM_PROFILES_SHOWN, GM_FRAME_SHOWN };
-extern const char *const gm_axes_shown[];
-#define GM_FRAME_ROWS(own, show, at, standard)                                                               \
-    GM_CHOICE_ROW(own, show, "show", "profiles", gm_axes_shown,                                              \
-                  "the profiles, or the moving frame: a node with its neighbours, and where the frame "      \
-                  "carries them"),                                                                           \
-        GM_REAL_ROW(own, at, "at", standard, -1e4, 1e4,                                                      \
-                    "show=frame: the node nearest to this place of the original frame")
-
-/* Returns the number of the node nearest to a position that has its stencil inside the line. */
-size_t gm_stencil_node(const struct gm_grid1 *grid, double place);
+/* Returns how far a node that rests in its frame has travelled in the original one; 0 if it moves along. */
+double gm_frame_travel(const struct gm_view *view);
 
 struct gm_axes_style {
-    double h, k;         /* the units of x and t */
-    const char *value;   /* the name of u, "u" */
-    const char *carried; /* the name of the carried u, "û" */
-    const char *section; /* the cross-section that defines the frame, "û = 0, D₀û = 0" */
+    const char *title, *constant, *note; /* the picture's title, and parts of its subtitle, or "" */
+    const char *value;                   /* the name of u, "u" */
+    const char *carried;                 /* the name of the carried u, "û" */
+    const char *section;                 /* the cross-section that defines the frame, "û = 0, D₀û = 0" */
+    /* Carries the events about node j, on nodes that get `unit` apart; false if there is no frame. */
+    bool (*carry)(const struct gm_view *view, size_t j, double unit, struct gm_event *seen,
+                  struct gm_event *carried);
 };
 
-/* Draws four panels: the nodes as the lanes see them and as they are carried, and the values likewise. */
+/* Draws the whole picture, of the node nearest to the parameter `at`: the nodes as the lanes see them and as they are carried,
+   and the values likewise. */
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_moving_frame *stencils, const struct gm_axes_style *look);
+                          const struct gm_axes_style *look);
 
 #endif

@@ -3,8 +3,8 @@
        u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),   on a ring or between walls,
        the same between ends that hold u, on a moving mesh,
        (M u)_t = R(u, u_x, ..),   of one field or several,
-       equations of Korteweg and de Vries and of Schroedinger, recognised by such rates, with the states of the
-       schemes for them,
+       equations of Korteweg and de Vries, of Schroedinger, of heat and of Burgers, recognised by such rates, with
+       the states of the schemes for them,
        K z_t + L z_x = grad S(z).
    A kind is a row: its keys, problem, start, observables and picture. Parameters of the file are keys, with
    the ring and its grid; its conserved and observed quantities are integrals of densities. The scene is made
@@ -21,12 +21,14 @@
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/profile.h"
+#include "core/field/problems/burgers.h"
 #include "core/field/problems/dispersive.h"
+#include "core/field/problems/heat.h"
+#include "core/field/user/equation.h"
 #include "core/field/user/form.h"
 #include "core/field/user/potential.h"
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
-#include "core/model/recognition.h"
 #include "core/model/scope.h"
 #include "core/ode/user/evolution.h"
 #include "core/schemes.h"
@@ -37,14 +39,15 @@
 #include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/written.h"
-#include "scenes/field/kdv_frame.h"
+#include "scenes/field/frames.h"
 #include "scenes/field/observed.h"
+#include "scenes/field/profiles.h"
 #include "scenes/mesh/observed.h"
 #include "scenes/mesh/picture.h"
 
 enum { DT, UNTIL };
 enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_GRAPHS = 3, MOST_ROWS = 6 };
-enum { SHOW_FRAME = 4 }; /* of the schemes for Korteweg and de Vries' equation */
+enum { MOST_NODES = 10000000 };
 enum { SAMPLES = 4096 }; /* points at which a start is examined */
 
 struct user_field;
@@ -57,14 +60,22 @@ struct kind {
     const char *const *schemes;
     const struct gm_observable *observables;
     size_t observable_count;
+    const struct gm_observable *errors; /* against an exact solution */
+    size_t error_count;
+    unsigned equation; /* facet of the schemes that are for this equation alone; 0: the kind has others */
     const char *graphs[2][MOST_GRAPHS]; /* graphs over time, without and with an exact solution; conserved */
     size_t graph_count;                 /* quantities of the file fill the rest */
     bool (*open)(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values);
     void (*close)(struct gm_problem *problem);
     /* Returns true if the start is possible; else false with a sentence. NULL: it is if it is finite. */
     bool (*closes)(const struct gm_problem *problem, char *sentence, size_t size);
+    /* The same of a lane's other parameters; NULL: all are. */
+    bool (*admits)(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence);
     void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    int frame_shown; /* the choice that shows the moving frame, and its picture; NULL: the kind has none */
+    void (*draw_frame)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    bool profiles; /* profiles at rest are drawn instead of the surface over space and time */
     double (*value)(const struct gm_view *view,
                     size_t node); /* what the picture shows, and its exact value */
     double (*exact)(const struct gm_view *view, double x);
@@ -78,7 +89,7 @@ struct kind {
        the last. NULL: the problem integrates. */
     bool (*place)(const struct gm_view *view, size_t number, double *values, double *weight);
 };
-static const struct kind waves, moving_waves, evolutions, korteweg, schroedinger, forms;
+static const struct kind waves, moving_waves, evolutions, korteweg, schroedinger, heat, burgers, forms;
 
 struct user_field {
     struct gm_system_scene of_file; /* first, so that a pointer to the scene is one to this */
@@ -87,10 +98,9 @@ struct user_field {
     struct gm_user_wave wave; /* only the member of the kind is used */
     struct gm_user_evolution evolution;
     struct gm_user_form form;
-    struct gm_line_formulas formulas;
-    struct gm_recognised equation; /* without a name: none */
-    bool elsewhere;                /* schemes are asked for that are not for the usual kind of such a field */
-    bool solved;                   /* an exact solution is known */
+    struct gm_user_equation equation;
+    bool elsewhere; /* schemes are asked for that are not for the usual kind of such a field */
+    bool solved;    /* an exact solution is known */
     double resolutions[3], errors[3];
     double low, high; /* the range of u at the start */
 };
@@ -103,6 +113,13 @@ static const struct user_field *owner_of(const struct gm_system_lane *lane)
 static const struct user_field *field_of(const struct gm_view *view)
 {
     return owner_of(view->parameters);
+}
+
+/* Returns the time at the start of a lane. */
+static double begin_of(const void *parameters)
+{
+    const struct gm_user_system *system = &((const struct gm_system_lane *)parameters)->owner->system;
+    return system->variables[system->n].value;
 }
 
 /* Returns the line, which all problems of such files have. */
@@ -275,6 +292,9 @@ static double terms(const struct gm_view *view)
     return integral_of(view, true);
 }
 
+static const struct gm_observable usual_errors[] = {
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution")};
+
 /* ---- pictures ---- */
 
 /* Widens a range to values, except those far beyond `most`. */
@@ -336,9 +356,28 @@ static size_t graphs_of(const struct user_field *field, struct gm_graph *graphs)
 
 static void record_shown(const struct gm_view *view, double *entry)
 {
+    const struct kind *kind = field_of(view)->kind;
     const int show = ((const struct gm_system_lane *)view->parameters)->grid.show;
-    gm_surface_record_shown(view, show == SHOW_FRAME ? GM_SHOW_FIELD : show, field_of(view)->kind->value,
-                            entry);
+    const bool of_frame = kind->draw_frame && show == kind->frame_shown;
+    gm_surface_record_shown(view, of_frame ? GM_SHOW_FIELD : show, kind->value, entry);
+}
+
+/* Returns half the length of a lane's line. */
+static double half_length_of(const struct gm_system_lane *lane)
+{
+    const struct gm_system_scene *owner = lane->owner;
+    size_t row = GM_SYSTEM_ROWS;
+    while (owner->variables[row] != owner->system.velocities - GM_RING_PARAMETERS) {
+        row++;
+    }
+    return lane->values[row - GM_SYSTEM_ROWS];
+}
+
+/* Returns the part of the line that a picture of profiles shows. */
+static double shown_of(const struct gm_user_system *system)
+{
+    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_HALF_LENGTH, 0);
+    return item ? gm_system_option_number(item, GM_OPTION_SHOWN, 1) : 1;
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -349,8 +388,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const struct gm_system_item *colours = gm_system_item_of(&of_file->system, GM_WORD_COLOURS, 0);
     const struct gm_view first = gm_lane_view(lanes[0]);
     double ends[2] = {field->low, field->high};
-    if (field->kind == &korteweg && lane->grid.show == SHOW_FRAME) {
-        gm_kdv_draw_frame(lanes, count, picture);
+    if (field->kind->draw_frame && lane->grid.show == field->kind->frame_shown) {
+        field->kind->draw_frame(lanes, count, picture);
         return;
     }
     if (colours) {
@@ -368,14 +407,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .high = crosses ? most + margin : ends[1] + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
         .show = lane->grid.show,
+        .reach = half_length_of(lane) * shown_of(&of_file->system),
     };
     const char *beyond = "";
     bool boosted = false;
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
-        boosted |= field->kind == &korteweg && gm_kdv_of(view.problem)->lambda != 0;
-        const struct gm_entries *rows = &lanes[i]->entries[0];
+        boosted |= field->kind->draw_frame && gm_framed_of(view.problem)->lambda != 0;
         if (lanes[i]->problem.line.walls && lane->grid.show == GM_SHOW_FIELD) {
+            const struct gm_entries *rows = &lanes[i]->entries[0];
             /* a kink that comes back from a wall leads to other values than it came from */
             hold(&look.low, &look.high, 5 * most, rows->values, rows->count * rows->width);
         }
@@ -394,7 +434,13 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         picture, "%s%s%ld points,  Δx = %g%s%s", subtitle, subtitle[0] ? ",  " : "", lane->grid.points,
         lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count), beyond);
     struct gm_graph graphs[MOST_GRAPHS];
-    gm_draw_field(picture, lanes, count, &look, graphs, graphs_of(field, graphs));
+    const size_t graph_count = graphs_of(field, graphs);
+    if (field->kind->profiles) {
+        picture->subtitle = subtitle;
+        gm_draw_profiles(picture, lanes, count, &look, graphs, graph_count);
+    } else {
+        gm_draw_field(picture, lanes, count, &look, graphs, graph_count);
+    }
 }
 
 static void draw_mesh(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -431,19 +477,9 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
         GM_OBSERVABLE("crest", crest, "x where u is highest")
 #define ROWS(list) .rows = list, .row_count = GM_COUNT(list)
 #define OBSERVABLES(list) .observables = list, .observable_count = GM_COUNT(list)
+#define ERRORS(list) .errors = list, .error_count = GM_COUNT(list)
 
 /* ---- the kinds ---- */
-
-/* Returns half the length of a lane's line. */
-static double half_length_of(const struct gm_system_lane *lane)
-{
-    const struct gm_system_scene *owner = lane->owner;
-    size_t row = GM_SYSTEM_ROWS;
-    while (owner->variables[row] != owner->system.velocities - GM_RING_PARAMETERS) {
-        row++;
-    }
-    return lane->values[row - GM_SYSTEM_ROWS];
-}
 
 /* Returns the ring, or the grid between walls. */
 static struct gm_grid1 grid_of(const struct gm_system_lane *lane)
@@ -455,6 +491,15 @@ static struct gm_grid1 grid_of(const struct gm_system_lane *lane)
         grid.first = gm_system_option_number(item, GM_OPTION_LEFT, 0);
     }
     return grid;
+}
+
+/* Returns the grid from one end of the line to the other. */
+static struct gm_grid1 between_ends(const struct gm_system_lane *lane)
+{
+    const double half_length = half_length_of(lane);
+    return (struct gm_grid1){.points = (size_t)lane->grid.points,
+                             .dx = 2 * half_length / (double)(lane->grid.points - 1),
+                             .first = -half_length};
 }
 
 static bool open_wave(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
@@ -491,6 +536,7 @@ static const struct gm_observable of_waves[] = {
 static const struct kind waves = {
     ROWS(wave_rows),
     OBSERVABLES(of_waves),
+    ERRORS(usual_errors),
     .schemes = gm_wave_schemes,
     .graphs = {{"energy_error", "own_energy_error"}, {"solution_error", "own_energy_error"}},
     .graph_count = 2,
@@ -558,12 +604,14 @@ static const struct gm_parameter mesh_rows[] = {
         "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
         "tempered where the field is steeper than at the start"),
 };
-static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES};
+static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES},
+                                  mesh_errors[] = {GM_MESH_ERRORS};
 static const char *const strategies[] = {"multiplier-lobatto4", "control-gauss4", "uniform-gauss4", NULL};
 
 static const struct kind moving_waves = {
     ROWS(mesh_rows),
     OBSERVABLES(of_mesh),
+    ERRORS(mesh_errors),
     .no_walls = "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u",
     .schemes = strategies,
     .open = open_mesh,
@@ -593,6 +641,7 @@ static const char *const semilinear[] = {"etdrk4", "midpoint", NULL};
 static const struct kind evolutions = {
     ROWS(evolution_rows),
     OBSERVABLES(of_evolutions),
+    ERRORS(usual_errors),
     .schemes = semilinear,
     .graphs = {{NULL}, {"solution_error"}},
     .graph_count = MOST_GRAPHS,
@@ -607,74 +656,14 @@ static const struct kind evolutions = {
 
 /* ---- equations that are recognised ---- */
 
-/* Returns the value of a parameter of the file; 0 if it has none of that name. */
-static double value_of(const struct gm_system_lane *lane, const char *key)
-{
-    const struct gm_parameter *row = gm_scene_parameter(&lane->owner->scene, key);
-    return row ? gm_parameter_get(row, lane) : 0;
-}
-
-/* The parameters of either equation. */
-union equation {
-    struct gm_user_line line; /* first of both */
-    struct gm_kdv kdv;
-    struct gm_nls nls;
-};
-
 static bool open_equation(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
 {
     const struct user_field *field = owner_of(lane);
-    const struct gm_user_system *system = &field->of_file.system;
-    const bool of_kdv = field->kind == &korteweg;
-    const size_t rates = of_kdv && !field->solved;
-    union equation *equation = calloc(1, sizeof *equation);
-    double constants[GM_EQUATION_CONSTANTS] = {0};
-    *problem = of_kdv ? gm_problem_kdv : gm_problem_nls;
-    problem->parameters = equation;
-    problem->line = grid_of(lane);
-    problem->n = of_kdv ? gm_wave_size(problem->line.points) : 2 * problem->line.points;
-    const bool good =
-        equation && gm_user_line_numbers(system, field->equation.values, of_kdv ? 2 : 1, values, constants) &&
-        gm_user_line_open(&equation->line, system, field->formulas.start, system->n + rates,
-                          field->formulas.exact, values);
-    if (good && of_kdv) {
-        equation->kdv.eta = constants[0];
-        equation->kdv.mu = constants[1];
-        equation->kdv.lambda = value_of(lane, "lambda");
-        equation->kdv.frame = lane->grid.frame;
-    } else if (good) {
-        equation->nls.k = constants[0];
+    const struct gm_grid1 grid = field->kind->profiles ? between_ends(lane) : grid_of(lane);
+    const bool good = gm_user_equation_open(problem, &field->equation, values, &grid);
+    if (good && field->kind->draw_frame) {
+        ((struct gm_framed *)problem->parameters)->frame = lane->grid.frame;
     }
-    return good;
-}
-
-static void close_equation(struct gm_problem *problem)
-{
-    union equation *equation = (union equation *)problem->parameters;
-    if (equation) {
-        gm_user_line_close(&equation->line);
-    }
-    free(equation);
-    problem->parameters = NULL;
-}
-
-/* Adds the rate of one field at the start to the formulas of the start. */
-static bool derive_rate(struct gm_line_formulas *formulas, struct gm_user_system *system)
-{
-    gm_node_id *others = calloc(system->variable_count, sizeof *others), last = system->variables[0].start;
-    for (size_t i = 0; others && i < system->variable_count; i++) {
-        others[i] = GM_NO_NODE;
-    }
-    for (size_t k = 0; others && k <= GM_MOST_DERIVATIVES && !system->graph.failed; k++) {
-        others[k == 0 ? 0 : system->velocities + k] = last;
-        last = gm_system_derivative(system, last, system->velocities);
-    }
-    formulas->start[1] = system->rates[0];
-    const bool good =
-        others && !system->graph.failed &&
-        gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
-        gm_system_place(system, &formulas->start[1], 1);
-    free(others);
     return good;
 }
 
@@ -747,7 +736,7 @@ static double modulus_error(const struct gm_view *view)
 static double exact_at_rest(const struct gm_view *view, double x)
 {
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
-    return exact_first(view, x + kdv->lambda * view->t) - kdv->lambda / kdv->eta;
+    return exact_first(view, x + kdv->framed.lambda * view->t) - kdv->framed.lambda / kdv->eta;
 }
 
 /* Laws and frames need schemes that have them. */
@@ -756,10 +745,16 @@ static const struct gm_preference preferences[] = {
     {"show=mass-law", {"box"}},   {"show=frame", {"evolution-projection"}}, {NULL, {NULL}}};
 #define NO_FRAME "the scheme does not step in a moving frame, or the step from here is not solved"
 #define EQUATION                                                                                             \
-    .no_walls = "boundary: the schemes for this equation alone need a ring", .preferences = preferences,     \
-    .open = open_equation, .close = close_equation, .draw = draw, .profile = profile_of,                     \
-    .place = place_profile
+    .no_walls = "boundary: the schemes for this equation alone need no walls",                               \
+    .close = gm_user_equation_close, .draw = draw
+#define ON_RING                                                                                              \
+    .open = open_equation, .preferences = preferences, .profile = profile_of, .place = place_profile
 
+#define FRAME_ROW                                                                                            \
+    GM_CHOICE_ROW(                                                                                           \
+        LANE, grid.frame, "frame", "each", frames,                                                           \
+        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "    \
+        "moving for the invariant schemes, fixed for the others")
 static const char *const frames[] = {"each", "fixed", "moving", NULL},
                          *const shown_of_mass[] = {"field",    "energy-law", "momentum-law",
                                                    "mass-law", "frame",      NULL},
@@ -767,10 +762,7 @@ static const char *const frames[] = {"each", "fixed", "moving", NULL},
                                                      NULL};
 static const struct gm_parameter korteweg_rows[] = {
     RING(5),
-    GM_CHOICE_ROW(
-        LANE, grid.frame, "frame", "each", frames,
-        "nodes at rest in the frame, or moving by lambda dt per step, for invariant schemes only; each: "
-        "moving for the invariant schemes, fixed for the others"),
+    FRAME_ROW,
     GM_CHOICE_ROW(
         LANE, grid.show, "show", "field", shown_of_mass,
         "what is drawn over space and time: the field, or what each step leaves of a local law; or the "
@@ -790,7 +782,12 @@ static const char *const schemes_of_korteweg[] = {"box", "zabusky-kruskal", "fou
 static const struct kind korteweg = {
     ROWS(korteweg_rows),
     OBSERVABLES(of_korteweg),
+    ERRORS(usual_errors),
     EQUATION,
+    ON_RING,
+    .equation = GM_NEEDS_KDV,
+    .frame_shown = 4,
+    .draw_frame = gm_kdv_draw_frame,
     .schemes = schemes_of_korteweg,
     .graphs = {{NULL}, {"solution_error"}},
     .graph_count = 2,
@@ -807,11 +804,17 @@ static const struct gm_observable of_schroedinger[] = {
     GM_LOG_OBSERVABLE("local_charge_residual", gm_view_content_residual, "residual of the local charge law",
                       .missing = GM_NO_LAW),
     GM_FORM_RESIDUAL};
+static const struct gm_observable schroedinger_errors[] = {
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution"),
+    GM_LOG_OBSERVABLE("modulus_error", modulus_error, "largest error of |ψ|")};
 static const char *const schemes_of_schroedinger[] = {"box", "split-step2", "euler-box", NULL};
 static const struct kind schroedinger = {
     ROWS(schroedinger_rows),
     OBSERVABLES(of_schroedinger),
+    ERRORS(schroedinger_errors),
     EQUATION,
+    ON_RING,
+    .equation = GM_NEEDS_NLS,
     .schemes = schemes_of_schroedinger,
     .graph_count = 2,
     .start = start_line,
@@ -819,6 +822,168 @@ static const struct kind schroedinger = {
     .exact = exact_modulus,
     .name = "|ψ|",
     .content = "charge",
+};
+
+/* Evaluates at the nodes from end to end. */
+static bool place_between_ends(const struct gm_view *view, size_t i, double *values, double *weight)
+{
+    const struct gm_grid1 *grid = &view->problem->line;
+    const size_t last = grid->points - 1, x = field_of(view)->of_file.system.velocities,
+                 left = i > 0 ? i - 1 : 0, right = i < last ? i + 1 : last;
+    const double *u = view->state;
+    if (i > last) {
+        return false;
+    }
+    values[0] = u[i];
+    values[x] = gm_grid1_node(grid, i);
+    values[x + 1] = (u[right] - u[left]) / (grid->dx * (double)(right - left));
+    *weight = i == 0 || i == last ? grid->dx / 2 : grid->dx;
+    return true;
+}
+
+#define PROFILES_ROW                                                                                         \
+    GM_CHOICE_ROW(LANE, grid.show, "show", "profiles", profiles_or_frame,                                    \
+                  "the profiles, or the moving frame: a node with its neighbours, and where the frame "      \
+                  "carries them")
+static const char *const profiles_or_frame[] = {"profiles", "frame", NULL};
+static const struct gm_parameter heat_rows[] = {RING(5), FRAME_ROW, PROFILES_ROW};
+#define NO_SYMMETRY "a value is not positive, or the projection does not exist"
+static const struct gm_observable of_heat[] = {
+    GM_LOG_OBSERVABLE("boost_defect", gm_heat_boost_defect, "defect of a step under a boost by 1/2",
+                      .missing = NO_SYMMETRY),
+    GM_LOG_OBSERVABLE("projection_defect", gm_heat_projection_defect,
+                      "defect of a step under a projection by 1/2", .missing = NO_SYMMETRY),
+    GM_LOG_OBSERVABLE("scaling_defect", gm_heat_scaling_defect, "defect of a step under a scaling by 1.3",
+                      .missing = NO_SYMMETRY)};
+static const struct gm_observable heat_errors[] = {
+    GM_LOG_OBSERVABLE("sup_error", gm_heat_error, "largest error, at rest")};
+static const char *const schemes_of_heat[] = {"heat-ftcs", "heat-boosts", "heat-projections", NULL};
+/* A frame of boosts and projections needs the scheme that steps in it. */
+static const struct gm_preference heat_preferences[] = {{"show=frame", {"heat-projections"}}, {NULL, {NULL}}};
+
+/* The boost multiplies the ends by a power of e. */
+static bool is_bounded(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence)
+{
+    const struct gm_heat *of = gm_heat_of(problem);
+    const double lambda = fabs(of->framed.lambda), most = 300;
+    const double power = lambda / (4 * of->diffusivity) *
+                         (2 * half_length_of(lane) + 3 * lambda * fmin(lane->timing.until, 1e6));
+    return power <= most ||
+           gm_refuse(
+               sentence,
+               "the boost multiplies the ends by exp(%.3g), and exp(300) is the most: a smaller lambda, "
+               "half_length or until, or a larger diffusivity",
+               power);
+}
+
+static const struct kind heat = {
+    ROWS(heat_rows),
+    OBSERVABLES(of_heat),
+    ERRORS(heat_errors),
+    EQUATION,
+    .open = open_equation,
+    .preferences = heat_preferences,
+    .equation = GM_NEEDS_HEAT,
+    .graphs = {{"boost_defect"}, {"sup_error", "boost_defect"}},
+    .graph_count = MOST_GRAPHS,
+    .schemes = schemes_of_heat,
+    .admits = is_bounded,
+    .start = start_line,
+    .frame_shown = 1,
+    .draw_frame = gm_heat_draw_frame,
+    .profiles = true,
+    .value = gm_heat_at_rest,
+    .exact = gm_heat_exact_at_rest,
+    .failure = gm_heat_failure,
+    .place = place_between_ends,
+};
+
+/* A grid at rest extends to the front's last position. */
+static bool open_burgers(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
+{
+    const struct gm_user_system *system = &lane->owner->system;
+    const double lambda = gm_frames_number(system, values, "lambda", 0);
+    const double travel =
+        lane->grid.frame == GM_FRAME_MOVING ? 0 : lambda * (lane->timing.until - begin_of(lane));
+    struct gm_grid1 grid = between_ends(lane);
+    const double more = fmin(round(fabs(travel) / grid.dx), MOST_NODES);
+    grid.first += gm_frames_number(system, values, "offset", 0) * grid.dx - (travel < 0 ? more * grid.dx : 0);
+    grid.points += (size_t)more;
+    const bool good = gm_user_equation_open(problem, &owner_of(lane)->equation, values, &grid);
+    if (good) {
+        struct gm_burgers *opened = (struct gm_burgers *)problem->parameters;
+        opened->framed.frame = lane->grid.frame;
+        opened->printed = lane->grid.printed;
+    }
+    return good;
+}
+
+/* Behind the field its companion in the frame at rest. */
+static void start_burgers(const struct gm_problem *problem, double *y)
+{
+    const size_t points = problem->line.points;
+    const double lambda = gm_framed_of(problem)->lambda;
+    start_line(problem, y);
+    for (size_t j = 0; j < points && lambda != 0; j++) {
+        y[points + j] = y[j] - lambda;
+        y[2 * points] = 1;
+    }
+}
+
+static bool is_held(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence)
+{
+    (void)lane;
+    const double nodes = (double)problem->line.points;
+    return nodes <= MOST_NODES ||
+           gm_refuse(
+               sentence,
+               "the grid would need more than %.3g nodes to hold the front until the end; 1e7 is the most",
+               nodes);
+}
+
+static const char *const forms_of_convection[] = {"conservative", "printed", NULL};
+static const struct gm_parameter burgers_rows[] = {
+    RING(5), FRAME_ROW,
+    GM_CHOICE_ROW(LANE, grid.printed, "form", "conservative", forms_of_convection,
+                  "of the convection in ftcs and crank-nicolson: D(u²/2), or u Du as printed"),
+    PROFILES_ROW};
+static const struct gm_observable of_burgers[] = {
+    GM_OBSERVABLE("overshoot", gm_burgers_overshoot, "overshoot"),
+    GM_OBSERVABLE("amplitude", gm_burgers_amplitude, "largest |u − λ|"),
+    GM_OBSERVABLE("compression", gm_burgers_compression, "compression in a step, −Δt D₀u"),
+    GM_LOG_OBSERVABLE("galilean_defect", gm_burgers_galilean_defect, "difference from the run at λ = 0",
+                      .missing = "the run at λ = 0 has failed"),
+    GM_LOG_OBSERVABLE("projection_defect", gm_burgers_projection_defect,
+                      "defect of a step under a projection by 1/2"),
+    GM_LOG_OBSERVABLE("scaling_defect", gm_burgers_scaling_defect,
+                      "defect of a step under a scaling by 1.3")};
+static const struct gm_observable burgers_errors[] = {
+    GM_LOG_OBSERVABLE("sup_error", gm_burgers_sup_error, "largest error"),
+    GM_LOG_OBSERVABLE("l1_error", gm_burgers_l1_error, "mean error, h Σ|e|")};
+static const char *const schemes_of_burgers[] = {"ftcs", "lax-wendroff", "ftcs-invariant", NULL};
+/* A frame needs a scheme that steps in it. */
+static const struct gm_preference burgers_preferences[] = {{"show=frame", {"ftcs-invariant"}},
+                                                           {NULL, {NULL}}};
+
+static const struct kind burgers = {
+    ROWS(burgers_rows),
+    OBSERVABLES(of_burgers),
+    ERRORS(burgers_errors),
+    EQUATION,
+    .open = open_burgers,
+    .preferences = burgers_preferences,
+    .equation = GM_NEEDS_BURGERS,
+    .graphs = {{"amplitude"}, {"sup_error", "galilean_defect"}},
+    .graph_count = MOST_GRAPHS,
+    .schemes = schemes_of_burgers,
+    .admits = is_held,
+    .start = start_burgers,
+    .frame_shown = 1,
+    .draw_frame = gm_burgers_draw_frame,
+    .profiles = true,
+    .value = gm_burgers_at_rest,
+    .exact = gm_burgers_exact_at_rest,
+    .place = place_between_ends,
 };
 
 static bool open_form(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
@@ -861,6 +1026,7 @@ static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4", NULL};
 static const struct kind forms = {
     ROWS(form_rows),
     OBSERVABLES(of_forms),
+    ERRORS(usual_errors),
     .no_walls = "an equation by matrices needs a ring: how a wall reflects its components is not defined",
     .schemes = boxes,
     .graphs = {{"energy_error"}, {"solution_error", "energy_error"}},
@@ -947,7 +1113,7 @@ static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *gr
         const double constant = constant_of(view, c);
         for (size_t i = 0; i < gm_grid1_seen(grid); i += apart) {
             const double x = gm_grid1_node(grid, i), begin = view->state[c * grid->points + i],
-                         exact = gm_user_line_exact(line_of(view), c, x, 0) + constant;
+                         exact = gm_user_line_exact(line_of(view), c, x, line_of(view)->begin) + constant;
             if (!(fabs(exact - begin) <= 1e-3 * largest)) {
                 return gm_refuse(sentence,
                                  "exact: %.60s would begin at %.6g where x = %.6g, and it starts at %.6g",
@@ -1029,7 +1195,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     bool good = kind->open(problem, lane, values) || gm_refuse(sentence, "not enough memory");
     problem->name = lane->owner->scene.name;
     free(values);
-    good = good && check_start(lane, problem, sentence);
+    good = good && (!kind->admits || kind->admits(lane, problem, sentence)) &&
+           check_start(lane, problem, sentence);
     if (!good) {
         kind->close(problem);
     }
@@ -1096,7 +1263,7 @@ static void make_rows(struct user_field *field)
     }
     gm_arena_need(arena, gm_system_make_rows(of_file, timing, common, kind->row_count, false));
     struct gm_parameter *last = &of_file->rows[of_file->row_count - 1];
-    last->lowest = 0.1;
+    last->lowest = 0.01;
     last->highest = 1e5;
     last->logarithmic = true;
     for (size_t i = GM_SYSTEM_ROWS; i < of_file->row_count; i++) {
@@ -1138,18 +1305,10 @@ static struct gm_observable *add(struct user_field *field, struct gm_observable 
 
 static void add_errors(struct user_field *field)
 {
-    static const struct gm_observable on_nodes[] = {GM_MESH_ERRORS},
-                                      errors[] = {GM_LOG_OBSERVABLE("solution_error", solution_error,
-                                                                    "distance from the exact solution"),
-                                                  GM_LOG_OBSERVABLE("modulus_error", modulus_error,
-                                                                    "largest error of |ψ|")};
     const struct gm_system_item *known = gm_system_item_of(&field->of_file.system, GM_WORD_EXACT_WHILE, 0);
-    const bool moves = field->kind == &moving_waves;
-    for (size_t i = 0; moves && i < GM_COUNT(on_nodes); i++) {
-        add(field, on_nodes[i]);
-    }
-    for (size_t i = 0; !moves && i < (field->kind == &schroedinger ? GM_COUNT(errors) : 1); i++) {
-        add(field, errors[i])->missing = known ? known->text : NULL;
+    for (size_t i = 0; i < field->kind->error_count; i++) {
+        struct gm_observable *row = add(field, field->kind->errors[i]);
+        row->missing = known && field->kind != &moving_waves ? known->text : row->missing;
     }
 }
 
@@ -1198,22 +1357,22 @@ static void make_observables(struct user_field *field)
     of_file->terms = gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->terms);
     gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
     of_file->scene.observables = of_file->observables;
-    if (field->kind->profile) { /* laws and symmetries come last */
+    if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
     const struct gm_hook *hook = field->kind == &waves ? of_file->hook : NULL;
     const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
     const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
-    for (size_t i = 0; !field->kind->profile && i < row_count; i++) {
+    for (size_t i = 0; !field->kind->equation && i < row_count; i++) {
         add(field, rows[i]);
     }
     if (field->solved) {
         add_errors(field);
     }
-    for (size_t i = 0; field->kind->profile && i < row_count; i++) {
+    for (size_t i = 0; field->kind->equation && i < row_count; i++) {
         add(field, rows[i]);
     }
-    if (!field->kind->profile) {
+    if (!field->kind->equation) {
         add_densities(field);
     }
     of_file->scene.observable_count = of_file->observable_count;
@@ -1313,6 +1472,23 @@ static bool on_schroedinger(const struct gm_scheme *scheme)
     return is_for(scheme, GM_NEEDS_NLS);
 }
 
+static bool on_heat(const struct gm_scheme *scheme)
+{
+    return is_for(scheme, GM_NEEDS_HEAT);
+}
+
+static bool on_burgers(const struct gm_scheme *scheme)
+{
+    return is_for(scheme, GM_NEEDS_BURGERS);
+}
+
+/* The kinds of equations that are recognised, and the schemes for them alone. */
+static const struct {
+    const struct kind *kind;
+    bool (*is_for)(const struct gm_scheme *scheme);
+} of_equations[] = {
+    {&korteweg, on_korteweg}, {&schroedinger, on_schroedinger}, {&heat, on_heat}, {&burgers, on_burgers}};
+
 size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, size_t *others)
 {
     const struct gm_kind *const of_rates = kind == GM_EVOLUTION ? &gm_kind_field : NULL,
@@ -1321,7 +1497,11 @@ size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, si
     char name[64];
     for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
         const struct gm_scheme *scheme = gm_scheme_find(name);
-        const bool is_there = scheme && scheme->family->kind == there;
+        bool is_there = scheme && scheme->family->kind == there;
+        for (size_t i = 0; scheme && !is_there && i < gm_scheme_count(); i++) { /* kinds may share a name */
+            const struct gm_scheme *other = gm_scheme_at(i);
+            is_there = other->family->kind == there && strcmp(other->name, scheme->name) == 0;
+        }
         count += is_there;
         *others += !is_there;
     }
@@ -1333,8 +1513,11 @@ static void find_range(struct user_field *field, const struct gm_problem *proble
 {
     struct gm_grid1 grid;
     const double *y = gm_arena_keep(field->arena, start_on(field->of_file.initial, problem, &grid), free);
-    const struct gm_view view = {
-        .problem = problem, .scheme = gm_scheme_find(field->of_file.scene.schemes[0]), .state = y};
+    const struct gm_view view = {.problem = problem,
+                                 .scheme = gm_scheme_find(field->of_file.scene.schemes[0]),
+                                 .state = y,
+                                 .t0 = begin_of(field->of_file.initial),
+                                 .t = begin_of(field->of_file.initial)};
     field->low = field->high = field->kind->value(&view, 0);
     for (size_t i = 0; i < grid.points; i++) {
         gm_range_add(&field->low, &field->high, field->kind->value(&view, i));
@@ -1355,11 +1538,8 @@ static bool derive(struct user_field *field)
 {
     switch (field->of_file.system.kind) {
     case GM_EVOLUTION:
-        return field->kind == &evolutions
-                   ? gm_user_evolution_derive(&field->evolution, &field->of_file.system)
-                   : gm_line_derive(&field->formulas, &field->of_file.system) &&
-                         (field->kind != &korteweg || field->solved ||
-                          derive_rate(&field->formulas, &field->of_file.system));
+        return field->kind != &evolutions ||
+               gm_user_evolution_derive(&field->evolution, &field->of_file.system);
     case GM_MATRICES:
         return gm_user_form_derive(&field->form, &field->of_file.system);
     default:
@@ -1384,12 +1564,14 @@ static void make(struct gm_arena *arena, void *data)
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     field->elsewhere = making->elsewhere;
-    gm_arena_need(arena, gm_equation_recognise(system, &field->equation));
-    const char *const equation = field->equation.name ? field->equation.name : "";
-    const bool is_kdv = strcmp(equation, gm_problem_kdv.name) == 0,
-               known = is_kdv || strcmp(equation, gm_problem_nls.name) == 0;
-    const struct kind *const of_equation = is_kdv ? &korteweg : &schroedinger,
-                             *const of_rates = known && making->elsewhere ? of_equation : &evolutions,
+    gm_arena_need(arena, gm_user_equation_derive(&field->equation, system));
+    size_t known = 0;
+    while (known < GM_COUNT(of_equations) && of_equations[known].kind->equation != field->equation.needs) {
+        known++;
+    }
+    const bool is_known = known < GM_COUNT(of_equations);
+    const struct kind *const of_rates =
+                                 is_known && making->elsewhere ? of_equations[known].kind : &evolutions,
                              *const of_matrices = by_matrices ? &forms : of_rates,
                              *const of_potentials = moves ? &moving_waves : &waves,
                              *const kind = in_potential ? of_potentials : of_matrices;
@@ -1422,12 +1604,13 @@ static void make(struct gm_arena *arena, void *data)
         .parameters = of_file->rows,
         .parameter_count = of_file->row_count + of_file->common_count,
         .tracks = moves ? paths : surface,
-        .track_count = 1,
+        .track_count = !kind->profiles,
         .work = &of_file->work,
         .asked = law,
         .asked_count = by_matrices ? GM_COUNT(law) : 0,
         .preferences = kind->preferences,
         .variant = gm_system_variant,
+        .t0 = begin_of,
         .idle = gm_system_idle,
         .settle = settle,
         .setup = setup,
@@ -1443,9 +1626,8 @@ static void make(struct gm_arena *arena, void *data)
         of_file->scene.chosen = note_alpha;
     } else if (in_potential && making->words && !of_file->initial->grid.walls) {
         of_file->scene.elsewhere = on_a_mesh;
-    } else if (known && making->words) {
-        bool (*const of_this)(const struct gm_scheme *scheme) = is_kdv ? on_korteweg : on_schroedinger;
-        of_file->scene.elsewhere = kind == of_equation ? on_rates : of_this;
+    } else if (is_known && making->words) {
+        of_file->scene.elsewhere = kind->equation ? on_rates : of_equations[known].is_for;
     }
     if (!gm_system_open_items(of_file, sentence) || !setup(of_file->initial, &making->problem, sentence)) {
         gm_arena_refuse(arena, "%s", sentence);

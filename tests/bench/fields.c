@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/burgers.h"
 #include "core/field/problems/wave.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"
@@ -17,6 +16,7 @@
 #include "core/schemes.h"
 #include "tests/bench/timing.h"
 #include "tests/common/dispersive_solitons.h"
+#include "tests/common/framed.h"
 #include "tests/common/sine_gordon.h"
 
 enum { REPEATS = 7 };
@@ -150,23 +150,22 @@ static void burgers(size_t points, long steps, double sine)
         "ftcs",           "lax-wendroff",           "crank-nicolson",
         "ftcs-invariant", "lax-wendroff-invariant", "crank-nicolson-invariant"};
     const double dx = 4.0 / (double)(points - 1);
-    const struct gm_burgers front = {.viscosity = dx / 2};
-    struct gm_problem problem = gm_problem_burgers;
-    problem.parameters = &front;
-    problem.line = (struct gm_grid1){.points = points, .dx = dx, .first = -2};
-    problem.n = gm_burgers_size(&front, points);
-    double *y = malloc(problem.n * sizeof *y);
+    const struct burgers_solution front = {.viscosity = dx / 2};
+    struct framed framed;
+    burgers_open(&framed, &front, (struct gm_grid1){.points = points, .dx = dx, .first = -2});
+    double *y = malloc(framed.problem.n * sizeof *y);
     for (size_t j = 0; j < points; j++) {
-        y[j] = gm_burgers_exact(&front, true, gm_grid1_node(&problem.line, j), 0);
+        y[j] = burgers_exact(&front, true, gm_grid1_node(&framed.problem.line, j), 0);
     }
     printf("Burgers, %zu points\n", points);
     for (size_t s = 0; s < 6; s++) {
         char what[48];
         snprintf(what, sizeof what, "  %s", names[s]);
         const bool implicit = s % 3 == 2;
-        tell(what, time_of(&problem, names[s], dx / 4, implicit ? steps / 8 + 1 : steps, y), implicit ? 0 : 4,
-             sine);
+        tell(what, time_of(&framed.problem, names[s], dx / 4, implicit ? steps / 8 + 1 : steps, y),
+             implicit ? 0 : 4, sine);
     }
+    framed_close(&framed);
     free(y);
 }
 

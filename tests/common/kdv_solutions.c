@@ -74,8 +74,8 @@ static double unboosted(const struct kdv_solution *solution, const struct gm_gri
 
 double kdv_exact(const struct kdv_solution *solution, const struct gm_grid1 *grid, double x, double t)
 {
-    return unboosted(solution, grid, x - solution->kdv.lambda * t, t) +
-           solution->kdv.lambda / solution->kdv.eta;
+    return unboosted(solution, grid, x - solution->kdv.framed.lambda * t, t) +
+           solution->kdv.framed.lambda / solution->kdv.eta;
 }
 
 bool kdv_is_known(const struct kdv_solution *solution, const struct gm_grid1 *grid, double t)
@@ -105,7 +105,7 @@ void kdv_levels(const struct gm_problem *problem, double dt, double *y)
 /* The value of u = 0 in the original frame. */
 static double level_of(const struct gm_problem *problem)
 {
-    return gm_kdv_of(problem)->lambda / gm_kdv_of(problem)->eta;
+    return gm_kdv_of(problem)->framed.lambda / gm_kdv_of(problem)->eta;
 }
 
 double kdv_mass(const struct gm_problem *problem, const double *y)

@@ -10,8 +10,8 @@ void gm_random_formula(FILE *out, const char *variables, int depth)
 {
     static const char *const functions[] = {"sqrt", "exp",  "log",  "sin",  "cos",  "tan",
                                             "asin", "acos", "atan", "sinh", "cosh", "tanh",
-                                            "abs",  "min",  "max",  "mod",  "atan2"};
-    enum { FUNCTIONS = GM_COUNT(functions), OF_ONE = 13 };
+                                            "erfc", "abs",  "min",  "max",  "mod",  "atan2"};
+    enum { FUNCTIONS = GM_COUNT(functions), OF_ONE = 14 };
     const int kind = depth == 0 ? rand() % 3 : rand() % 14;
     if (kind < 2) {
         fputc(variables[(size_t)rand() % strlen(variables)], out);

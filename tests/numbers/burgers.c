@@ -21,9 +21,9 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/problems/burgers.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/framed.h"
 #include "tests/numbers/field_runs.h"
 
 struct row {
@@ -172,37 +172,35 @@ static double next_noise(struct trial *trial)
 }
 
 /* The problem of a trial and its start, in y; returns the length of a step. */
-static double begin(struct trial trial, bool fixed, struct gm_burgers *burgers, struct gm_problem *problem,
+static double begin(struct trial trial, bool fixed, struct burgers_solution *burgers, struct framed *framed,
                     double *y)
 {
     const double h = trial.shock ? 0.05 : 0.02, half = trial.shock ? 1 : 2;
-    *burgers = (struct gm_burgers){.test = trial.shock ? GM_BURGERS_SHOCK : GM_BURGERS_FRONT,
-                                   .frame = fixed ? GM_FRAME_FIXED : GM_FRAME_MOVING,
-                                   .printed = true,
-                                   .viscosity = trial.shock ? 0.01 : 0.005,
-                                   .lambda = trial.lambda};
+    *burgers = (struct burgers_solution){.test = trial.shock ? BURGERS_SHOCK : BURGERS_FRONT,
+                                         .frame = fixed ? GM_FRAME_FIXED : GM_FRAME_MOVING,
+                                         .printed = true,
+                                         .viscosity = trial.shock ? 0.01 : 0.005,
+                                         .lambda = trial.lambda};
     const double travel = fixed ? round(trial.lambda / h) : 0;
-    *problem = gm_problem_burgers;
-    problem->parameters = burgers;
-    problem->bound = INFINITY;
-    problem->line = (struct gm_grid1){.points = (size_t)(round(2 * half / h) + travel) + 1,
-                                      .dx = h,
-                                      .first = -half + (trial.shock ? h / 2 : 0)};
-    problem->n = gm_burgers_size(burgers, problem->line.points);
-    for (size_t j = 0; j < problem->line.points; j++) {
-        y[j] = gm_burgers_exact(burgers, true, gm_grid1_node(&problem->line, j), gm_burgers_t0(burgers)) +
+    burgers_open(framed, burgers,
+                 (struct gm_grid1){.points = (size_t)(round(2 * half / h) + travel) + 1,
+                                   .dx = h,
+                                   .first = -half + (trial.shock ? h / 2 : 0)});
+    framed->problem.bound = INFINITY;
+    for (size_t j = 0; j < framed->problem.line.points; j++) {
+        y[j] = burgers_exact(burgers, true, gm_grid1_node(&framed->problem.line, j), burgers_begin(burgers)) +
                next_noise(&trial);
     }
     return trial.shock ? h : h / 2;
 }
 
-static double error_at_end(const struct gm_problem *problem, bool fixed, const double *u)
+static double error_at_end(const struct burgers_solution *burgers, const struct gm_grid1 *line, bool fixed,
+                           const double *u)
 {
     double largest = 0;
-    const double t = gm_burgers_t0(gm_burgers_of(problem)) + 1;
-    for (size_t j = 0; j < problem->line.points; j++) {
+    for (size_t j = 0; j < line->points; j++) {
         const double exact =
-            gm_burgers_exact(gm_burgers_of(problem), fixed, gm_grid1_node(&problem->line, j), t);
+            burgers_exact(burgers, fixed, gm_grid1_node(line, j), burgers_begin(burgers) + 1);
         largest = fmax(largest, fabs(u[j] - exact));
     }
     return largest;
@@ -213,18 +211,18 @@ static double error_at_end(const struct gm_problem *problem, bool fixed, const d
 static double believe_newton(struct trial trial, double *unsolved)
 {
     enum { MOST = 512 };
-    struct gm_burgers burgers;
-    struct gm_problem problem;
+    struct burgers_solution burgers;
+    struct framed framed;
     double u[MOST], v[MOST];
-    const double k = begin(trial, true, &burgers, &problem, u), t0 = gm_burgers_t0(&burgers);
-    const double h = problem.line.dx, nu = burgers.viscosity;
-    const size_t points = problem.line.points;
+    const double k = begin(trial, true, &burgers, &framed, u), t0 = burgers_begin(&burgers);
+    const struct gm_grid1 line = framed.problem.line;
+    const double h = line.dx, nu = burgers.viscosity;
+    const size_t points = line.points;
     *unsolved = 0;
     for (int step = 1; step <= (int)round(1 / k); step++) {
         memcpy(v, u, points * sizeof *v);
-        v[0] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, 0), t0 + step * k);
-        v[points - 1] =
-            gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, points - 1), t0 + step * k);
+        v[0] = burgers_exact(&burgers, true, gm_grid1_node(&line, 0), t0 + step * k);
+        v[points - 1] = burgers_exact(&burgers, true, gm_grid1_node(&line, points - 1), t0 + step * k);
         solve_printed(u, v, points, h, k, nu, 30);
         for (size_t j = 1; j + 1 < points; j++) {
             const double convection = (v[j] * (v[j + 1] - v[j - 1]) + u[j] * (u[j + 1] - u[j - 1])) / (4 * h);
@@ -233,28 +231,31 @@ static double believe_newton(struct trial trial, double *unsolved)
         }
         memcpy(u, v, points * sizeof *u);
     }
-    return error_at_end(&problem, true, u);
+    framed_close(&framed);
+    return error_at_end(&burgers, &line, true, u);
 }
 
 /* The same of the program's invariant scheme, solved, but never said to have blown up. */
 static double run_invariant(struct trial trial)
 {
     enum { MOST = 512 };
-    struct gm_burgers burgers;
-    struct gm_problem problem;
+    struct burgers_solution burgers;
+    struct framed framed;
     double y[2 * MOST + 1];
     const struct gm_settings settings = {0};
-    const double k = begin(trial, false, &burgers, &problem, y), t0 = gm_burgers_t0(&burgers);
-    for (size_t j = 0; trial.lambda != 0 && j < problem.line.points; j++) {
-        y[problem.line.points + j] = y[j] - trial.lambda;
+    const double k = begin(trial, false, &burgers, &framed, y), t0 = burgers_begin(&burgers);
+    const struct gm_problem *problem = &framed.problem;
+    for (size_t j = 0; trial.lambda != 0 && j < problem->line.points; j++) {
+        y[problem->line.points + j] = y[j] - trial.lambda;
     }
-    y[2 * problem.line.points] = 1;
+    y[2 * problem->line.points] = 1;
     struct gm_run *run =
-        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson-invariant", &problem), &settings, t0, k, y);
+        gm_run_open(problem, gm_scheme_find_for("crank-nicolson-invariant", problem), &settings, t0, k, y);
     assert_non_null(run);
     const bool whole = gm_run_until(run, t0 + 1) == GM_OK;
-    const double error = error_at_end(&problem, false, gm_run_state(run));
+    const double error = error_at_end(&burgers, &problem->line, false, gm_run_state(run));
     gm_run_close(run);
+    framed_close(&framed);
     return whole ? error : NAN;
 }
 

@@ -13,6 +13,7 @@
 #include "core/field/families/burgers.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/framed.h"
 #include "tests/common/reference.h"
 
 enum { MOST = 102, STEPS = 10 };
@@ -29,26 +30,26 @@ static void values_agree(void **unused)
         const double lambda = reference_number(c, "lambda");
         const double *start = reference(reference_word(c, 4), points), *end = reference_of(c, "u", points);
         const bool fixed = strcmp(frame, "fixed") == 0, shock = strcmp(test, "shock") == 0;
-        const struct gm_burgers burgers = {
-            .test = shock ? GM_BURGERS_SHOCK : GM_BURGERS_FRONT,
+        const struct burgers_solution burgers = {
+            .test = shock ? BURGERS_SHOCK : BURGERS_FRONT,
             .frame = fixed ? GM_FRAME_FIXED : GM_FRAME_MOVING,
             .printed = strcmp(form, "printed") == 0,
             .viscosity = 0.05,
             .lambda = lambda,
         };
-        struct gm_problem problem = gm_problem_burgers;
-        problem.parameters = &burgers;
-        problem.line = (struct gm_grid1){.points = points, .dx = 0.04, .first = shock ? -1 : -2};
-        problem.n = gm_burgers_size(&burgers, points);
+        struct framed framed;
+        burgers_open(&framed, &burgers,
+                     (struct gm_grid1){.points = points, .dx = 0.04, .first = shock ? -1 : -2});
+        const struct gm_problem *problem = &framed.problem;
         double y[2 * MOST + 1];
         memcpy(y, start, points * sizeof *y);
         for (size_t j = 0; j < points; j++) {
             y[points + j] = start[j] - lambda;
         }
         y[2 * points] = 1;
-        const double t0 = gm_burgers_t0(&burgers);
+        const double t0 = burgers_begin(&burgers);
         struct gm_run *run =
-            gm_run_open(&problem, gm_scheme_find_for(scheme, &problem), &no_settings, t0, 0.008, y);
+            gm_run_open(problem, gm_scheme_find_for(scheme, problem), &no_settings, t0, 0.008, y);
         assert_non_null(run);
         assert_int_equal(gm_run_advance(run, STEPS), GM_OK);
         const double *u = gm_run_state(run);
@@ -56,7 +57,7 @@ static void values_agree(void **unused)
         for (size_t j = 0; j < points; j++) {
             largest = fmax(largest, fabs(end[j]));
             error = fmax(error, fabs(u[j] - end[j]));
-            const double exact = gm_burgers_exact(&burgers, fixed, gm_grid1_node(&problem.line, j), run->t);
+            const double exact = burgers_exact(&burgers, fixed, gm_grid1_node(&problem->line, j), run->t);
             sup = fmax(sup, fabs(u[j] - exact));
             sum += 0.04 * fabs(u[j] - exact);
         }
@@ -68,6 +69,7 @@ static void values_agree(void **unused)
         assert_true(fabs(sup - reference_number(c, "sup_error")) < 1e-9);
         assert_true(fabs(sum - reference_number(c, "l1_error")) < 1e-9);
         gm_run_close(run);
+        framed_close(&framed);
     }
 }
 
@@ -133,40 +135,41 @@ static void every_frame_of_the_family_commutes(void **unused)
         assert_true(gm_burgers_defect(gm_scheme_find("ftcs-family"), &burgers, h, k, &symmetry, x, u) <
                     1e-14);
         /* and its run makes that step */
-        const struct gm_burgers moving = {
+        const struct burgers_solution moving = {
             .frame = GM_FRAME_MOVING, .viscosity = 0.005, .lambda = 0.7, .a = a, .d = d};
-        struct gm_problem problem = gm_problem_burgers;
-        problem.parameters = &moving;
-        problem.line = (struct gm_grid1){.points = 3, .dx = h, .first = -h};
-        problem.n = gm_burgers_size(&moving, 3);
+        struct framed framed;
+        burgers_open(&framed, &moving, (struct gm_grid1){.points = 3, .dx = h, .first = -h});
         const double y[7] = {u[0], u[1], u[2]};
-        struct gm_run *run = gm_run_open(&problem, gm_scheme_find("ftcs-family"), &no_settings, 0, k, y);
+        struct gm_run *run =
+            gm_run_open(&framed.problem, gm_scheme_find("ftcs-family"), &no_settings, 0, k, y);
         assert_int_equal(gm_run_advance(run, 1), GM_OK);
         assert_true(fabs(gm_run_state(run)[1] - family_step(u, h, k, 0.005, numbers, 0.7 * k)) < 1e-15);
         gm_run_close(run);
+        framed_close(&framed);
     }
 }
 
 /* The largest error on a resolved front. */
 static double front_error(const char *scheme, double a, double d, size_t pieces)
 {
-    const struct gm_burgers burgers = {.viscosity = 0.1, .a = a, .d = d};
-    struct gm_problem problem = gm_problem_burgers;
-    problem.parameters = &burgers;
-    problem.line = (struct gm_grid1){.points = pieces + 1, .dx = 4.0 / (double)pieces, .first = -2};
-    problem.n = pieces + 1;
+    const struct burgers_solution burgers = {.viscosity = 0.1, .a = a, .d = d};
+    struct framed framed;
+    burgers_open(&framed, &burgers,
+                 (struct gm_grid1){.points = pieces + 1, .dx = 4.0 / (double)pieces, .first = -2});
+    const struct gm_problem *problem = &framed.problem;
     double y[321], largest = 0;
     for (size_t j = 0; j <= pieces; j++) {
-        y[j] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0);
+        y[j] = burgers_exact(&burgers, true, gm_grid1_node(&problem->line, j), 0);
     }
     struct gm_run *run =
-        gm_run_open(&problem, gm_scheme_find(scheme), &no_settings, 0, 1.28 / (double)(pieces * pieces), y);
+        gm_run_open(problem, gm_scheme_find(scheme), &no_settings, 0, 1.28 / (double)(pieces * pieces), y);
     assert_int_equal(gm_run_until(run, 0.5), GM_OK);
     for (size_t j = 0; j <= pieces; j++) {
-        const double exact = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0.5);
+        const double exact = burgers_exact(&burgers, true, gm_grid1_node(&problem->line, j), 0.5);
         largest = fmax(largest, fabs(gm_run_state(run)[j] - exact));
     }
     gm_run_close(run);
+    framed_close(&framed);
     return largest;
 }
 
@@ -193,43 +196,49 @@ static void one_frame_has_the_second_order(void **unused)
 static void bits_do_not_depend_on_bursts(void **unused)
 {
     (void)unused;
-    const struct gm_burgers burgers = {.frame = GM_FRAME_FIXED, .viscosity = 0.005, .lambda = 0.7};
-    struct gm_problem problem = gm_problem_burgers;
-    problem.parameters = &burgers;
-    problem.line = (struct gm_grid1){.points = 161, .dx = 0.025, .first = -2};
-    problem.n = gm_burgers_size(&burgers, problem.line.points);
-    double *y = malloc(problem.n * sizeof *y);
+    const struct burgers_solution burgers = {.frame = GM_FRAME_FIXED, .viscosity = 0.005, .lambda = 0.7};
+    struct framed framed;
+    burgers_open(&framed, &burgers, (struct gm_grid1){.points = 161, .dx = 0.025, .first = -2});
+    const struct gm_problem *problem = &framed.problem;
+    double *y = malloc(problem->n * sizeof *y);
     for (size_t j = 0; j < 161; j++) {
-        y[j] = gm_burgers_exact(&burgers, true, gm_grid1_node(&problem.line, j), 0);
+        y[j] = burgers_exact(&burgers, true, gm_grid1_node(&problem->line, j), 0);
         y[161 + j] = y[j] - 0.7;
     }
     y[322] = 1;
     struct gm_run *one =
-        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
+        gm_run_open(problem, gm_scheme_find_for("crank-nicolson", problem), &no_settings, 0, 0.01, y);
     struct gm_run *all =
-        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
+        gm_run_open(problem, gm_scheme_find_for("crank-nicolson", problem), &no_settings, 0, 0.01, y);
     assert_int_equal(gm_run_advance(all, 30), GM_OK);
     for (int k = 0; k < 30; k++) {
         assert_int_equal(gm_run_advance(one, 1), GM_OK);
     }
-    assert_memory_equal(gm_run_state(one), gm_run_state(all), problem.n * sizeof *y);
+    assert_memory_equal(gm_run_state(one), gm_run_state(all), problem->n * sizeof *y);
     gm_run_close(one);
     gm_run_close(all);
+    framed_close(&framed);
     free(y);
 }
 
+/* The file's formulas against others, also for no viscosity. */
 static void exact_solutions_survive_extremes(void **unused)
 {
     (void)unused;
-    static const double viscosities[] = {0, 1e-300, 1e-6, 1, 10};
-    for (size_t i = 0; i < 5; i++) {
+    static const double viscosities[] = {0, 1e-300, 1e-6, 1, 10}, lambdas[] = {0, 1e3};
+    for (size_t i = 0; i < 5 * 2; i++) {
         for (int test = 0; test < 2; test++) {
-            const struct gm_burgers burgers = {.test = test, .viscosity = viscosities[i], .lambda = 1e3};
+            const struct burgers_solution burgers = {
+                .test = test, .viscosity = viscosities[i / 2], .lambda = lambdas[i % 2]};
+            struct framed framed;
+            burgers_open(&framed, &burgers, (struct gm_grid1){.points = 3, .dx = 0.1, .first = -0.1});
             for (int k = -10; k <= 10; k++) {
-                assert_true(
-                    fabs(gm_burgers_exact(&burgers, true, k / 10.0 + 1e3, gm_burgers_t0(&burgers) + 1) -
-                         1e3) <= 1);
+                const double x = k / 10.0 + burgers.lambda, t = burgers_begin(&burgers) + 1;
+                const double found = gm_frame_exact(gm_framed_of(&framed.problem), 0, x, t);
+                assert_true(fabs(found - burgers.lambda) <= 1);
+                assert_true(fabs(found - burgers_exact(&burgers, true, x, t)) < 1e-15);
             }
+            framed_close(&framed);
         }
     }
 }

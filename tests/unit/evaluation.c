@@ -68,7 +68,7 @@ static double apply_function(const char *name, double a, double b)
         double (*function)(double);
     } singles[] = {{"sqrt", sqrt}, {"exp", exp},   {"log", log},   {"sin", sin},   {"cos", cos},
                    {"tan", tan},   {"asin", asin}, {"acos", acos}, {"atan", atan}, {"sinh", sinh},
-                   {"cosh", cosh}, {"tanh", tanh}, {"abs", fabs}};
+                   {"cosh", cosh}, {"tanh", tanh}, {"erfc", erfc}, {"abs", fabs}};
     for (size_t i = 0; i < GM_COUNT(singles); i++) {
         if (strcmp(singles[i].name, name) == 0) {
             return singles[i].function(a);

@@ -17,6 +17,7 @@
 #include "core/field/families/heat.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/framed.h"
 
 static const struct gm_settings no_settings;
 static const char *const schemes[] = {"heat-ftcs", "heat-boosts", "heat-projections"};
@@ -62,7 +63,8 @@ static void symmetries_are_flows_of_their_generators(void **unused)
     assert_true(fabs(carried.u - exp(y[2])) < 1e-11);
 }
 
-/* u_t - nu u_xx by differences of the eighth order, of each start, at rest and boosted. */
+/* The file's exact solution of each start, at rest and boosted: against formulas, and u_t - nu u_xx by differences of the
+   eighth order. */
 static void exact_solutions_solve(void **unused)
 {
     (void)unused;
@@ -70,15 +72,24 @@ static void exact_solutions_solve(void **unused)
     static const double second[] = {8. / 5, -1. / 5, 8. / 315, -1. / 560};
     for (int start = 0; start < 3; start++) {
         for (int boosted = 0; boosted < 2; boosted++) {
-            const struct gm_heat heat = {
+            const struct heat_solution heat = {
                 .start = start, .diffusivity = 0.7, .lambda = boosted ? 1.3 : 0, .age = 0.4};
             const double t = 0.3, x = 0.2, h = 0.02;
-            double rate = 0, bend = -205. / 72 * gm_heat_exact(&heat, true, x, t);
+            struct framed framed;
+            heat_open(&framed, &heat, (struct gm_grid1){.points = 3, .dx = 0.1, .first = -0.1});
+            for (int moving = 0; moving < 2; moving++) {
+                const double exact = heat_exact(&heat, !moving, x, t);
+                const double found =
+                    gm_frame_exact(gm_framed_of(&framed.problem), moving ? heat.lambda : 0, x, t);
+                assert_true(fabs(found / exact - 1) < 1e-14);
+            }
+            framed_close(&framed);
+            double rate = 0, bend = -205. / 72 * heat_exact(&heat, true, x, t);
             for (int k = 1; k <= 4; k++) {
                 rate += first[k - 1] *
-                        (gm_heat_exact(&heat, true, x, t + k * h) - gm_heat_exact(&heat, true, x, t - k * h));
+                        (heat_exact(&heat, true, x, t + k * h) - heat_exact(&heat, true, x, t - k * h));
                 bend += second[k - 1] *
-                        (gm_heat_exact(&heat, true, x + k * h, t) + gm_heat_exact(&heat, true, x - k * h, t));
+                        (heat_exact(&heat, true, x + k * h, t) + heat_exact(&heat, true, x - k * h, t));
             }
             assert_true(fabs(rate / h - heat.diffusivity * bend / (h * h)) < 1e-9);
         }
@@ -115,19 +126,19 @@ static void steps_are_made_in_the_moving_frame(void **unused)
             flow(true, nu, -projection, middle);
             flow(false, nu, -boost, middle);
 
-            const struct gm_heat heat = {
+            const struct heat_solution heat = {
                 .frame = GM_FRAME_MOVING, .diffusivity = nu, .lambda = moving * 0.02 / k, .age = 1};
-            struct gm_problem problem = gm_problem_heat;
-            problem.parameters = &heat;
-            problem.line = (struct gm_grid1){.points = 3, .dx = h, .first = -h};
-            problem.n = 3;
-            struct gm_run *run = gm_run_open(&problem, gm_scheme_find(schemes[s]), &no_settings, 0, k, u);
+            struct framed framed;
+            heat_open(&framed, &heat, (struct gm_grid1){.points = 3, .dx = h, .first = -h});
+            struct gm_run *run =
+                gm_run_open(&framed.problem, gm_scheme_find(schemes[s]), &no_settings, 0, k, u);
             assert_int_equal(gm_run_advance(run, 1), GM_OK);
             const double error = fabs(gm_run_state(run)[1] / exp(middle[2]) - 1);
             if (!(error < 1e-12)) {
                 fail_msg("%s: error %.2e", schemes[s], error);
             }
             gm_run_close(run);
+            framed_close(&framed);
         }
     }
 }
@@ -135,28 +146,30 @@ static void steps_are_made_in_the_moving_frame(void **unused)
 enum { MOST = 481 };
 
 /* The field at `until` as the original frame sees it, and its largest error. */
-static double run_to(const char *scheme, const struct gm_heat *heat, double half, size_t points, double dt,
-                     double until, double *u)
+static double run_to(const char *scheme, const struct heat_solution *heat, double half, size_t points,
+                     double dt, double until, double *u)
 {
-    struct gm_problem problem = gm_problem_heat;
-    problem.parameters = heat;
-    problem.line = (struct gm_grid1){.points = points, .dx = 2 * half / (double)(points - 1), .first = -half};
-    problem.n = points;
+    struct framed framed;
+    heat_open(&framed, heat,
+              (struct gm_grid1){.points = points, .dx = 2 * half / (double)(points - 1), .first = -half});
+    const struct gm_problem *problem = &framed.problem;
     double y[MOST], largest = 0;
     for (size_t j = 0; j < points; j++) {
-        y[j] = gm_heat_exact(heat, true, gm_grid1_node(&problem.line, j), 0);
+        y[j] = heat_exact(heat, true, gm_grid1_node(&problem->line, j), 0);
     }
     const struct gm_scheme *found = gm_scheme_find(scheme);
-    struct gm_run *run = gm_run_open(&problem, found, &no_settings, 0, dt, y);
+    struct gm_run *run = gm_run_open(problem, found, &no_settings, 0, dt, y);
     assert_non_null(run);
     assert_int_equal(gm_run_until(run, until), GM_OK);
-    const bool fixed = gm_heat_fixed(heat, found);
+    const bool fixed = gm_frame_rests(gm_framed_of(problem), found);
     for (size_t j = 0; j < points; j++) {
-        const double x = gm_grid1_node(&problem.line, j), factor = gm_heat_factor(heat, fixed, x, until);
+        const double x = gm_grid1_node(&problem->line, j),
+                     factor = gm_heat_factor(gm_heat_of(problem), fixed, x, until);
         u[j] = gm_run_state(run)[j] / factor;
-        largest = fmax(largest, fabs(u[j] - gm_heat_exact(heat, fixed, x, until) / factor));
+        largest = fmax(largest, fabs(u[j] - heat_exact(heat, fixed, x, until) / factor));
     }
     gm_run_close(run);
+    framed_close(&framed);
     return largest;
 }
 
@@ -166,7 +179,7 @@ static void profiles_do_not_depend_on_the_frame(void **unused)
 {
     (void)unused;
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
-        struct gm_heat heat = {.start = GM_HEAT_TWO, .diffusivity = 1, .age = 0.25};
+        struct heat_solution heat = {.start = HEAT_TWO, .diffusivity = 1, .age = 0.25};
         double at_rest[MOST], boosted[MOST];
         const double error = run_to(schemes[s], &heat, 6, 121, 0.0025, 0.5, at_rest);
         heat.lambda = 6;
@@ -185,7 +198,7 @@ static void order(void **unused)
 {
     (void)unused;
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
-        const struct gm_heat heat = {.start = GM_HEAT_TWO, .diffusivity = 1, .age = 0.25};
+        const struct heat_solution heat = {.start = HEAT_TWO, .diffusivity = 1, .age = 0.25};
         double u[MOST], error[3];
         for (int k = 0; k < 3; k++) {
             error[k] = run_to(schemes[s], &heat, 6, (60u << k) + 1, ldexp(0.01, -2 * k), 0.5, u);
@@ -203,7 +216,7 @@ static void order(void **unused)
 static void projections_solve_a_kernel_exactly(void **unused)
 {
     (void)unused;
-    const struct gm_heat heat = {.start = GM_HEAT_KERNEL, .diffusivity = 1, .age = 0.25};
+    const struct heat_solution heat = {.start = HEAT_KERNEL, .diffusivity = 1, .age = 0.25};
     double u[MOST];
     assert_true(run_to("heat-projections", &heat, 6, 121, 0.0025, 0.5, u) < 1e-14);
     assert_true(run_to("heat-boosts", &heat, 6, 121, 0.0025, 0.5, u) > 1e-4);
@@ -216,24 +229,24 @@ static void groups_are_kept_or_not(void **unused)
     (void)unused;
     static const struct gm_heat_symmetry symmetries[] = {
         {.scale = 1.3}, {.boost = 0.5, .scale = 1}, {.projection = 0.5, .scale = 1}};
-    const struct gm_heat heat = {.start = GM_HEAT_TWO, .diffusivity = 1, .age = 0.25};
-    struct gm_problem problem = gm_problem_heat;
-    problem.parameters = &heat;
-    problem.line = (struct gm_grid1){.points = 81, .dx = 0.1, .first = -4};
+    const struct heat_solution heat = {.start = HEAT_TWO, .diffusivity = 1, .age = 0.25};
+    struct framed framed;
+    heat_open(&framed, &heat, (struct gm_grid1){.points = 81, .dx = 0.1, .first = -4});
     double u[81];
     for (size_t j = 0; j < 81; j++) {
-        u[j] = gm_heat_exact(&heat, true, gm_grid1_node(&problem.line, j), 0.1);
+        u[j] = heat_exact(&heat, true, gm_grid1_node(&framed.problem.line, j), 0.1);
     }
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
         const struct gm_scheme *scheme = gm_scheme_find(schemes[s]);
         for (size_t g = 0; g < GM_COUNT(symmetries); g++) {
-            const double defect = gm_heat_defect(&problem, scheme, 0.0025, &symmetries[g], u);
+            const double defect = gm_heat_defect(&framed.problem, scheme, 0.0025, &symmetries[g], u);
             const bool kept = gm_heat_keeps(scheme) >> g & 1;
             if (kept ? !(defect < 1e-13) : !(defect > 1e-6)) {
                 fail_msg("%s, group %zu: defect %.2e", schemes[s], g, defect);
             }
         }
     }
+    framed_close(&framed);
 }
 
 int main(void)

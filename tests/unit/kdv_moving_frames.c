@@ -44,7 +44,7 @@ static enum gm_status after(const struct gm_problem *problem, const char *scheme
     assert_non_null(run);
     const enum gm_status status = gm_run_until(run, until);
     for (size_t j = 0; j < POINTS; j++) {
-        u[j] = gm_run_state(run)[j] - kdv->lambda / kdv->eta;
+        u[j] = gm_run_state(run)[j] - kdv->framed.lambda / kdv->eta;
     }
     gm_run_close(run);
     return status;
@@ -59,7 +59,7 @@ static void symmetries_are_those_of_the_equation(void **unused)
                                      .kdv.mu = 0.7,
                                      .velocity = 0.8,
                                      .position = -1,
-                                     .kdv.lambda = 0.6};
+                                     .kdv.framed.lambda = 0.6};
     const struct gm_problem problem = ring(&kdv, 1);
     const double h = 0.02, x = 1.3, t = 0.9;
     double value[7], rate = 0;
@@ -86,7 +86,7 @@ static void symmetries_are_those_of_the_equation(void **unused)
     struct kdv_solution other = kdv;
     other.velocity = kdv.velocity / (s * s);
     other.position = s * kdv.position;
-    other.kdv.lambda = (kdv.kdv.lambda + symmetry.boost) / (s * s);
+    other.kdv.framed.lambda = (kdv.kdv.framed.lambda + symmetry.boost) / (s * s);
     const struct gm_problem wide = ring(&other, s);
     assert_true(fabs(carried.u - kdv_exact(&other, &wide.line, carried.x, carried.t)) < 1e-13);
 }
@@ -96,8 +96,11 @@ static void symmetries_are_those_of_the_equation(void **unused)
 static void leapfrog_is_made_in_its_frames(void **unused)
 {
     (void)unused;
-    const struct kdv_solution kdv = {
-        .initial = KDV_TWO, .kdv.eta = 1.3, .kdv.mu = 0.6, .kdv.lambda = 0.7, .kdv.frame = GM_FRAME_MOVING};
+    const struct kdv_solution kdv = {.initial = KDV_TWO,
+                                     .kdv.eta = 1.3,
+                                     .kdv.mu = 0.6,
+                                     .kdv.framed.lambda = 0.7,
+                                     .kdv.framed.frame = GM_FRAME_MOVING};
     const struct gm_problem problem = ring(&kdv, 1);
     const double dt = 0.002, h = problem.line.dx;
     double y[2 * POINTS + 1];
@@ -121,14 +124,15 @@ static void leapfrog_is_made_in_its_frames(void **unused)
             u[i] = gm_kdv_carried(&kdv.kdv, &frame, event).u;
         }
         assert_true(fabs(u[1] + u[2] + u[3]) < 1e-14); /* the cross-section */
-        const struct gm_event past = gm_kdv_carried(
-            &kdv.kdv, &frame, (struct gm_event){.t = -dt, .x = -kdv.kdv.lambda * dt, .u = y[POINTS + j]});
+        const struct gm_event past =
+            gm_kdv_carried(&kdv.kdv, &frame,
+                           (struct gm_event){.t = -dt, .x = -kdv.kdv.framed.lambda * dt, .u = y[POINTS + j]});
         /* du/dt along the way from -x to x is u_t + (x/dt) u_x */
         const double along = -past.x / dt * (u[3] - u[1]) / (2 * h);
         const double dispersion = kdv.kdv.mu * (u[4] - 2 * u[3] + 2 * u[1] - u[0]) / (2 * h * h * h);
         const struct gm_event next = {.t = dt, .x = -past.x, .u = past.u + 2 * dt * (along - dispersion)};
         const struct gm_event arrived = gm_kdv_carried(&kdv.kdv, &back, next);
-        assert_true(fabs(arrived.x - kdv.kdv.lambda * dt) < 1e-15);
+        assert_true(fabs(arrived.x - kdv.kdv.framed.lambda * dt) < 1e-15);
         assert_true(fabs(arrived.u - gm_run_state(run)[j]) < 1e-13);
     }
     gm_run_close(run);
@@ -154,8 +158,8 @@ static void projections_solve_their_equations(void **unused)
     const struct kdv_solution kdv = {.initial = KDV_SOLITON,
                                      .kdv.eta = 1.3,
                                      .kdv.mu = 0.6,
-                                     .kdv.lambda = -0.9,
-                                     .kdv.frame = GM_FRAME_MOVING};
+                                     .kdv.framed.lambda = -0.9,
+                                     .kdv.framed.frame = GM_FRAME_MOVING};
     const struct gm_problem problem = ring(&kdv, 1);
     const double dt = 0.3, h = problem.line.dx, half = kdv.kdv.mu * dt / 2;
     double y[2 * POINTS + 1], boosts[POINTS], rest[POINTS];
@@ -180,7 +184,7 @@ static void projections_solve_their_equations(void **unused)
                 continue;
             }
             /* the frame's boost is -eta w, and where the node arrives in it, it left */
-            const double left = (double)j + (kdv.kdv.lambda + boosts[j]) * dt / h;
+            const double left = (double)j + (kdv.kdv.framed.lambda + boosts[j]) * dt / h;
             const double below = floor(left) - 2;
             double there[6], value[6];
             for (int i = 0; i < 6; i++) {
@@ -215,7 +219,7 @@ static void runs_do_not_depend_on_the_frame(void **unused)
         assert_true(error < 0.05);
         static const double velocities[] = {-3, 0.7, 5};
         for (size_t i = 0; i < GM_COUNT(velocities); i++) {
-            kdv.kdv.lambda = velocities[i];
+            kdv.kdv.framed.lambda = velocities[i];
             assert_int_equal(after(&problem, schemes[s], dt, 4, moving), GM_OK);
             for (size_t j = 0; j < POINTS; j++) {
                 assert_true(fabs(moving[j] - rest[j]) < 1e-12);
@@ -223,7 +227,7 @@ static void runs_do_not_depend_on_the_frame(void **unused)
         }
         const double scale = 1.3;
         struct kdv_solution wide = kdv;
-        wide.kdv.lambda = 0;
+        wide.kdv.framed.lambda = 0;
         wide.velocity /= scale * scale;
         wide.position *= scale;
         const struct gm_problem scaled = ring(&wide, scale);
@@ -239,7 +243,7 @@ static void runs_do_not_depend_on_the_frame(void **unused)
     struct gm_problem problem = ring(&kdv, 1);
     double rest[POINTS], moving[POINTS], apart = 0;
     assert_int_equal(after(&problem, "zabusky-kruskal", 0.002, 4, rest), GM_OK);
-    kdv.kdv.lambda = 2;
+    kdv.kdv.framed.lambda = 2;
     assert_int_equal(after(&problem, "zabusky-kruskal", 0.002, 4, moving), GM_OK);
     for (size_t j = 0; j < POINTS; j++) {
         apart = fmax(apart, fabs(moving[(j + 40) % POINTS] - rest[j]));

@@ -182,12 +182,14 @@ static void the_korteweg_scene_has_the_known_solutions(void **unused)
     } cases[] = {
         {"initial=soliton", {{.eta = 1, .mu = 1}, KDV_SOLITON, 1, -5}},
         {"initial=soliton eta=1.5 mu=0.7 velocity=0.8 position=2 lambda=1.2 frame=fixed",
-         {{.eta = 1.5, .mu = 0.7, .lambda = 1.2}, KDV_SOLITON, 0.8, 2}},
+         {{.eta = 1.5, .mu = 0.7, .framed.lambda = 1.2}, KDV_SOLITON, 0.8, 2}},
         {"initial=soliton half_length=3", {{.eta = 1, .mu = 1}, KDV_SOLITON, 1, -5}},
         {"dt=0.05", {{.eta = 1, .mu = 1}, KDV_TWO, 1, -5}},
-        {"eta=2 mu=0.5 half_length=40 lambda=-0.5", {{.eta = 2, .mu = 0.5, .lambda = -0.5}, KDV_TWO, 1, -5}},
+        {"eta=2 mu=0.5 half_length=40 lambda=-0.5",
+         {{.eta = 2, .mu = 0.5, .framed.lambda = -0.5}, KDV_TWO, 1, -5}},
         {"initial=cosine", {{.eta = 1, .mu = 0.022 * 0.022}, KDV_COSINE, 1, -5}},
-        {"initial=cosine lambda=0.3 mu=1e-3", {{.eta = 1, .mu = 1e-3, .lambda = 0.3}, KDV_COSINE, 1, -5}},
+        {"initial=cosine lambda=0.3 mu=1e-3",
+         {{.eta = 1, .mu = 1e-3, .framed.lambda = 0.3}, KDV_COSINE, 1, -5}},
     };
     for (size_t i = 0; i < GM_COUNT(cases); i++) {
         char words[200];

@@ -18,6 +18,7 @@
 #include "core/field/families/laws/wave.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/wave.h"
+#include "core/field/user/equation.h"
 #include "core/field/user/form.h"
 #include "core/files/files.h"
 #include "core/model/equations.h"
@@ -67,7 +68,7 @@ static void exact_breather(const struct gm_problem *problem, double x, double t,
 /* A soliton of velocity 1. */
 static void exact_kdv(const struct gm_problem *problem, double x, double t, double *values)
 {
-    const double lambda = gm_kdv_of(problem)->lambda,
+    const double lambda = gm_kdv_of(problem)->framed.lambda,
                  period = problem->line.dx * (double)problem->line.points;
     const double along = x - (1 + lambda) * t, away = along - period * floor(along / period + 0.5);
     values[0] = 3 / (cosh(away / 2) * cosh(away / 2)) + lambda;
@@ -87,7 +88,7 @@ static double kdv_mass(const struct gm_problem *problem, const double *y)
     const struct gm_kdv *kdv = gm_kdv_of(problem);
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        sum += y[i] - kdv->lambda / kdv->eta;
+        sum += y[i] - kdv->framed.lambda / kdv->eta;
     }
     return problem->line.dx * sum;
 }
@@ -109,20 +110,16 @@ static void exact_of_file(const struct gm_problem *problem, double x, double t, 
     }
 }
 
-static void exact_burgers(const struct gm_problem *problem, double x, double t, double *values)
+/* On nodes that move with their frame. */
+static void exact_in_frame(const struct gm_problem *problem, double x, double t, double *values)
 {
-    values[0] = gm_burgers_exact(gm_burgers_of(problem), false, x, t);
-}
-
-static void exact_heat(const struct gm_problem *problem, double x, double t, double *values)
-{
-    values[0] = gm_heat_exact(gm_heat_of(problem), false, x, t);
+    values[0] = gm_frame_exact(gm_framed_of(problem), gm_framed_of(problem)->lambda, x, t);
 }
 
 /* Frames of reference: the same solution from a moving one, the value at node i that the original frame
    sees of a run, and the defect of one step under a symmetry, NaN without one. */
 struct frames {
-    const void *parameters;
+    const void *parameters; /* of an equation without a file */
     double (*seen)(const struct gm_run *run, size_t i);
     double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                      const double *y);
@@ -133,8 +130,9 @@ static double seen_kdv(const struct gm_run *run, size_t i)
 {
     const struct gm_kdv *kdv = gm_kdv_of(run->problem);
     const struct gm_grid1 *line = &run->problem->line;
-    const long travelled = gm_kdv_fixed(kdv, run->scheme) ? lround(kdv->lambda * run->t / line->dx) : 0;
-    return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->lambda / kdv->eta;
+    const long travelled =
+        gm_frame_rests(&kdv->framed, run->scheme) ? lround(kdv->framed.lambda * run->t / line->dx) : 0;
+    return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->framed.lambda / kdv->eta;
 }
 
 static double defect_kdv(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
@@ -146,7 +144,7 @@ static double defect_kdv(const struct gm_problem *problem, const struct gm_schem
 
 static double seen_burgers(const struct gm_run *run, size_t i)
 {
-    return gm_run_state(run)[i] - gm_burgers_of(run->problem)->lambda;
+    return gm_run_state(run)[i] - gm_framed_of(run->problem)->lambda;
 }
 
 /* Three nodes do not determine an implicit step: its claim is of boosts alone. */
@@ -200,7 +198,9 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
    measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
     const struct gm_problem *problem;
-    const char *file; /* file of share/subjects with a multisymplectic form, instead of `problem` */
+    const char
+        *file; /* instead of `problem`: of share/subjects with a multisymplectic form, or of share/systems */
+    struct gm_system_value given[3]; /* of its values; its frame moves with the velocity lambda = 2 */
     const void *parameters;
     void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
     size_t numbers; /* numbers of the exact solution at a node; 0: one, with two levels in the state */
@@ -224,16 +224,13 @@ struct equation {
     .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
     .kept = kdv_mass, .frames = &(const struct frames)                                                       \
     {                                                                                                        \
-        &(const struct gm_kdv){KDV_SOLITON, .lambda = 2}, seen_kdv, defect_kdv                               \
+        &(const struct gm_kdv){KDV_SOLITON, .framed.lambda = 2}, seen_kdv, defect_kdv                        \
     }
 
 #define NLS                                                                                                  \
     .problem = &gm_problem_nls, .parameters = &(const struct gm_nls){.k = 1}, .exact = exact_nls,            \
     .numbers = 2, .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1,                       \
     .claim = GM_KEEPS_QUADRATIC, .kept = nls_charge
-
-#define FRONT .frame = GM_FRAME_MOVING, .viscosity = 0.1, .a = -0.3, .d = 0.2
-#define KERNELS .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .age = 0.25
 
 /* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring
    that the breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by
@@ -255,23 +252,21 @@ static const struct equation equations[] = {
      .dt = 0.05,
      .until = 4,
      .power = 1},
-    {.problem = &gm_problem_burgers,
-     .parameters = &(const struct gm_burgers){FRONT},
-     .exact = exact_burgers,
+    {.file = "burgers",
+     .given = {{"viscosity", "0.1"}, {"a", "-0.3"}, {"d", "0.2"}},
+     .exact = exact_in_frame,
      .numbers = 1,
      .line = {.points = 81, .dx = 0.05, .first = -2},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){&(const struct gm_burgers){FRONT, .lambda = 2}, seen_burgers,
-                                      defect_burgers}},
-    {.problem = &gm_problem_heat,
-     .parameters = &(const struct gm_heat){KERNELS},
-     .exact = exact_heat,
+     .frames = &(const struct frames){.seen = seen_burgers, .defect = defect_burgers}},
+    {.file = "heat",
+     .exact = exact_in_frame,
      .numbers = 1,
      .line = {.points = 81, .dx = 0.1, .first = -4},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){&(const struct gm_heat){KERNELS, .lambda = 2}, seen_heat, defect_heat}},
+     .frames = &(const struct frames){.seen = seen_heat, .defect = defect_heat}},
 };
 
 /* The problem of an equation with these parameters, on a grid that is twice as fine `finer` times. */
@@ -406,25 +401,63 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
     note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
 }
 
-/* The equation of a file. */
+/* The equation of a file, and the same from a moving frame. */
 struct read {
     struct gm_user_system system;
     struct gm_user_form form;
-    struct gm_problem problem;
+    struct gm_user_equation equation;
+    struct gm_problem problem, moving;
+    struct frames frames;
 };
+
+/* Opens an equation with frames, at rest or moving. */
+static bool open_framed(const struct read *read, const struct equation *equation, const char *lambda,
+                        struct gm_problem *problem)
+{
+    const struct gm_user_system *system = &read->system;
+    double *given = malloc(system->variable_count * sizeof *given);
+    for (size_t i = 0; given && i < system->variable_count; i++) {
+        const struct gm_system_value set[] = {
+            equation->given[0], equation->given[1], equation->given[2], {"lambda", lambda}};
+        given[i] = NAN;
+        for (size_t k = 0; k < GM_COUNT(set); k++) {
+            const bool is = set[k].name && strcmp(set[k].name, system->variables[i].name) == 0;
+            given[i] = is ? strtod(set[k].text, NULL) : given[i];
+        }
+    }
+    double *values = given ? gm_equations_start(system, given) : NULL;
+    const bool good = values && gm_user_equation_open(problem, &read->equation, values, &equation->line);
+    if (good) {
+        ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
+    }
+    free(given);
+    free(values);
+    return good;
+}
 
 /* Returns false when out of memory; the caller closes it in both cases. */
 static bool open_file(struct read *read, struct equation *equation)
 {
-    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, equation->file);
+    const bool framed = equation->frames != NULL;
+    const struct gm_built_in *file =
+        gm_built_in_find(framed ? GM_FILE_SYSTEM : GM_FILE_SUBJECT, equation->file);
     struct gm_fault fault;
     double *values = NULL;
-    const bool good = gm_equations_open(&read->system, file->text, file->length, NULL, 0, &fault) &&
-                      gm_user_form_derive(&read->form, &read->system) &&
-                      (values = gm_equations_start(&read->system, NULL)) != NULL &&
-                      gm_user_form_open(&read->problem, &read->form, values, &equation->line);
+    bool good = gm_equations_open(&read->system, file->text, file->length, NULL, 0, &fault);
+    if (framed) {
+        good = good && gm_user_equation_derive(&read->equation, &read->system) &&
+               open_framed(read, equation, "0", &read->problem) &&
+               open_framed(read, equation, "2", &read->moving);
+        read->frames = *equation->frames;
+        read->frames.parameters = read->moving.parameters;
+        equation->frames = &read->frames;
+    } else {
+        good = good && gm_user_form_derive(&read->form, &read->system) &&
+               (values = gm_equations_start(&read->system, NULL)) != NULL &&
+               gm_user_form_open(&read->problem, &read->form, values, &equation->line);
+        read->problem.name = file->title;
+    }
     free(values);
-    read->problem.name = file->title;
     equation->problem = &read->problem;
     equation->parameters = read->problem.parameters;
     return good;
@@ -446,7 +479,12 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
             measured = equation.problem;
             measure(certificate, &equation, &farthest);
         }
-        gm_user_form_close(&read.problem);
+        if (equation.file && equation.frames) {
+            gm_user_equation_close(&read.problem);
+            gm_user_equation_close(&read.moving);
+        } else {
+            gm_user_form_close(&read.problem);
+        }
         gm_system_close(&read.system);
     }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;

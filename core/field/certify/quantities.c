@@ -2,43 +2,27 @@
 /* A state of a field on a line by names. */
 #include <stdio.h>
 
-#include "core/field/families/burgers.h"
-#include "core/field/families/heat.h"
-#include "core/field/families/kdv_moving_frames.h"
-#include "core/field/problems/burgers.h"
+#include "core/field/problems/moving_frames.h"
 #include "core/quantity.h"
 #include "core/run.h"
 
-/* The velocity of the frame that an equation is seen from, and since when; false where its nodes do not
-   move. */
-static bool find_frame(const struct gm_run *run, double *lambda, double *t0)
+/* Returns the velocity of nodes that move with their frame of reference; 0 if they do not. */
+static double speed_of(const struct gm_run *run)
 {
-    const struct gm_problem *problem = run->problem;
-    *t0 = 0;
-    switch (gm_field_of(problem)->equation) {
-    case GM_NEEDS_HEAT:
-        *lambda = gm_heat_of(problem)->lambda;
-        return *lambda != 0 && !gm_heat_fixed(gm_heat_of(problem), run->scheme);
-    case GM_NEEDS_KDV:
-        *lambda = gm_kdv_of(problem)->lambda;
-        return *lambda != 0 && !gm_kdv_fixed(gm_kdv_of(problem), run->scheme);
-    case GM_NEEDS_BURGERS:
-        *lambda = gm_burgers_of(problem)->lambda;
-        *t0 = gm_burgers_t0(gm_burgers_of(problem));
-        return *lambda != 0 && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
-    default:
-        return false;
-    }
+    const unsigned framed = GM_NEEDS_HEAT | GM_NEEDS_KDV | GM_NEEDS_BURGERS;
+    const bool has_frames = (gm_field_of(run->problem)->equation & framed) != 0;
+    return has_frames && !gm_frame_rests(gm_framed_of(run->problem), run->scheme)
+               ? gm_framed_of(run->problem)->lambda
+               : 0;
 }
 
 /* The current places of nodes that move with a frame. */
 static void places(const struct gm_run *run, double *values)
 {
-    double lambda = 0, t0 = 0;
-    find_frame(run, &lambda, &t0);
+    const double travelled = speed_of(run) * (run->t - gm_framed_of(run->problem)->line.begin);
     gm_quantity_grid(run).derive(run, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
-        values[i] += lambda * (run->t - t0);
+        values[i] += travelled;
     }
 }
 
@@ -59,11 +43,10 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
     const struct gm_field *field = gm_field_of(problem);
     const size_t points = problem->line.points, seen = gm_grid1_seen(&problem->line);
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
-    const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
+    const bool companion = burgers && gm_framed_of(problem)->lambda != 0;
     struct gm_quantity *end = quantities + 1;
-    double lambda = 0, t0 = 0;
     *quantities = gm_quantity_grid(run);
-    if (find_frame(run, &lambda, &t0)) {
+    if (speed_of(run) != 0) {
         snprintf(quantities->name, sizeof quantities->name, "x");
         quantities->fixed = false;
         quantities->derive = places;

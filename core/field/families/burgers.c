@@ -267,34 +267,34 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
     return outside == 0;
 }
 
-bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme)
-{
-    const struct gm_burgers_row *row = scheme->coefficients;
-    return gm_frame_rests(burgers->frame, row->invariant);
-}
+/* A level and its other half, and what its ends hold after the next steps. */
+struct run {
+    double **level, *scratch;
+    double lambda, speed, shift; /* of the frame and of its nodes; what the exact values are larger by */
+    double ends[2 * GM_ENDS_BLOCK];
+};
 
-/* One step of a level to its other half, with the exact values at both ends. */
-static enum gm_status make_step(const struct gm_task *task, const struct gm_burgers *burgers,
-                                double *level[2], double *scratch, double t, struct gm_progress *progress)
+/* One step of a level to its other half, number `made` of `some`, with the exact values at both ends. */
+static enum gm_status make_step(const struct gm_task *task, struct run *run, size_t made, size_t some,
+                                struct gm_progress *progress)
 {
     const struct gm_burgers_row *row = task->scheme->coefficients;
     const struct gm_grid1 *grid = &task->problem->line;
-    const size_t last = grid->points - 1;
-    const bool fixed = gm_burgers_fixed(burgers, task->scheme);
+    double **level = run->level;
     const struct gm_burgers_step step = {
-        .burgers = burgers,
+        .burgers = gm_burgers_of(task->problem),
         .points = grid->points,
         .h = grid->dx,
         .k = task->dt,
-        .sigma = fixed ? 0 : burgers->lambda * task->dt,
+        .sigma = run->speed * task->dt,
         .u = level[0],
         .out = level[1],
-        .scratch = scratch,
+        .scratch = run->scratch,
     };
-    level[1][0] = gm_burgers_exact(burgers, fixed, gm_grid1_node(grid, 0), t);
-    level[1][last] = gm_burgers_exact(burgers, fixed, gm_grid1_node(grid, last), t);
+    level[1][0] = run->ends[made] - run->shift;
+    level[1][grid->points - 1] = run->ends[some + made] - run->shift;
     enum gm_status status = row->method(&step, progress);
-    if (status == GM_OK && !within(level[1], grid->points, burgers->lambda, task->limit)) {
+    if (status == GM_OK && !within(level[1], grid->points, run->lambda, task->limit)) {
         status = GM_BLOW_UP;
     }
     if (status == GM_OK) {
@@ -308,26 +308,34 @@ static enum gm_status make_step(const struct gm_task *task, const struct gm_burg
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct work *work = task->workspace;
-    const struct gm_burgers *burgers = gm_burgers_of(task->problem);
+    const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t points = work->points, size = points * sizeof(double);
-    struct gm_burgers at_rest = *burgers;
-    at_rest.lambda = 0;
-    const bool has_companion = burgers->lambda != 0;
+    const double lambda = framed->lambda, speed = gm_frame_rests(framed, task->scheme) ? 0 : lambda;
+    struct run run = {.level = work->level, .scratch = work->scratch, .lambda = lambda, .speed = speed};
+    struct run companion = {.level = work->companion, .scratch = work->scratch, .shift = lambda};
+    const bool has_companion = lambda != 0;
     bool accompanied = has_companion && task->y[2 * points] != 0;
     struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
+    size_t made = 0, some = 0;
     memcpy(work->level[0], task->y, size);
     if (has_companion) {
         memcpy(work->companion[0], task->y + points, size);
     }
-    for (int64_t k = 0; k < task->steps; k++) {
-        const double t = task->t0 + (double)(task->n + k + 1) * task->dt;
-        progress.status = make_step(task, burgers, work->level, work->scratch, t, &progress);
+    for (int64_t k = 0; k < task->steps; k++, made++) {
+        if (made == some) {
+            made = 0;
+            some = task->steps - k < GM_ENDS_BLOCK ? (size_t)(task->steps - k) : GM_ENDS_BLOCK;
+            gm_frame_ends(task, speed, k, some, run.ends);
+            if (accompanied) { /* its nodes are those that move along */
+                gm_frame_ends(task, lambda, k, some, companion.ends);
+            }
+        }
+        progress.status = make_step(task, &run, made, some, &progress);
         if (progress.status != GM_OK) {
             return progress;
         }
         /* a companion that fails stands still: its failure is not this run's */
-        accompanied =
-            accompanied && make_step(task, &at_rest, work->companion, work->scratch, t, &uncounted) == GM_OK;
+        accompanied = accompanied && make_step(task, &companion, made, some, &uncounted) == GM_OK;
         progress.done++;
     }
     memcpy(task->out, work->level[0], size);

@@ -39,9 +39,6 @@ struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, s
 struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
                                             double h, const double u[3]);
 
-/* Returns true if the nodes rest in the new frame when this scheme runs. */
-bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme);
-
 /* The defect of one step of a scheme under a symmetry from t = 0 on the three nodes x - h, x, x + h: the step
    of the carried data against the carried step. NaN for implicit schemes, whose step three nodes do not
    determine. */

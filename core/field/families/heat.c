@@ -95,11 +95,6 @@ struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double dif
     };
 }
 
-bool gm_heat_fixed(const struct gm_heat *heat, const struct gm_scheme *scheme)
-{
-    return gm_frame_rests(heat->frame, gm_heat_keeps(scheme) & GM_HEAT_BOOSTS);
-}
-
 double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                       const struct gm_heat_symmetry *symmetry, const double *u)
 {
@@ -153,24 +148,29 @@ static struct gm_progress advance(const struct gm_task *task)
     struct work *work = task->workspace;
     const struct row *row = task->scheme->coefficients;
     const struct gm_heat *heat = gm_heat_of(task->problem);
-    const struct gm_grid1 *grid = &task->problem->line;
     const size_t last = work->points - 1;
-    const bool fixed = gm_heat_fixed(heat, task->scheme);
+    const double speed = gm_frame_rests(&heat->framed, task->scheme) ? 0 : heat->framed.lambda;
+    double ends[2 * GM_ENDS_BLOCK];
+    size_t made = 0, some = 0;
     struct gm_progress progress = {.status = GM_OK};
     struct step step = {
         .points = work->points,
         .viscosity = heat->diffusivity,
-        .h = grid->dx,
+        .h = task->problem->line.dx,
         .k = task->dt,
-        .sigma = fixed ? 0 : heat->lambda * task->dt,
+        .sigma = speed * task->dt,
     };
     memcpy(work->level[0], task->y, work->points * sizeof(double));
-    for (int64_t i = 0; i < task->steps; i++) {
-        const double t = task->t0 + (double)(task->n + i + 1) * task->dt;
+    for (int64_t i = 0; i < task->steps; i++, made++) {
+        if (made == some) {
+            made = 0;
+            some = task->steps - i < GM_ENDS_BLOCK ? (size_t)(task->steps - i) : GM_ENDS_BLOCK;
+            gm_frame_ends(task, speed, i, some, ends);
+        }
         step.u = work->level[i % 2];
         step.v = work->level[(i + 1) % 2];
-        step.v[0] = gm_heat_exact(heat, fixed, gm_grid1_node(grid, 0), t);
-        step.v[last] = gm_heat_exact(heat, fixed, gm_grid1_node(grid, last), t);
+        step.v[0] = ends[made];
+        step.v[last] = ends[some + made];
         row->make(&step);
         progress.evaluations++;
         if (!gm_field_stepped(task, &progress, step.v, work->points)) {

@@ -27,8 +27,6 @@ struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetr
 struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
                                       const double u[3]);
 
-/* Returns true if the nodes rest in the new frame when this scheme runs. */
-bool gm_heat_fixed(const struct gm_heat *heat, const struct gm_scheme *scheme);
 /* The groups that a scheme claims to commute with. */
 unsigned gm_heat_keeps(const struct gm_scheme *scheme);
 

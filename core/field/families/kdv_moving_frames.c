@@ -251,7 +251,7 @@ static struct gm_progress advance(const struct gm_task *task)
         .kdv = kdv,
         .h = task->problem->line.dx,
         .k = task->dt,
-        .sigma = gm_kdv_fixed(kdv, task->scheme) ? 0 : kdv->lambda * task->dt,
+        .sigma = gm_frame_rests(&kdv->framed, task->scheme) ? 0 : kdv->framed.lambda * task->dt,
         .first = !(known && gap == -task->dt),
     };
     struct gm_progress progress = {.status = GM_OK};
@@ -297,11 +297,6 @@ bool gm_kdv_solves(const struct gm_scheme *scheme)
     return gm_kdv_has_frames(scheme) && ((const struct row *)scheme->coefficients)->solves;
 }
 
-bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme)
-{
-    return gm_frame_rests(kdv->frame, gm_kdv_has_frames(scheme));
-}
-
 static const struct gm_kdv_symmetry identity = {.scale = 1};
 
 /* A first step of length k from values at nodes, each as a symmetry carries it; the next level is in
@@ -310,7 +305,8 @@ static bool make_carried(struct work *work, const struct gm_problem *problem, co
                          double k, const struct gm_kdv_symmetry *symmetry, const double *y)
 {
     const struct gm_kdv *kdv = gm_kdv_of(problem);
-    const double s = symmetry->scale, sigma = gm_kdv_fixed(kdv, scheme) ? 0 : kdv->lambda * k;
+    const double s = symmetry->scale,
+                 sigma = gm_frame_rests(&kdv->framed, scheme) ? 0 : kdv->framed.lambda * k;
     const struct step step = {.kdv = kdv,
                               .h = s * problem->line.dx,
                               .k = s * s * s * k,

@@ -15,9 +15,6 @@ struct gm_kdv_symmetry {
 struct gm_event gm_kdv_carried(const struct gm_kdv *kdv, const struct gm_kdv_symmetry *symmetry,
                                struct gm_event event);
 
-/* Returns true if the nodes rest in the problem's frame when this scheme runs; true for all other schemes. */
-bool gm_kdv_fixed(const struct gm_kdv *kdv, const struct gm_scheme *scheme);
-
 /* Returns true if a scheme steps in a moving frame, and if it then solves a system, so that every step is
    allowed. */
 bool gm_kdv_has_frames(const struct gm_scheme *scheme);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations of first order in time, Korteweg-de Vries and the nonlinear Schroedinger equation: parameters, and
-   the exact solutions and invariants of the former. */
+/* Equations of first order in time, Korteweg-de Vries and the nonlinear Schroedinger equation: parameters. */
 #ifndef GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 #define GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 
@@ -12,10 +11,8 @@
    reference,
        (t, x, u) -> (t, x + lambda t, u + lambda/eta) */
 struct gm_kdv {
-    struct gm_user_line line; /* first; of a file, else empty */
+    struct gm_framed framed; /* first */
     double eta, mu;
-    double lambda;
-    int frame; /* enum gm_frame_nodes */
 };
 static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
 {

@@ -113,9 +113,11 @@ struct gm_system_scene {
 struct gm_line_keys {
     int show; /* the content of the surfaces: scenes/field/observed.h; on a moving mesh enum gm_mesh_view */
     long points;
-    int space; /* enum gm_derivatives */
+    bool points_given; /* else they may follow from parameters */
+    int space;         /* enum gm_derivatives */
     int walls;
-    int frame;    /* enum gm_frame_nodes, for the schemes of Korteweg and de Vries' equation */
+    int frame;    /* enum gm_frame_nodes, for the schemes of equations with frames */
+    int printed;  /* the convection of Burgers' equation is u D u, not D(u^2/2) */
     double alpha; /* only on a moving mesh */
     int density;  /* enum gm_mesh_density */
 };

@@ -31,7 +31,9 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
         }
     }
     if (known && gm_system_is_field(&system_scene->system)) {
-        known[system_scene->system.velocities - 1] = (double)lane->grid.points;
+        const bool follows =
+            given && !lane->grid.points_given && gm_system_points_follow(&system_scene->system);
+        known[system_scene->system.velocities - 1] = follows ? NAN : (double)lane->grid.points;
     }
     double *values = known ? gm_equations_start(&system_scene->system, known) : NULL;
     free(known);

@@ -45,6 +45,7 @@ bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size
     char *given = given_of(lane);
     bool by_steps = false;
     for (size_t i = 0; i < count; i++) {
+        lane->grid.points_given |= strcmp(keys[i], "points") == 0;
         by_steps |= strcmp(keys[i], "steps") == 0;
         for (size_t row = 0; row < system_scene->row_count; row++) {
             given[row] |= strcmp(keys[i], system_scene->rows[row].key) == 0;
@@ -66,6 +67,15 @@ bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size
         good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
                         gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g",
                                   bounds->key, value, bounds->lowest, bounds->highest));
+    }
+    if (gm_system_is_field(&system_scene->system) && gm_system_points_follow(&system_scene->system)) {
+        const struct gm_parameter *bounds = gm_scene_parameter(&system_scene->scene, "points");
+        double *points = &values[system_scene->system.velocities - 1];
+        *points = round(*points);
+        good = good && ((*points >= bounds->lowest && *points <= bounds->highest) ||
+                        gm_refuse(sentence, "points is %g with these values, and lies between %g and %g",
+                                  *points, bounds->lowest, bounds->highest));
+        lane->grid.points = good ? (long)*points : lane->grid.points;
     }
     for (size_t i = 0; i < GM_COUNT(system_scene->timing) && good; i++) {
         double number = NAN;

@@ -69,7 +69,8 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
         return work->arguments != NULL;
     }
     const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
-                                  *points = gm_system_option(item, GM_OPTION_POINTS);
+                                  *values = gm_system_option(item, GM_OPTION_VALUES);
+    const struct gm_system_item *tie = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
     const char *solves = gm_system_option_text(item, GM_OPTION_SOLVES, NULL),
                *reference = gm_system_option_text(item, GM_OPTION_REFERENCE, NULL);
     const char *const known[] = {solves, reference};
@@ -89,10 +90,14 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     work->reference = reference ? reference : work->reference;
     work->is_exact = solves;
     work->errors = errors ? errors->numbers : work->errors;
-    if (points) {
-        work->resolution = "points";
-        work->resolutions = points->numbers;
-        work->resolution_count = points->count;
+    work->ratio = tie ? system_scene->system.variables[tie->variable].name : NULL;
+    if (values) {
+        if (!gm_scene_parameter(&system_scene->scene, item->name)) {
+            return gm_refuse(sentence, "work: %.60s is not a parameter", item->name);
+        }
+        work->resolution = item->name;
+        work->resolutions = values->numbers;
+        work->resolution_count = values->count;
     }
     if (!(work->coarsest > 0) || work->halvings < 1 || work->halvings > 30) {
         return gm_refuse(sentence, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");

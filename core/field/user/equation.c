@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/field/user/equation.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/field/problems/burgers.h"
+#include "core/field/problems/dispersive.h"
+#include "core/field/problems/heat.h"
+
+/* The parameters of every equation. */
+union equation {
+    struct gm_user_line line; /* first of all */
+    struct gm_framed framed;  /* first of all but the nonlinear Schroedinger equation */
+    struct gm_kdv kdv;
+    struct gm_nls nls;
+    struct gm_heat heat;
+    struct gm_burgers burgers;
+};
+
+static const struct gm_problem *const problems[] = {&gm_problem_kdv, &gm_problem_nls, &gm_problem_heat,
+                                                    &gm_problem_burgers};
+
+static const struct gm_problem *problem_of(const struct gm_user_equation *equation)
+{
+    const struct gm_problem *found = NULL;
+    for (size_t i = 0; i < sizeof problems / sizeof *problems && equation->recognised.name; i++) {
+        found = strcmp(problems[i]->name, equation->recognised.name) == 0 ? problems[i] : found;
+    }
+    return found;
+}
+
+/* Adds the rate of one field at the start to the formulas of the start. */
+static bool derive_rate(struct gm_line_formulas *formulas, struct gm_user_system *system)
+{
+    gm_node_id *others = calloc(system->variable_count, sizeof *others), last = system->variables[0].start;
+    for (size_t i = 0; others && i < system->variable_count; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    for (size_t k = 0; others && k <= GM_MOST_DERIVATIVES && !system->graph.failed; k++) {
+        others[k == 0 ? 0 : system->velocities + k] = last;
+        last = gm_system_derivative(system, last, system->velocities);
+    }
+    formulas->start[1] = system->rates[0];
+    const bool good =
+        others && !system->graph.failed &&
+        gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
+        gm_system_place(system, &formulas->start[1], 1);
+    free(others);
+    return good;
+}
+
+bool gm_user_equation_derive(struct gm_user_equation *equation, struct gm_user_system *system)
+{
+    *equation = (struct gm_user_equation){.system = system, .outputs = system->n};
+    if (!gm_equation_recognise(system, &equation->recognised)) {
+        return false;
+    }
+    const struct gm_problem *problem = problem_of(equation);
+    if (!problem) {
+        return true;
+    }
+    equation->needs = gm_field_of(problem)->equation;
+    const bool rates = equation->needs == GM_NEEDS_KDV && !gm_line_is_solved(system);
+    equation->outputs += rates;
+    return gm_line_derive(&equation->formulas, system) &&
+           (!rates || derive_rate(&equation->formulas, system));
+}
+
+double gm_frames_number(const struct gm_user_system *system, const double *values, const char *name,
+                        double otherwise)
+{
+    const char *hook = system->texts[GM_WORD_HOOK];
+    for (size_t i = system->parameters; hook && i < system->velocities; i++) {
+        if (strcmp(hook, "frames") == 0 && strcmp(system->variables[i].name, name) == 0) {
+            return values[i];
+        }
+    }
+    return otherwise;
+}
+
+bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
+                           const double *values, const struct gm_grid1 *line)
+{
+    const struct gm_user_system *system = equation->system;
+    union equation *parameters = calloc(1, sizeof *parameters);
+    double constants[GM_EQUATION_CONSTANTS] = {0};
+    size_t count = 0;
+    *problem = *problem_of(equation);
+    problem->parameters = parameters;
+    problem->line = *line;
+    while (count < GM_EQUATION_CONSTANTS && equation->recognised.constants[count]) {
+        count++;
+    }
+    if (!parameters || !gm_user_line_numbers(system, equation->recognised.values, count, values, constants) ||
+        !gm_user_line_open(&parameters->line, system, equation->formulas.start, equation->outputs,
+                           equation->formulas.exact, values)) {
+        return false;
+    }
+    if (equation->needs != GM_NEEDS_NLS) {
+        parameters->framed.lambda = gm_frames_number(system, values, "lambda", 0);
+    }
+    switch (equation->needs) {
+    case GM_NEEDS_KDV:
+        parameters->kdv.eta = constants[0];
+        parameters->kdv.mu = constants[1];
+        problem->n = gm_wave_size(line->points);
+        break;
+    case GM_NEEDS_NLS:
+        parameters->nls.k = constants[0];
+        problem->n = 2 * line->points;
+        break;
+    case GM_NEEDS_HEAT:
+        parameters->heat.diffusivity = constants[0];
+        problem->n = line->points;
+        break;
+    default:
+        parameters->burgers.viscosity = constants[0];
+        parameters->burgers.a = gm_frames_number(system, values, "a", -0.5);
+        parameters->burgers.d = gm_frames_number(system, values, "d", 0);
+        problem->n = gm_burgers_size(&parameters->burgers, line->points);
+        break;
+    }
+    return true;
+}
+
+void gm_user_equation_close(struct gm_problem *problem)
+{
+    union equation *parameters = (union equation *)problem->parameters;
+    if (parameters) {
+        gm_user_line_close(&parameters->line);
+    }
+    free(parameters);
+    problem->parameters = NULL;
+}
