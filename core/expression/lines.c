@@ -79,7 +79,7 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
             end = more ? next : end;
         } while (next < length && strchr(" \t\r\n#", text[next]));
         const struct gm_span span = gm_span_trimmed(text, (struct gm_span){begin, end});
-        *at = end;
+        *at = span.begin == span.end ? next : end;
         if (span.begin == span.end) {
             continue;
         }
