@@ -371,9 +371,10 @@ status 0 run sine-gordon half_length=3 steps=2
 grep -q '^  solution_error  *none: no exact solution' out || fail "a short ring: $(cat out)"
 
 # titles say what is divided by, and what the unit of time is
+status 0 list kepler
+grep -q '^  energy_error  *energy error  *|H − H₀| / max(|H₀|, 0.5)$' out || fail 'what an error is divided by'
 status 0 list disc
-grep -q '^  energy_error  *energy error  *|H − H₀| / max(|H₀|, 1 for the pendulum)$' out || fail 'what an error is divided by'
-grep -q '^  area_tangent .* mean over the edge and the centre$' out || fail 'of what it is the mean'
+grep -q '^  area_tangent .* mean over the members$' out || fail 'of what it is the mean'
 status 0 list room
 grep -q '^The unit of time is τ = 4H/U,' out || fail 'the unit of time of the room'
 status 0 list abc

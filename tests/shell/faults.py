@@ -87,6 +87,7 @@ COMMANDS = [
     ("certify leapfrog --on SHARE/systems/phi4.system points=60 --json", {}),
     ("certify box --on SHARE/systems/nonlinear-dirac.system points=61 dt=0.2 --json", {}),
     ("certify rk4 --on SHARE/systems/bbm.system points=80 --json", {}),
+    ("certify rk4 --on disc system=pendulum points=5 --json", {}),
     ("certify gsl-msbdf --json", {}),
     ("work-precision disc scheme=rk4,verlet until=1 --out OUT", {"timed": True}),
     ("stability stiff scheme=verlet until=1 --out OUT", {}),

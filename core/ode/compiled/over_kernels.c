@@ -194,10 +194,10 @@ GM_SAME_LOOPS(avx512)
 #endif
 
 #if defined(GM_KERNEL_KEY) && (defined(GM_ALONE) || defined(GM_BASELINE))
-#ifdef GM_ALONE
+#ifndef GM_OF_ENSEMBLES
 #define GM_OF_ENSEMBLES false
-#else
-#define GM_OF_ENSEMBLES true
+#endif
+#ifndef GM_ALONE
 GM_LOOPS_DECLARE(GM_PROBLEM)
 #endif
 const struct gm_compiled_kernel GM_COMPILED_NAME(GM_PROBLEM) = {

@@ -56,7 +56,7 @@ struct gm_loops {
 struct gm_compiled_kernel {
     uint64_t key[2]; /* the digest of its kernel's text */
     size_t components;
-    bool of_ensembles; /* else they advance an ensemble member by member */
+    bool of_ensembles; /* its file is one of many members */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };
 #define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)

@@ -592,6 +592,7 @@ const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, cons
                    gm_user_model_open(&motion->model, &motion->system));
     double *start = gm_arena_keep(arena, gm_equations_start(&motion->system, NULL), free);
     gm_arena_need(arena, gm_user_problem_open(&motion->problem, &motion->model, start));
+    motion->problem.name = problem->name;
     return motion;
 }
 
