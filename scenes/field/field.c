@@ -9,20 +9,6 @@
 
 enum { DRAWN = 1600 /* most points of a profile */ };
 
-struct gm_grid1 gm_ring(double half_length, long points)
-{
-    return (struct gm_grid1){
-        .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
-}
-
-struct gm_grid1 gm_between_walls(double half_length, long points)
-{
-    return (struct gm_grid1){.points = 2 * ((size_t)points - 1),
-                             .dx = 2 * half_length / (double)(points - 1),
-                             .first = -half_length,
-                             .walls = true};
-}
-
 double gm_field_u(const struct gm_view *view, size_t node)
 {
     return view->state[node];

@@ -33,11 +33,6 @@ struct gm_field_look {
 #define GM_POINTS(own, member, standard, least, help)                                                        \
     GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
-/* Returns a ring from -half_length to half_length. */
-struct gm_grid1 gm_ring(double half_length, long points);
-/* Returns a grid of `points` nodes from wall to wall. */
-struct gm_grid1 gm_between_walls(double half_length, long points);
-
 /* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);
 
