@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pictures of user-defined fields: what the file says of colours, texts and graphs. */
+/* The pictures of user-defined fields, with the colours, texts and graphs of their files. */
 #include <math.h>
 #include <string.h>
 

@@ -291,25 +291,15 @@ static bool on_a_ring(const struct gm_scheme *scheme)
     return is_for(scheme, GM_NEEDS_WAVE);
 }
 
-static bool on_korteweg(const struct gm_scheme *scheme)
-{
-    return is_for(scheme, GM_NEEDS_KDV);
-}
-
-static bool on_schroedinger(const struct gm_scheme *scheme)
-{
-    return is_for(scheme, GM_NEEDS_NLS);
-}
-
-static bool on_heat(const struct gm_scheme *scheme)
-{
-    return is_for(scheme, GM_NEEDS_HEAT);
-}
-
-static bool on_burgers(const struct gm_scheme *scheme)
-{
-    return is_for(scheme, GM_NEEDS_BURGERS);
-}
+#define ON(equation, facet)                                                                                  \
+    static bool on_##equation(const struct gm_scheme *scheme)                                                \
+    {                                                                                                        \
+        return is_for(scheme, facet);                                                                        \
+    }
+ON(korteweg, GM_NEEDS_KDV)
+ON(schroedinger, GM_NEEDS_NLS)
+ON(heat, GM_NEEDS_HEAT)
+ON(burgers, GM_NEEDS_BURGERS)
 
 /* The kinds of equations that are recognised, and the schemes for them alone. */
 static const struct {
