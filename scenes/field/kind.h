@@ -112,7 +112,8 @@ struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane);
 
 /* Rows of a kind's keys, and of its tables. */
 #define GM_FIELD_LANE struct gm_system_lane
-#define GM_FIELD_POINTS(least) GM_POINTS(GM_FIELD_LANE, grid.points, "", least, "of the grid")
+#define GM_FIELD_POINTS(least)                                                                               \
+    GM_INTEGER_ROW(GM_FIELD_LANE, grid.points, "points", "", least, 1e7, "of the grid", .logarithmic = true)
 #define GM_FIELD_ROWS(list) .rows = list, .row_count = GM_COUNT(list)
 #define GM_FIELD_OBSERVABLES(list) .observables = list, .observable_count = GM_COUNT(list)
 #define GM_FIELD_ERRORS(list) .errors = list, .error_count = GM_COUNT(list)
