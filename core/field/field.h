@@ -19,11 +19,11 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
                                     const double *values, size_t count)
 {
     const double limit = task->limit;
-    bool within = true;
-    for (size_t i = 0; i < count && within; i++) {
-        within = fabs(values[i]) <= limit;
+    long outside = 0; /* all are counted, several at once */
+    for (size_t i = 0; i < count; i++) {
+        outside += !(fabs(values[i]) <= limit);
     }
-    progress->status = progress->status == GM_OK && !within ? GM_BLOW_UP : progress->status;
+    progress->status = progress->status == GM_OK && outside > 0 ? GM_BLOW_UP : progress->status;
     progress->done += progress->status == GM_OK;
     return progress->status == GM_OK;
 }

@@ -9,20 +9,6 @@
 
 enum { DRAWN = 1600 /* most points of a profile */ };
 
-struct gm_grid1 gm_ring(double half_length, long points)
-{
-    return (struct gm_grid1){
-        .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
-}
-
-struct gm_grid1 gm_between_walls(double half_length, long points)
-{
-    return (struct gm_grid1){.points = 2 * ((size_t)points - 1),
-                             .dx = 2 * half_length / (double)(points - 1),
-                             .first = -half_length,
-                             .walls = true};
-}
-
 double gm_field_u(const struct gm_view *view, size_t node)
 {
     return view->state[node];
@@ -115,8 +101,7 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
         struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, name);
         panel->axes = true;
         panel->title_role = gm_lane_role(lane->shown.colour);
-        panel->x =
-            (struct gm_axis){.label = "x", .scale = look->x_scale, .low = grid->first, .high = end_of(grid)};
+        panel->x = (struct gm_axis){.label = "x", .low = grid->first, .high = end_of(grid)};
         panel->y = (struct gm_axis){.label = "t", .low = lane->t0, .high = fmax(timing->until, lane->run->t)};
         if (!(panel->y.high > panel->y.low)) {
             panel->y.high = panel->y.low + 1;
@@ -239,8 +224,7 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
                                      look->exact ? ", exact in grey" : ""));
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x =
-        (struct gm_axis){.label = "x", .scale = look->x_scale, .low = grid->first, .high = end_of(grid)};
+    panel->x = (struct gm_axis){.label = "x", .low = grid->first, .high = end_of(grid)};
     panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
     const double most = 0.5 * (look->high - look->low);
     for (size_t i = 0; i < count; i++) {

@@ -23,20 +23,10 @@ struct gm_field_look {
     const char *name;                                      /* the name of the value, for axes: "u" */
     double low, high;                                      /* the least range of values that is shown */
     enum gm_colour_map map;
-    enum gm_scale x_scale; /* GM_PI if the ring is a circle */
-    double reach;          /* half of the line's part that is drawn, of profiles at rest */
-    int show;              /* the content of the surfaces: scenes/field/observed.h */
-    const char *content;   /* the name of the third law: "mass" */
+    double reach;        /* half of the line's part that is drawn, of profiles at rest */
+    int show;            /* the content of the surfaces: scenes/field/observed.h */
+    const char *content; /* the name of the third law: "mass" */
 };
-
-/* The row of a parameter table for the points of the grid, in a member of the scene's own struct. */
-#define GM_POINTS(own, member, standard, least, help)                                                        \
-    GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
-
-/* Returns a ring from -half_length to half_length. */
-struct gm_grid1 gm_ring(double half_length, long points);
-/* Returns a grid of `points` nodes from wall to wall. */
-struct gm_grid1 gm_between_walls(double half_length, long points);
 
 /* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of a moving frame (moving_frame.h). */
-#include "scenes/field/moving_frame.h"
+/* The picture of a moving frame (frames.h). */
+#include "scenes/field/frames.h"
 
 #include <math.h>
 

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "scenes/field/profiles.h"
+#include "scenes/field/frames.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "scenes/field/moving_frame.h"
 
 enum {
     DRAWN = 1600 /* most points of a profile */,

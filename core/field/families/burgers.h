@@ -22,7 +22,6 @@ typedef enum gm_status gm_burgers_method(const struct gm_burgers_step *step, str
 struct gm_burgers_row {
     gm_burgers_method *method;
     bool implicit;
-    bool invariant;
     bool family; /* the frame depends on a and d */
 };
 

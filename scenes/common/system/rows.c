@@ -19,22 +19,6 @@ static char *given_of(struct gm_system_lane *lane)
     return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
-bool gm_tie_settle(const struct gm_tie *tie, const char *const *keys, size_t count, char *sentence)
-{
-    const double follows = *tie->value * tie->unit;
-    const bool dt = gm_is_given("dt", keys, count);
-    if (dt && gm_is_given(tie->key, keys, count) && fabs(follows - tie->timing->dt) > 1e-9 * follows) {
-        return gm_refuse(sentence, "dt= and %s= are both given; one of them follows from the other",
-                         tie->key);
-    }
-    if (dt) {
-        *tie->value = tie->timing->dt / tie->unit;
-    } else {
-        tie->timing->dt = follows;
-    }
-    return true;
-}
-
 bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
                       gm_system_opener open, char *sentence)
 {
@@ -94,11 +78,15 @@ bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size
     const struct gm_system_item *line = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
     for (size_t row = GM_SYSTEM_ROWS; line && row < system_scene->row_count && good; row++) {
         if (system_scene->variables[row] == line->variable) {
-            double unit;
+            const char *key = system_scene->rows[row].key;
+            double unit, *value = &lane->values[row - GM_SYSTEM_ROWS];
             gm_tape_values(&system_scene->of_items[line - system_scene->system.items], values, &unit, 1);
-            const struct gm_tie tie = {system_scene->rows[row].key, &lane->values[row - GM_SYSTEM_ROWS], unit,
-                                       &lane->timing};
-            good = gm_tie_settle(&tie, keys, count, sentence);
+            const double follows = *value * unit, dt = lane->timing.dt;
+            const bool by_step = gm_is_given("dt", keys, count);
+            good = !by_step || !gm_is_given(key, keys, count) || fabs(follows - dt) <= 1e-9 * follows ||
+                   gm_refuse(sentence, "dt= and %s= are both given; one of them follows from the other", key);
+            *value = by_step ? dt / unit : *value;
+            lane->timing.dt = by_step ? dt : follows;
         }
     }
     free(values);

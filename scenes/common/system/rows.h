@@ -14,15 +14,6 @@ bool gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
 bool gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES],
                            char *sentence);
 
-/* dt = value*unit, where the value is that of a key. */
-struct gm_tie {
-    const char *key;
-    double *value, unit;
-    struct gm_timing *timing;
-};
-/* Sets the step, or the value if the step is given. False with a sentence if both are given and contradict. */
-bool gm_tie_settle(const struct gm_tie *tie, const char *const *keys, size_t count, char *sentence);
-
 /* Chooses a lane's system, and derives values that were not given from those that were, by the file's
    formulas. False with a sentence. */
 bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
