@@ -40,23 +40,23 @@ static const struct {
 enum { PAIRS = GM_COUNT(pairs), PARAMETER = PAIRS };
 
 /* All lines; those with pairs first, in the order of enum gm_room_word. FREE: also in a block of a choice. */
-enum { FREE = 1, ONCE = GM_LINE_ONCE, NAMED = GM_LINE_NAMED, OFTEN = GM_LINE_ADDED };
+enum { FREE = 1 };
 static const char reference[] = "reference-temperature";
 static const struct gm_line_word words[] = {
-    {"inlet", OFTEN, FREE},      {"outlet", OFTEN, FREE}, {"wall", OFTEN, FREE},
-    {"boundary", OFTEN, FREE},   {"source", OFTEN, FREE}, {"probe", OFTEN, FREE},
-    {"start", ONCE, FREE},       {"exact", ONCE, FREE},   {"parameter", OFTEN, 0},
-    {"geomint", ONCE, 0},        {"title", ONCE, 0},      {"about", ONCE, 0},
-    {"watch", ONCE, 0},          {"reference", ONCE, 0},  {"units", ONCE, 0},
-    {"scalar", ONCE, 0},         {"time", ONCE, FREE},    {"subtitle", ONCE, FREE},
-    {"caption", ONCE, FREE},     {"mesh", ONCE, FREE},    {"viscosity", ONCE, 0},
-    {"diffusivity", ONCE, 0},    {"reynolds", ONCE, 0},   {"schmidt", ONCE, 0},
-    {"buoyancy", ONCE, 0},       {reference, ONCE, 0},    {"dt", ONCE, 0},
-    {"until", ONCE, 0},          {"colours", ONCE, FREE}, {"levels", ONCE, FREE},
-    {"exact-while", ONCE, FREE}, {"schemes", ONCE, 0},    {"lanes", ONCE, 0},
-    {"work", ONCE, 0},           {"stability", ONCE, 0},  {"graph", OFTEN, FREE},
-    {"table", OFTEN, 0},         {"figure", OFTEN, 0},    {"side", NAMED, FREE},
-    {"observe", NAMED, 0},       {"profile", NAMED, 0}};
+    {"inlet", GM_LINE_ADDED, FREE},      {"outlet", GM_LINE_ADDED, FREE}, {"wall", GM_LINE_ADDED, FREE},
+    {"boundary", GM_LINE_ADDED, FREE},   {"source", GM_LINE_ADDED, FREE}, {"probe", GM_LINE_ADDED, FREE},
+    {"start", GM_LINE_ONCE, FREE},       {"exact", GM_LINE_ONCE, FREE},   {"parameter", GM_LINE_ADDED, 0},
+    {"geomint", GM_LINE_ONCE, 0},        {"title", GM_LINE_ONCE, 0},      {"about", GM_LINE_ONCE, 0},
+    {"watch", GM_LINE_ONCE, 0},          {"reference", GM_LINE_ONCE, 0},  {"units", GM_LINE_ONCE, 0},
+    {"scalar", GM_LINE_ONCE, 0},         {"time", GM_LINE_ONCE, FREE},    {"subtitle", GM_LINE_ONCE, FREE},
+    {"caption", GM_LINE_ONCE, FREE},     {"mesh", GM_LINE_ONCE, FREE},    {"viscosity", GM_LINE_ONCE, 0},
+    {"diffusivity", GM_LINE_ONCE, 0},    {"reynolds", GM_LINE_ONCE, 0},   {"schmidt", GM_LINE_ONCE, 0},
+    {"buoyancy", GM_LINE_ONCE, 0},       {reference, GM_LINE_ONCE, 0},    {"dt", GM_LINE_ONCE, 0},
+    {"until", GM_LINE_ONCE, 0},          {"colours", GM_LINE_ONCE, FREE}, {"levels", GM_LINE_ONCE, FREE},
+    {"exact-while", GM_LINE_ONCE, FREE}, {"schemes", GM_LINE_ONCE, 0},    {"lanes", GM_LINE_ONCE, 0},
+    {"work", GM_LINE_ONCE, 0},           {"stability", GM_LINE_ONCE, 0},  {"graph", GM_LINE_ADDED, FREE},
+    {"table", GM_LINE_ADDED, 0},         {"figure", GM_LINE_ADDED, 0},    {"side", GM_LINE_NAMED, FREE},
+    {"observe", GM_LINE_NAMED, 0},       {"profile", GM_LINE_NAMED, 0}};
 static const struct gm_line_words line_words = {
     "a room", words, GM_COUNT(words), "; geomint list office --source prints a room with its lines"};
 

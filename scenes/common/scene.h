@@ -58,10 +58,10 @@ struct gm_observable {
     const char *unit;
     double (*evaluate)(const struct gm_view *view);
     bool error;
-    const char *symbol;                      /* symbol of x in the formula of an error: "H" */
+    const char *symbol;                          /* symbol of x in the formula of an error: "H" */
     double (*scale)(const struct gm_view *view); /* natural scale of an error; NULL: 0 */
-    double least;                            /* natural scale if it is a number; else 0 */
-    const char *scale_text;                  /* text of the scale: "1 for the pendulum" */
+    double least;                                /* natural scale if it is a number; else 0 */
+    const char *scale_text;                      /* text of the scale: "1 for the pendulum" */
     /* The sum of the magnitudes of x's terms: the scale if they cancel at the start. NULL: they do not. */
     double (*terms)(const struct gm_view *view);
     bool kept; /* the exact motion conserves x */
