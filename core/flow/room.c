@@ -2,6 +2,7 @@
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
 #include "core/basics.h"
+#include "core/memory.h"
 #include "core/model/scope.h"
 
 #include <float.h>
@@ -789,8 +790,12 @@ struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault 
 {
     struct opening opening = {input, fault, NULL};
     struct gm_arena *arena = gm_arena_open();
+    const unsigned long refusals = gm_memory_refusals();
     *fault = (struct gm_fault){0};
     if (!gm_arena_run(arena, open_room, &opening)) {
+        if (gm_memory_refusals() != refusals) {
+            *fault = (struct gm_fault){0}; /* a number that could not be computed is no fault of the text */
+        }
         gm_arena_close(arena);
         return NULL;
     }

@@ -145,7 +145,7 @@ leave(kitty)
 check(not kitty.tiles, 'it leaves pictures behind')
 
 # sixels: 256 colours in percents; cells of a height that bands of six rows do not fit
-sixel = picture_of('sixel', 5, 120, 36, (9, 17), (64, 0.9))
+sixel = picture_of('sixel', 5, 120, 36, (9, 17), (64, 0.8))
 sixel.keys('?')
 check(sixel.until(lambda: sixel.shows('KEYS')), 'no help')
 sixel.keys('?')
@@ -159,7 +159,7 @@ check(compare(sixel.picture(), reference(6, 648, 558))[1] <= 0.9, 'a step later 
 leave(sixel)
 
 # a terminal that takes no large picture at once, and alone knows the size of its cells
-leave(picture_of('sixel', 3, 100, 30, (8, 16), (64, 0.9), sizes='terminal', limits=(400, 200)))
+leave(picture_of('sixel', 3, 100, 30, (8, 16), (64, 0.8), sizes='terminal', limits=(400, 200)))
 # a picture in the light theme
 light = Terminal([geomint, *SCENE, '--theme', 'light'], columns=100, rows=30, kind='kitty', cell=(8, 16))
 paused_at(light, 3)
