@@ -794,7 +794,7 @@ struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault 
     *fault = (struct gm_fault){0};
     if (!gm_arena_run(arena, open_room, &opening)) {
         if (gm_memory_refusals() != refusals) {
-            *fault = (struct gm_fault){0}; /* a number that could not be computed is no fault of the text */
+            *fault = (struct gm_fault){0}; /* the text is right: a number could not be computed */
         }
         gm_arena_close(arena);
         return NULL;

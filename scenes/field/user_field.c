@@ -153,7 +153,7 @@ static void add_densities(struct gm_user_field *field)
         }
         const char *on = gm_system_option_text(item, GM_OPTION_ON, "nodes");
         if (strcmp(on, "nodes") != 0 && strcmp(on, "cells") != 0) {
-            gm_arena_refuse(field->arena, "%.60s: an gm_field_integral is on nodes or on cells, not on %.60s",
+            gm_arena_refuse(field->arena, "%.60s: an integral is on nodes or on cells, not on %.60s",
                             item->name, on);
         }
         if (count++ == MOST_DENSITIES) {
