@@ -175,6 +175,15 @@ void gm_room_need(const struct gm_room *room, bool good)
     }
 }
 
+/* Returns true if a text is a number, which it reads. Leaves the body if memory for its value is refused. */
+static bool read_number(const struct gm_room *room, const char *text, double *number)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    const bool is_read = gm_number_parse(text, number);
+    gm_room_need(room, gm_memory_refusals() == refusals);
+    return is_read;
+}
+
 char *gm_room_keep(const struct gm_room *room, struct gm_span span)
 {
     return gm_arena_keep(room->arena, gm_span_words(room->text, span), free);
@@ -536,7 +545,7 @@ static void read_parameter(struct gm_room *room, struct gm_span rest, const stru
             parameter->text = gm_arena_print(room->arena, "%s", input->given[i].text);
         }
     }
-    gm_number_parse(parameter->text, &parameter->value);
+    read_number(room, parameter->text, &parameter->value);
     check_free(room, parameter->name, head.begin);
 }
 
@@ -598,7 +607,7 @@ static void read_single(struct gm_room *room, const struct gm_read_line *line)
         gm_span_take(room->text, &rest, ";", &value);
         snprintf(number, sizeof number, "%.*s", (int)(value.end - value.begin), room->text + value.begin);
         const double least = rows[i].range.least, most = rows[i].range.most;
-        if (!gm_number_parse(number, rows[i].number) || !isfinite(*rows[i].number) ||
+        if (!read_number(room, number, rows[i].number) || !isfinite(*rows[i].number) ||
             (least >= 0 && !(*rows[i].number > 0))) {
             gm_room_refuse(room, value.begin, "%s: is a %s number", rows[i].word,
                            least >= 0 ? "positive" : "finite");
@@ -651,7 +660,7 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, input->given[k].name); i++) {
             if (strcmp(input->given[k].name, numbers[i].name) == 0) {
                 room->reynolds = i == 0 ? NAN : room->reynolds;
-                gm_number_parse(input->given[k].text, numbers[i].number);
+                read_number(room, input->given[k].text, numbers[i].number);
             }
         }
     }
@@ -790,12 +799,8 @@ struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault 
 {
     struct opening opening = {input, fault, NULL};
     struct gm_arena *arena = gm_arena_open();
-    const unsigned long refusals = gm_memory_refusals();
     *fault = (struct gm_fault){0};
     if (!gm_arena_run(arena, open_room, &opening)) {
-        if (gm_memory_refusals() != refusals) {
-            *fault = (struct gm_fault){0}; /* the text is right: a number could not be computed */
-        }
         gm_arena_close(arena);
         return NULL;
     }
