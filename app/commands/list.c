@@ -406,8 +406,8 @@ static bool is_figure(const char *word)
 static int refuse_name(const char *word)
 {
     struct gm_file tour;
-    if (gm_file_find(GM_FILE_TOUR, word, &tour) || is_figure(word)) {
-        const bool figure = is_figure(word);
+    const bool figure = is_figure(word);
+    if (figure || gm_file_find(GM_FILE_TOUR, word, &tour)) {
         return gm_give_up(GM_EXIT_USAGE, "%.60s is a %s: geomint %s %.60s", word, figure ? "figure" : "tour",
                           figure ? "figures" : "tour", word);
     }

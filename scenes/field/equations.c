@@ -211,6 +211,10 @@ static bool place_between_ends(const struct gm_view *view, size_t i, double *val
     return true;
 }
 
+#define BETWEEN_ENDS                                                                                         \
+    .graph_count = GM_MOST_FIELD_GRAPHS, .frame_shown = 1, .paint = gm_draw_profiles,                        \
+    .place = place_between_ends
+
 #define PROFILES_ROW                                                                                         \
     GM_CHOICE_ROW(GM_FIELD_LANE, grid.show, "show", "profiles", profiles_or_frame,                           \
                   "the profiles, or the moving frame: a node with its neighbours, and where the frame "      \
@@ -255,17 +259,14 @@ const struct gm_field_kind gm_field_heat = {
     .preferences = heat_preferences,
     .equation = GM_NEEDS_HEAT,
     .graphs = {{"boost_defect"}, {"sup_error", "boost_defect"}},
-    .graph_count = GM_MOST_FIELD_GRAPHS,
     .schemes = schemes_of_heat,
     .admits = is_bounded,
     .start = start_line,
-    .frame_shown = 1,
+    BETWEEN_ENDS,
     .draw_frame = gm_heat_draw_frame,
-    .paint = gm_draw_profiles,
     .value = gm_heat_at_rest,
     .exact = gm_heat_exact_at_rest,
     .failure = gm_heat_failure,
-    .place = place_between_ends,
 };
 
 /* A grid at rest extends to the front's last position. */
@@ -344,14 +345,11 @@ const struct gm_field_kind gm_field_burgers = {
     .preferences = burgers_preferences,
     .equation = GM_NEEDS_BURGERS,
     .graphs = {{"amplitude"}, {"sup_error", "galilean_defect"}},
-    .graph_count = GM_MOST_FIELD_GRAPHS,
     .schemes = schemes_of_burgers,
     .admits = is_held,
     .start = start_burgers,
-    .frame_shown = 1,
+    BETWEEN_ENDS,
     .draw_frame = gm_burgers_draw_frame,
-    .paint = gm_draw_profiles,
     .value = gm_burgers_at_rest,
     .exact = gm_burgers_exact_at_rest,
-    .place = place_between_ends,
 };

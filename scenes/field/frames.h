@@ -26,13 +26,14 @@ struct gm_axes_style {
                   struct gm_event *carried);
 };
 
-/* Draws the whole picture, of the node nearest to the parameter `at`: the nodes as the lanes see them and as they are carried,
-   and the values likewise. */
+/* Draws the whole picture, of the node nearest to the parameter `at`: the nodes as the lanes see them and as they
+   are carried, and the values likewise. */
 void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_axes_style *look);
 
-/* Equations seen from frames of reference (struct gm_framed), for lanes of fields: Korteweg and de Vries', heat and Burgers'.
-   `at_rest` is the value in the original frame at a node's start, `exact` the exact one there at a place of that frame. `draw_frame` draws the moving frame at the node nearest to the parameter `at`. */
+/* Equations seen from frames of reference (struct gm_framed), for lanes of fields: Korteweg and de Vries', heat
+   and Burgers'. `at_rest` is the value in the original frame at a node's start, `exact` the exact one there at a
+   place of that frame. `draw_frame` draws the moving frame at the node nearest to the parameter `at`. */
 
 /* Between nodes it is linear. */
 double gm_kdv_at_rest(const struct gm_view *view, size_t node);
@@ -67,16 +68,17 @@ double gm_burgers_amplitude(const struct gm_view *view);
 double gm_burgers_overshoot(const struct gm_view *view);
 /* If this is 1 or more, no projection turns D0 u into 0, and the invariant scheme has no frame to step in. */
 double gm_burgers_compression(const struct gm_view *view);
-/* The largest difference from the companion's value as many nodes back as the frame has moved; between nodes it is linear. */
+/* The largest difference from the companion's value as many nodes back as the frame has moved; between nodes it
+   is linear. */
 double gm_burgers_galilean_defect(const struct gm_view *view);
 /* Defects of a step under a projection by 1/2 and under a scaling by 1.3. */
 double gm_burgers_projection_defect(const struct gm_view *view);
 double gm_burgers_scaling_defect(const struct gm_view *view);
 void gm_burgers_draw_frame(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
-/* Draws fields that are seen from frames of reference: the profiles at rest, in a panel for each scheme, and the graphs over
-   time; of several schemes in several frames over the velocity of the frame. The problems' parameters begin with struct
-   gm_framed. */
+/* Draws fields that are seen from frames of reference: the profiles at rest, in a panel for each scheme, and the
+   graphs over time; of several schemes in several frames over the velocity of the frame. The problems' parameters
+   begin with struct gm_framed. */
 void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                       const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count);
 
