@@ -12,7 +12,7 @@ enum { ONE = GM_EQUATION_CONSTANTS, MOST_TERMS = 6 };
 
 /* Terms: in the rate of which field, which constant (ONE: 1), its sign, and its factors in rising order: u, u_x, u_xx ..
    are 0, 1, 2 .., and of a second field a, b, c .. */
-static const struct equation {
+static const struct known_equation {
     const char *name;
     size_t fields;
     const char *constants[GM_EQUATION_CONSTANTS];
@@ -21,7 +21,7 @@ static const struct equation {
         int sign;
         const char *factors; /* NULL behind the last */
     } terms[MOST_TERMS];
-} equations[] = {
+} known_equations[] = {
     {"Korteweg-de Vries", 1, {"eta", "mu"}, {{0, 0, -1, "01"}, {0, 1, -1, "3"}}},
     {"Burgers", 1, {"nu"}, {{0, ONE, -1, "01"}, {0, 0, 1, "2"}}},
     {"heat", 1, {"c"}, {{0, 0, 1, "2"}}},
@@ -70,7 +70,7 @@ static gm_node_id coefficient_of(struct gm_user_system *system, const struct ter
                     : GM_NO_NODE;
 }
 
-static bool is_equation(struct gm_user_system *system, const struct equation *equation,
+static bool is_equation(struct gm_user_system *system, const struct known_equation *equation,
                         const gm_node_id *zeros, gm_node_id values[ONE + 1])
 {
     struct gm_formula *graph = &system->graph;
@@ -109,12 +109,12 @@ bool gm_equation_recognise(struct gm_user_system *system, struct gm_recognised *
         const bool varies = i < system->n || (i > system->velocities && i < system->initial);
         zeros[i] = varies ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
     }
-    for (size_t i = 0; zeros && i < sizeof equations / sizeof *equations && !found->name; i++) {
-        if (equations[i].fields == system->n && system->kind == GM_EVOLUTION &&
+    for (size_t i = 0; zeros && i < sizeof known_equations / sizeof *known_equations && !found->name; i++) {
+        if (known_equations[i].fields == system->n && system->kind == GM_EVOLUTION &&
             !gm_system_item_of(system, GM_WORD_MASS, 0) &&
-            is_equation(system, &equations[i], zeros, values)) {
-            found->name = equations[i].name;
-            memcpy(found->constants, equations[i].constants, sizeof found->constants);
+            is_equation(system, &known_equations[i], zeros, values)) {
+            found->name = known_equations[i].name;
+            memcpy(found->constants, known_equations[i].constants, sizeof found->constants);
             memcpy(found->values, values, sizeof found->values);
         }
     }
