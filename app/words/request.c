@@ -491,8 +491,12 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }
-    if (!scene && gm_typed_is_formula(words[0])) {
+    const size_t name = strcspn(words[0], "='");
+    if (!scene && (gm_typed_is_formula(words[0]) || words[0][name] == '\'')) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
+    } else if (!scene && words[0][name]) {
+        gm_refuse(message, "the scene comes before %.60s, as kepler in: geomint run kepler dt=0.01",
+                  words[0]);
     } else if (!scene) {
         char near[GM_NEAR_NAMES], folder[GM_MESSAGE];
         if (gm_system_near(words[0], near, folder)) {

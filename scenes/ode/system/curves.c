@@ -11,7 +11,7 @@
 #include "scenes/common/symbol.h"
 
 enum { MOST_LISTED = 12 };
-static const char all[] = "all";
+static const char all[] = "all", energy[] = "energy";
 
 /* ---- names ---- */
 
@@ -40,7 +40,7 @@ static size_t name_count(const struct gm_system_scene *system_scene)
     return system->n + velocity_count(system) + 1 + system->item_count;
 }
 
-/* Returns name i of the system; "" if a line of the file has none. */
+/* Returns name i of the system; "" if a line of the file has none, or a name before it. */
 static const char *name_at(size_t i, const void *data)
 {
     const struct gm_system_scene *system_scene = data;
@@ -50,8 +50,9 @@ static const char *name_at(size_t i, const void *data)
         return system->variables[i < n ? i : system->velocities + i - n].name;
     }
     const struct gm_system_item *item = i > n + velocities ? &system->items[i - n - velocities - 1] : NULL;
-    const bool is_named = !item || (gm_system_is_observed(item) && item->name);
-    const char *name = item ? item->name : "energy";
+    const bool is_named =
+        !item || (gm_system_is_observed(item) && item->name && strcmp(item->name, energy) != 0);
+    const char *name = item ? item->name : energy;
     return is_named && formula_of(system_scene, name) ? name : "";
 }
 

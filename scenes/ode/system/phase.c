@@ -21,6 +21,9 @@ bool gm_system_is_plane(const struct gm_system_scene *system_scene, char *senten
     if (system_scene->model.constraints.count > 0) {
         return gm_refuse(sentence, "portrait needs a plane: this system has constraints");
     }
+    if (system->tangents > 0) {
+        return gm_refuse(sentence, "portrait needs a plane: this system carries tangents of its motion");
+    }
     if (system->n != 2) {
         return gm_refuse(sentence, "portrait needs a plane: this system has %zu component%s", system->n,
                          gm_plural((double)system->n));
