@@ -20,6 +20,7 @@ static const struct {
 } rows[GM_FACTS] = {
     [GM_FACT_SEPARABLE] = {"separable", "H = T(p) + V(q)", "holds coordinates and momenta"},
     [GM_FACT_NYSTROM] = {"nystrom", "T is quadratic in the momenta", "is not quadratic in the momenta"},
+    [GM_FACT_SECOND_ORDER] = {"second-order", "x' = v and v' = g(x, t)", "holds a velocity"},
     [GM_FACT_LINEAR] = {"linear", "every rate is linear in the components", "is not linear"},
     [GM_FACT_QUADRATIC] = {"quadratic", "every rate is a polynomial of degree 2", "is not of degree 2"},
     [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
@@ -552,6 +553,29 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
+/* Finds x' = v, v' = g(x, t) for the first and the second half of the components. */
+static void find_second_order(struct gm_user_system *system, struct gm_finding *finding, const bool *all,
+                              const bool *velocities)
+{
+    const size_t half = system->n / 2;
+    const bool *const once[] = {velocities};
+    finding->asked = true;
+    if (system->n % 2 != 0) {
+        deny(finding, GM_NO_NODE, "the number of components is odd");
+        return;
+    }
+    for (size_t i = 0; i < system->n && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id rate = system->rates[i];
+        finding->component = i;
+        if (i >= half) {
+            conclude(finding, vanishes(system, rate, once, 1));
+            finding->term = finding->holds ? GM_NO_NODE : culprit(system, rate, all, once, 1);
+        } else if (rate != gm_formula_variable(&system->graph, half + i)) {
+            deny(finding, rate, "is not a velocity");
+        }
+    }
+}
+
 static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
 {
     (void)graph;
@@ -630,6 +654,12 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
         find_split(system, findings, q, p, all);
         find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
         find_mechanical(system, findings, nodes + 1, q, all, own);
+    }
+    if (system->kind == GM_RATES) {
+        for (size_t i = 0; i < half; i++) {
+            p[half + i] = true;
+        }
+        find_second_order(system, &findings[GM_FACT_SECOND_ORDER], components, p);
     }
     /* else the rates are only a part of the motion */
     if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {

@@ -15,11 +15,12 @@ struct gm_loops; /* core/ode/kernel/loops.h */
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 
-/* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
+/* H(q, p) = T(p) + V(q), or q' = p, p' = g(q, t): exact flows of two parts; q are the first n / 2 components */
 struct gm_split {
-    bool nystrom;   /* T is quadratic */
-    bool unit_mass; /* q' = p: needs no evaluation */
-    bool attracts;  /* H at p = 0 is negative at the start */
+    bool nystrom;      /* T is quadratic */
+    bool unit_mass;    /* q' = p: needs no evaluation */
+    bool no_potential; /* the force has none that is known */
+    bool attracts;     /* H at p = 0 is negative at the start */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the

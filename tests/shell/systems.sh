@@ -80,6 +80,30 @@ for law in 'abs(x) - x' 'min(x, 3) - x' 'sqrt(x^2) - x'; do
     "$geomint" run ./kink.system steps=1 >out 2>&1 && fail "the invariant $law: $(cat out)"
 done
 holds ./stiff.system kepler-split 'yes'
+# x' = v, v' = g(x, t) in any order takes the schemes of T(p) + V(q), also without a potential and with the time
+second() { # RATES ANSWER
+    printf 'rate: %s\nstart: x = 1, v = 0, y = 0.2, w = 0.1\n' "$1" >second.system
+    holds ./second.system second-order "$2"
+}
+second 'x = v, y = w, v = -x, w = -y - 0.1*w' 'no  w .* holds a velocity, in the rate of w'
+second 'x = 2*v, v = -x, y = w, w = -y' 'no  2\*v .* is not a velocity, in the rate of x'
+second 'x = v, y = v, v = -x, w = -y' 'no  v .* is not a velocity, in the rate of y'
+second 'x = v, y = w, v = w - w - x, w = -y' 'yes'
+second 'x = v, v = -x + y/2, y = w, w = -2*y - x/2 + cos(t)/2' 'yes'
+for scheme in 'verlet 2' 'yoshida4 4' 'blanes-moan-nystrom6 6'; do
+    set -- $scheme
+    "$geomint" certify "$1" --on ./second.system >out 2>&1
+    grep -Eq "order $2, measured ($2[.]0|$(($2 - 1))[.]9)" out || fail "$1 of second order: $(cat out)"
+done
+"$geomint" certify variational-midpoint2 --on ./second.system >out 2>&1 && fail 'an action without a potential'
+state() { # WORDS: the state of a run, a line for each scheme
+    "$geomint" run "$@" scheme=verlet,yoshida4 dt=0.1 until=10 --json --state | sed 's/.*"state"://'
+}
+state system rate='x = v' rate='v = -sin(x)' x=1 v=0 >second.txt
+state system H='v^2/2 - cos(x)' coordinates=x momenta=v x=1 v=0 | cmp -s - second.txt || fail 'second order differs from H'
+state ./second.system >second.txt
+printf 'rate: x = v, y = w, v = -x + y/2, w = -2*y - x/2 + cos(t)/2\nstart: x = 1, v = 0, y = 0.2, w = 0.1\n' >order.system
+state ./order.system | cmp -s - second.txt || fail 'the order of rates matters'
 "$geomint" list stiff.system --json | grep -q gautschi2 || fail 'a stiff linear part has no scheme of its own'
 
 printf 'coordinates: q\nH: p_q^2/2 + 2q\nstart: q = 1, p_q = 0\n' >wrong.system

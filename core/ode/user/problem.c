@@ -526,6 +526,12 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->loops.velocity = !self->ode.split ? NULL : lagrangian ? lagrangian_velocity : velocity;
         self->loops.force = !self->ode.split ? NULL : lagrangian ? lagrangian_force : force;
     }
+    if (gm_user_model_holds(model, values, GM_FACT_SECOND_ORDER)) {
+        self->split = (struct gm_split){.nystrom = true, .unit_mass = true, .no_potential = true};
+        self->ode.split = &self->split;
+        self->loops.velocity = velocity;
+        self->loops.force = force;
+    }
     if (!constrained && gm_user_model_holds(model, values, GM_FACT_VOLUME)) {
         self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
         self->ode.volume = &self->volume;
