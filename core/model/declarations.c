@@ -353,55 +353,34 @@ static size_t component_named(struct gm_reading *reading, struct gm_span name)
     return entry && entry->role == GM_ENTRY_COMPONENT ? entry->number : SIZE_MAX;
 }
 
-/* Calls `each` for each rate NAME = TEXT with the component and the place of the text, until it returns false. */
-static bool each_rate(struct gm_reading *reading, size_t *order,
-                      bool (*each)(struct gm_reading *reading, size_t component, struct gm_span text,
-                                   size_t *order))
+/* Numbers the components of x' = v: x from 0 on, v from n / 2 on, where `order` is SIZE_MAX. Returns false unless
+   these are all. */
+static bool pair_components(struct gm_reading *reading, size_t *order)
 {
-    bool good = true;
+    const size_t n = reading->component_count;
+    size_t places = 0;
     for (size_t i = 0; i < reading->line_count; i++) {
         struct gm_span rest = reading->lines[i].value, piece;
-        while (good && reading->lines[i].word == GM_WORD_RATE &&
-               gm_span_take(reading->text, &rest, ",", &piece)) {
+        while (reading->lines[i].word == GM_WORD_RATE && gm_span_take(reading->text, &rest, ",", &piece)) {
             const size_t equals = gm_span_until(reading->text, piece, "=");
-            const size_t component = component_named(reading, (struct gm_span){piece.begin, equals});
-            good = equals < piece.end && component != SIZE_MAX &&
-                   each(reading, component, (struct gm_span){equals + 1, piece.end}, order);
+            const size_t x = component_named(reading, (struct gm_span){piece.begin, equals}),
+                         v = component_named(reading, (struct gm_span){equals + 1, piece.end});
+            if (equals == piece.end || x == SIZE_MAX) {
+                return false;
+            }
+            if (v != SIZE_MAX) {
+                if (x == v || order[x] != SIZE_MAX || order[v] != SIZE_MAX) {
+                    return false;
+                }
+                order[x] = places++;
+                order[v] = n / 2 + order[x];
+            }
         }
     }
-    return good;
+    return 2 * places == n;
 }
 
-/* Numbers the components of x' = v: x from 0 on, v from n / 2 on. order[n]: how many there are. */
-static bool pair(struct gm_reading *reading, size_t x, struct gm_span text, size_t *order)
-{
-    const size_t v = component_named(reading, text), n = reading->component_count;
-    if (v == SIZE_MAX) {
-        return true;
-    }
-    if (x == v || order[x] != SIZE_MAX || order[v] != SIZE_MAX) {
-        return false;
-    }
-    order[x] = order[n]++;
-    order[v] = n / 2 + order[x];
-    return true;
-}
-
-/* Returns false if the rate of a velocity names a velocity. */
-static bool is_of_places(struct gm_reading *reading, size_t component, struct gm_span text, size_t *order)
-{
-    const size_t half = reading->component_count / 2;
-    bool good = true;
-    for (size_t at = text.begin; at < text.end && good && order[component] >= half;) {
-        const size_t length = gm_name_length(reading->text + at, text.end - at);
-        const size_t named = component_named(reading, (struct gm_span){at, at + length});
-        good = length == 0 || named == SIZE_MAX || order[named] < half;
-        at += length > 0 ? length : 1;
-    }
-    return good;
-}
-
-/* Reorders the components of x' = v, v' = g(x, t), whose rates may have any order: all x, then all v. */
+/* Reorders the components of two or more x' = v with the rates of v, which may have any order: all x, then all v. */
 static bool put_places_first(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -411,9 +390,8 @@ static bool put_places_first(struct gm_reading *reading)
     if (!order || !moved) {
         return gm_fail_memory(&reading->fault);
     }
-    memset(order, 0xff, n * sizeof *order); /* SIZE_MAX: not numbered */
-    order[n] = 0;
-    if (!each_rate(reading, order, pair) || 2 * order[n] != n || !each_rate(reading, order, is_of_places)) {
+    memset(order, 0xff, n * sizeof *order);
+    if (n <= 2 || !pair_components(reading, order)) {
         return true;
     }
     for (size_t i = 0; i < n; i++) {

@@ -21,6 +21,8 @@ static const struct {
     [GM_FACT_SEPARABLE] = {"separable", "H = T(p) + V(q)", "holds coordinates and momenta"},
     [GM_FACT_NYSTROM] = {"nystrom", "T is quadratic in the momenta", "is not quadratic in the momenta"},
     [GM_FACT_SECOND_ORDER] = {"second-order", "x' = v and v' = g(x, t)", "holds a velocity"},
+    [GM_FACT_MAGNETIC] = {"magnetic", "the velocity is rotated by a magnetic field",
+                          "does not rotate the velocity"},
     [GM_FACT_LINEAR] = {"linear", "every rate is linear in the components", "is not linear"},
     [GM_FACT_QUADRATIC] = {"quadratic", "every rate is a polynomial of degree 2", "is not of degree 2"},
     [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
@@ -576,6 +578,60 @@ static void find_second_order(struct gm_user_system *system, struct gm_finding *
     }
 }
 
+/* Returns true if H is all that acts. */
+static bool is_alone(const struct gm_user_system *system)
+{
+    bool alone = system->tangents == 0 && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        alone = alone && system->variables[i].force == GM_NO_NODE;
+    }
+    return alone;
+}
+
+/* Concludes that a node vanishes; else the rate of a component is the reason. */
+static void need_zero(struct gm_user_system *system, struct gm_finding *finding, gm_node_id node,
+                      size_t component)
+{
+    if (finding->holds && !system->graph.failed) {
+        conclude(finding, gm_equations_vanishes(system, node));
+        finding->component = component;
+        finding->term = finding->holds ? GM_NO_NODE : system->rates[component];
+    }
+}
+
+/* Finds v' = g + W v by the slopes of v' over v, which hold no v and are antisymmetric; or p = v/c + A by those of
+   v = dH/dp over p, which are c times the unit matrix. */
+static void find_magnetic(struct gm_user_system *system, struct gm_finding *finding, const bool *all,
+                          const bool *velocities, bool *own)
+{
+    const size_t half = system->n / 2;
+    const bool canonical = system->kind == GM_CANONICAL;
+    const size_t first = canonical ? 0 : half; /* of the rates that are looked at */
+    gm_node_id slopes[9];
+    for (size_t i = 0; i < half && !canonical; i++) {
+        const gm_node_id v = gm_formula_variable(&system->graph, half + i);
+        need_zero(system, finding, gm_difference(&system->graph, system->rates[i], v), i);
+    }
+    for (size_t i = 0; i < half * half && finding->holds; i++) {
+        const size_t row = i / half, column = i % half;
+        slopes[i] = slope_of(system, system->rates[first + row], own, half + column);
+        gm_node_id rest = slopes[i];
+        if (canonical && row == column) {
+            rest = gm_difference(&system->graph, slopes[i], slopes[0]);
+        } else if (!canonical) {
+            rest = column <= row ? gm_sum(&system->graph, slopes[i], slopes[column * half + row])
+                                 : gm_formula_constant(&system->graph, 0);
+        }
+        need_zero(system, finding, rest, first + row);
+        const bool *const fixed = canonical ? all : velocities;
+        if (finding->holds && (depends(system, slopes[i], fixed) ||
+                               (canonical && depends_on(system, slopes[i], own, system->n)))) {
+            deny(finding, system->rates[first + row], NULL);
+            finding->component = first + row;
+        }
+    }
+}
+
 static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
 {
     (void)graph;
@@ -660,6 +716,13 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
             p[half + i] = true;
         }
         find_second_order(system, &findings[GM_FACT_SECOND_ORDER], components, p);
+    }
+    const bool split = findings[GM_FACT_SEPARABLE].asked ? findings[GM_FACT_SEPARABLE].holds
+                                                         : findings[GM_FACT_SECOND_ORDER].holds;
+    if ((system->kind == GM_RATES || (system->kind == GM_CANONICAL && is_alone(system))) && !split &&
+        (system->n == 4 || system->n == 6)) {
+        findings[GM_FACT_MAGNETIC].asked = true;
+        find_magnetic(system, &findings[GM_FACT_MAGNETIC], components, p, own);
     }
     /* else the rates are only a part of the motion */
     if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {

@@ -57,6 +57,11 @@ struct gm_action {
                       double *slopes, double *curvature);
 };
 
+/* x' = v, v' = g(x, t) + W(x, t) v with W antisymmetric, in two or three dimensions */
+struct gm_magnetic {
+    bool canonical; /* the state is (x, p), H = c |p - A(x, t)|^2/2 + phi(x, t); else (x, v) */
+};
+
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
 struct gm_lagrangian {
     void (*potential)(const struct gm_problem *problem, double q, double values[3]);
@@ -147,6 +152,7 @@ enum gm_ode_facet {
     GM_NEEDS_PIECES = 1u << 20,     /* a bracket, and an energy in pieces that have exact flows */
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
     GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
+    GM_NEEDS_MAGNETIC = 1u << 23,
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -164,6 +170,7 @@ struct gm_ode {
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
+    const struct gm_magnetic *magnetic;
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;

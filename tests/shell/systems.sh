@@ -103,6 +103,29 @@ state system rate='x = v' rate='v = -sin(x)' x=1 v=0 >second.txt
 state system H='v^2/2 - cos(x)' coordinates=x momenta=v x=1 v=0 | cmp -s - second.txt || fail 'second order differs from H'
 state ./second.system >second.txt
 printf 'rate: x = v, y = w, v = -x + y/2, w = -2*y - x/2 + cos(t)/2\nstart: x = 1, v = 0, y = 0.2, w = 0.1\n' >order.system
+# a magnetic field rotates velocities: in rates, also interleaved and with the time, and in H with p = v/c + A(x, t)
+magnetic() { # RATES ANSWER
+    printf 'rate: %s\nstart: x = 1, u = 0, y = 0.2, v = 1\n' "$1" >magnetic.system
+    holds ./magnetic.system magnetic "$2"
+}
+magnetic 'x = u, y = v, u = -x + v, v = -y + u' 'no  -y + u .* does not rotate the velocity, in the rate of v'
+magnetic 'x = u, y = v, u = -x + v*u, v = -y - u*u' 'no  -x + v\*u .* does not rotate the velocity, in the rate of u'
+magnetic 'x = u, u = -x + v*x + cos(t), y = v, v = -y - u*x' 'yes'
+{
+    printf 'coordinates: x y\nmomenta: p r\nlet: A = (1 + sin(t)/3)*y + x^2/5\nlet: B = x*cos(t)/4\n'
+    printf 'H: 0.7*((p - A)^2 + (r - B)^2)/2 + x^4/4 + y^2*cos(t)/2\nstart: x = 1, y = 0.2, p = 0.3, r = 0.5\n'
+} >canonical.system
+for system in ./magnetic.system ./canonical.system charged-particle; do
+    for scheme in boris2 magnetic-splitting2; do
+        "$geomint" certify $scheme --on $system >out 2>&1
+        grep -Eq 'order 2, measured (2[.]0|1[.]9)' out && grep -q 'symmetric  *holds' out ||
+            fail "$scheme of $system: $(cat out)"
+        "$geomint" certify "composition($scheme; g, 1 - 2*g, g; let: g = 1/(2 - 2^(1/3)))" --on $system >out 2>&1
+        grep -Eq 'measured (4[.]0|3[.]9)' out || fail "$scheme of order 4 of $system: $(cat out)"
+    done
+done
+"$geomint" run charged-particle scheme=boris2,magnetic-splitting2 steps=200000 --max --json >out
+[ "$(grep -Eo '"energy_error_max":[0-9.e-]*' out | awk -F: '$2 < 3e-4' | wc -l)" = 2 ] || fail "the energy: $(cat out)"
 state ./order.system | cmp -s - second.txt || fail 'the order of rates matters'
 "$geomint" list stiff.system --json | grep -q gautschi2 || fail 'a stiff linear part has no scheme of its own'
 

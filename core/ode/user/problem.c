@@ -29,6 +29,7 @@ struct own {
     struct gm_split split;
     struct gm_hamiltonian hamiltonian;
     struct gm_volume volume;
+    struct gm_magnetic magnetic;
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
     struct gm_lagrangian one_degree;
@@ -531,6 +532,10 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->ode.split = &self->split;
         self->loops.velocity = velocity;
         self->loops.force = force;
+    }
+    if (gm_user_model_holds(model, values, GM_FACT_MAGNETIC)) {
+        self->magnetic.canonical = system->kind == GM_CANONICAL;
+        self->ode.magnetic = &self->magnetic;
     }
     if (!constrained && gm_user_model_holds(model, values, GM_FACT_VOLUME)) {
         self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
