@@ -599,15 +599,49 @@ static void need_zero(struct gm_user_system *system, struct gm_finding *finding,
     }
 }
 
+/* Writes the nodes of the facet: the velocity u of p = 0, or 0; g; W by rows, which are the slopes of v' over v, or
+   those of u over x without their symmetric part; c, the slope of v over p, or 1. */
+static void write_magnetic(struct gm_user_system *system, gm_node_id *nodes, bool *own)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n, half = n / 2;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    gm_node_id *u = nodes, *g = u + half, *w = g + half, *c = w + half * half;
+    gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count);
+    system->graph.failed |= !replacement;
+    if (system->kind == GM_RATES) {
+        for (size_t i = 0; i < half; i++) {
+            u[i] = zero;
+            g[i] = at_zero(system, system->rates[half + i], half, half);
+        }
+        *c = gm_formula_constant(graph, 1);
+        return;
+    }
+    *c = w[0];
+    for (size_t i = 0; i < half && replacement; i++) {
+        u[i] = at_zero(system, system->rates[i], half, half);
+        replacement[half + i] = gm_negative(graph, gm_simplified(graph, GM_OPERATION_DIVIDE, u[i], *c));
+    }
+    for (size_t i = 0; i < half && replacement; i++) {
+        g[i] = system->rates[half + i];
+        system->graph.failed |= !gm_formula_substitute(graph, &g[i], 1, replacement, system->variable_count);
+        g[i] = gm_sum(graph, gm_product(graph, *c, g[i]), slope_of(system, u[i], own, n)); /* du/dt */
+        for (size_t j = 0; j < half; j++) {
+            w[i * half + j] =
+                gm_difference(graph, slope_of(system, u[i], own, j), slope_of(system, u[j], own, i));
+        }
+    }
+}
+
 /* Finds v' = g + W v by the slopes of v' over v, which hold no v and are antisymmetric; or p = v/c + A by those of
    v = dH/dp over p, which are c times the unit matrix. */
-static void find_magnetic(struct gm_user_system *system, struct gm_finding *finding, const bool *all,
-                          const bool *velocities, bool *own)
+static void find_magnetic(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
+                          const bool *all, const bool *velocities, bool *own)
 {
     const size_t half = system->n / 2;
     const bool canonical = system->kind == GM_CANONICAL;
     const size_t first = canonical ? 0 : half; /* of the rates that are looked at */
-    gm_node_id slopes[9];
+    gm_node_id *slopes = nodes + 2 * half;
     for (size_t i = 0; i < half && !canonical; i++) {
         const gm_node_id v = gm_formula_variable(&system->graph, half + i);
         need_zero(system, finding, gm_difference(&system->graph, system->rates[i], v), i);
@@ -629,6 +663,10 @@ static void find_magnetic(struct gm_user_system *system, struct gm_finding *find
             deny(finding, system->rates[first + row], NULL);
             finding->component = first + row;
         }
+    }
+    if (finding->holds && !system->graph.failed) {
+        write_magnetic(system, nodes, own);
+        finding->nodes = nodes;
     }
 }
 
@@ -685,7 +723,7 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
 {
     const size_t half = system->n / 2, count = system->variable_count;
     gm_node_id *nodes =
-        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 7, sizeof *nodes);
+        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 17, sizeof *nodes);
     for (size_t i = 0; i < GM_FACTS; i++) {
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
@@ -722,7 +760,7 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
     if ((system->kind == GM_RATES || (system->kind == GM_CANONICAL && is_alone(system))) && !split &&
         (system->n == 4 || system->n == 6)) {
         findings[GM_FACT_MAGNETIC].asked = true;
-        find_magnetic(system, &findings[GM_FACT_MAGNETIC], components, p, own);
+        find_magnetic(system, &findings[GM_FACT_MAGNETIC], nodes + 1, components, p, own);
     }
     /* else the rates are only a part of the motion */
     if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {

@@ -60,6 +60,11 @@ struct gm_action {
 /* x' = v, v' = g(x, t) + W(x, t) v with W antisymmetric, in two or three dimensions */
 struct gm_magnetic {
     bool canonical; /* the state is (x, p), H = c |p - A(x, t)|^2/2 + phi(x, t); else (x, v) */
+    double c;
+    /* -c A at the place and time of a whole state: n / 2 */
+    void (*drift)(const struct gm_problem *problem, const double *y, double *drift);
+    /* g, and W by rows: n / 2 + (n / 2)^2 */
+    void (*forces)(const struct gm_problem *problem, const double *y, double *forces);
 };
 
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
