@@ -171,7 +171,7 @@ static void pendulum_by_the_tangent_map(void **unused)
         assert_true(fabs(test_observed(lane, "area_tangent") - 1) < 1e-9);
         assert_true(isnan(test_observed(lane, "area_error")));
         assert_string_equal(gm_lane_missing(lane, (size_t)error),
-                            "the members no longer resolve the edge of the disc");
+                            "the loop is not resolved with 256 points");
         assert_int_equal(gm_lane_lost(lane), -1);
         gm_lane_close(lane);
     }
