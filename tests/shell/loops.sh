@@ -95,8 +95,8 @@ python3 -c 'import json; assert abs(json.load(open("out"))["observables"]["loop_
 
 # what has no ring has a reason, what has no momenta no such observable
 status 0 run kepler until=1 --measure loop_action
-grep -q 'loop_action *none: with members= of at least 6 in a disc alone' out || fail "one member: $(cat out)"
+grep -q 'loop_action *none: it needs a disc of at least 5 members' out || fail "one member: $(cat out)"
 status 0 run ./two.system members=9 shape=line steps=1 --measure loop_action
-grep -q 'in a disc alone' out || fail "a line: $(cat out)"
+grep -q 'needs a disc' out || fail "a line: $(cat out)"
 refused 1 'no observable loop_action' run lorenz steps=1 --measure loop_action
 [ "$failures" = 0 ]

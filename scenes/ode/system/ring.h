@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ring of members, the edge of a disc, as a closed curve in phase space. The last member, in the centre, is no
-   part of it. All are NaN without a ring or if its points do not resolve it, but for the resolution. */
+/* The ring of members, the edge of a disc, as a closed curve in phase space. The last member, in the centre, does
+   not belong to it. All are NaN without a ring or if its points do not resolve it, but for the resolution. */
 #ifndef GM_SCENES_ODE_SYSTEM_RING_H
 #define GM_SCENES_ODE_SYSTEM_RING_H
 
