@@ -31,6 +31,8 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
      .recalls = true,
      .why = gm_return_why},
     INDICATOR("escape_time", gm_escape_time, gm_escape_why, "time until the orbit has left"),
+    INDICATOR("volume_error", gm_volume_error, gm_volume_why, "error of the volume against exp(∫ div f dt)"),
+    INDICATOR("log_volume", gm_log_volume, gm_volume_why, "ln of the volume that the steps make of 1"),
     INDICATOR("loop_action", gm_ring_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
     INDICATOR("loop_action_error", gm_ring_action_error, gm_ring_error_why,
               "relative error of the loop's action"),

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The action of a ring of members, against sums over the states that the program prints: loops.sh PROGRAM
+# The action of a ring of members, against sums over the states that the program prints; the volume of a scheme's map,
+# against its derivative by complex steps: loops.sh PROGRAM
 set -u
 . "$(dirname "$0")/answers.sh"
 
@@ -99,4 +100,81 @@ grep -q 'loop_action *none: it needs a disc of at least 5 members' out || fail "
 status 0 run ./two.system members=9 shape=line steps=1 --measure loop_action
 grep -q 'needs a disc' out || fail "a line: $(cat out)"
 refused 1 'no observable loop_action' run lorenz steps=1 --measure loop_action
+
+# x' = y z, y' = -x z + .1 sin y, z' = -.2 z + .3 x y: the map's determinants without the program, and its errors
+printf 'components: x y z\nrate: x = y*z, y = -x*z + 0.1*sin(y), z = -0.2*z + 0.3*x*y\n' >spin.system
+printf 'start: x = 0.7, y = 0.5, z = 0.6\ndt: 0.1\nuntil: 4\n' >>spin.system
+cat >volume.py <<'END'
+import cmath, json, math, sys
+h, scheme, row = 0.1, sys.argv[1], json.load(open("out"))
+def f(u):
+    x, y, z = u
+    return [y * z, -x * z + 0.1 * cmath.sin(y), -0.2 * z + 0.3 * x * y]
+def plus(u, factor, k):
+    return [a + factor * b for a, b in zip(u, k)]
+def step(u, h):
+    if scheme == "explicit-euler":
+        return plus(u, h, f(u))
+    if scheme == "midpoint":
+        k = f(u)
+        for _ in range(80):
+            k = f(plus(u, h / 2, k))
+        return plus(u, h, k)
+    a = f(u); b = f(plus(u, h / 2, a)); c = f(plus(u, h / 2, b)); d = f(plus(u, h, c))
+    return plus(u, h / 6, [p + 2 * q + 2 * r + s for p, q, r, s in zip(a, b, c, d)])
+def determinant(u):
+    a, b, c = ([g.imag / 1e-30 for g in step([u[k] + (1e-30j if k == i else 0) for k in range(3)], h)] for i in range(3))
+    return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
+u, logarithm, divergence = [0.7, 0.5, 0.6], 0, 0
+for _ in range(40):
+    middle, end = [v.real for v in step(u, h / 2)], [v.real for v in step(u, h)]
+    logarithm += math.log(determinant(u))
+    divergence += h * (-0.2 + 0.1 * (math.cos(u[1]) + 4 * math.cos(middle[1]) + math.cos(end[1])) / 6)
+    u = end
+seen = row["observables"]
+assert abs(seen["log_volume"] - float(sys.argv[2])) < 5.1e-8, (seen, sys.argv)
+assert abs(seen["log_volume"] - logarithm) < 1e-12, (seen, logarithm)
+assert abs(seen["volume_error"] - math.expm1(logarithm - divergence)) < 1e-12, (seen, logarithm - divergence)
+END
+for row in rk4:-.4472275 midpoint:-.4471490 explicit-euler:-.3498378; do
+    status 0 run ./spin.system scheme="${row%:*}" --measure log_volume,volume_error --json --strict
+    python3 volume.py "${row%:*}" "${row#*:}" || fail "the volume by ${row%:*}: $(tail -c 300 out)"
+done
+status 0 run ./spin.system scheme=gauss6 --measure log_volume,volume_error --json
+python3 -c '
+import json
+seen = json.load(open("out"))["observables"]
+assert abs(seen["log_volume"] + .4472273) < 5.1e-8 and abs(seen["volume_error"]) < 2e-9, seen
+' || fail "the volume of the motion: $(tail -c 300 out)"
+
+# a linear flow by its trace, schemes by differences also far from the origin, tracers, a time, memory
+kept() {
+    most=$1
+    shift
+    status 0 run "$@" --measure log_volume,volume_error --json
+    python3 - "$most" <<'END' || fail "$*: $(tail -c 300 out)"
+import json, sys
+assert abs(json.load(open("out"))["observables"]["volume_error"]) < float(sys.argv[1])
+END
+}
+kept 1e-6 abc scheme=volume-splitting2 until=2000
+kept 1e-10 vortices scheme=midpoint until=2
+kept 1e-3 duffing scheme=gauss4 until=20
+kept 1e-10 henon-heiles scheme=variational-galerkin4 until=20
+status 0 run system 'rate=x = -x - y' 'rate=y = x - 2*y' x=1 y=0 dt=.1 until=3 scheme=explicit-euler --measure log_volume --json
+python3 -c '
+import json, math
+assert abs(json.load(open("out"))["observables"]["log_volume"] - 30 * math.log(.9 * .8 + .01)) < 1e-12
+' || fail "30 determinants of 1 + h A: $(tail -c 200 out)"
+
+# lyapunov of a scheme by differences is that of the others, however far the orbit has gone
+status 0 run abc scheme=volume-splitting2 dt=.02 until=5000 --measure lyapunov --json
+python3 -c 'import json; assert abs(json.load(open("out"))["observables"]["lyapunov"] - .001569) < 2e-6' || fail "$(tail -c 200 out)"
+
+# no volume: too many components, constraints, a library's scheme, steps that depend on the state
+for row in '64 components:lennard-jones N=20 until=.1' 'constraints:cartesian-pendulum until=.1' 'no derivative:lorenz scheme=gsl-rk4 until=1' \
+    'other lengths:kepler scheme=logh2 until=1'; do
+    status 0 run ${row#*:} --measure volume_error
+    grep -q "volume_error *none: .*${row%%:*}" out || fail "$row: $(cat out)"
+done
 [ "$failures" = 0 ]

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/ode/indicators/tangent.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/ode.h"
 
 enum { RECORDS = 128, BLOCK = 128 /* steps */ };
@@ -25,6 +26,12 @@ struct gm_growth {
     struct gm_tangent *tangent;
     double *v;
     bool failed;
+    double
+        *frame; /* n vectors of the tangent's size, orthonormal in their n first numbers; NULL: no volume */
+    double *jacobian;
+    void *snapshot;      /* the run before a step, which is repeated for each vector */
+    struct gm_run *half; /* makes steps of half the length */
+    struct gm_growth_volume volume;
     struct sums sums;
     /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
@@ -86,6 +93,10 @@ void gm_growth_close(struct gm_growth *growth)
         return;
     }
     free(growth->v);
+    free(growth->frame);
+    free(growth->jacobian);
+    free(growth->snapshot);
+    gm_run_close(growth->half);
     gm_tangent_close(growth->tangent);
     gm_run_close(growth->run);
     free(growth);
@@ -117,10 +128,95 @@ static void add(struct gm_growth *growth, double step, double length)
     sums->average += sums->time > 0 ? 2 * sums->moment / sums->time * step : 0;
 }
 
+/* ---- volume ---- */
+
+bool gm_growth_follow_volume(struct gm_growth *growth)
+{
+    const struct gm_run *run = growth->run;
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    growth->frame = calloc(n * size, sizeof *growth->frame);
+    growth->jacobian = malloc(n * n * sizeof *growth->jacobian);
+    growth->snapshot = malloc(gm_run_snapshot_size(run));
+    growth->half =
+        gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
+    for (size_t i = 0; growth->frame && i < n; i++) {
+        growth->frame[i * size + i] = 1;
+        growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, growth->frame + i * size);
+    }
+    return growth->frame && growth->jacobian && growth->snapshot && growth->half;
+}
+
+/* Makes the vectors orthonormal, one after the other. Returns the logarithm of the volume that they spanned. */
+static double orthonormalise(const struct gm_growth *growth)
+{
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    double logarithm = 0;
+    for (double *v = growth->frame; v < growth->frame + n * size; v += size) {
+        double square = 0;
+        for (const double *u = growth->frame; u < v; u += size) {
+            double along = 0;
+            for (size_t c = 0; c < n; c++) {
+                along += u[c] * v[c];
+            }
+            for (size_t c = 0; c < size; c++) {
+                v[c] -= along * u[c];
+            }
+        }
+        for (size_t c = 0; c < n; c++) {
+            square += v[c] * v[c];
+        }
+        for (size_t c = 0; c < size; c++) {
+            v[c] /= sqrt(square);
+        }
+        logarithm += log(square) / 2;
+    }
+    return logarithm;
+}
+
+static double divergence_at(const struct gm_growth *growth, const struct gm_run *run)
+{
+    const size_t n = growth->problem.n;
+    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), growth->jacobian);
+    double sum = known ? 0 : NAN;
+    for (size_t c = 0; known && c < n; c++) {
+        sum += growth->jacobian[c * n + c];
+    }
+    return sum;
+}
+
+static bool step_volume(struct gm_growth *growth)
+{
+    struct gm_run *run = growth->run;
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    const double t = run->t, before = divergence_at(growth, run);
+    gm_run_set_state(growth->half, gm_run_state(run), NULL);
+    gm_run_advance(growth->half, 1);
+    gm_run_save(run, growth->snapshot);
+    bool good = true;
+    for (size_t i = 0; good && i < n; i++) {
+        good = (i == 0 || gm_run_load(run, growth->snapshot)) &&
+               gm_tangent_step(growth->tangent, growth->frame + i * size);
+    }
+    growth->volume.logarithm += orthonormalise(growth);
+    growth->volume.divergence +=
+        (run->t - t) / 6 * (before + 4 * divergence_at(growth, growth->half) + divergence_at(growth, run));
+    return good;
+}
+
+struct gm_growth_volume gm_growth_volume(const struct gm_growth *growth)
+{
+    return growth->volume;
+}
+
+/* ---- advancing ---- */
+
 bool gm_growth_to(struct gm_growth *growth, int64_t steps)
 {
     struct gm_stretch made[BLOCK];
     const struct gm_run *run = growth->run;
+    while (growth->frame && !growth->failed && run->steps < steps) {
+        growth->failed = !step_volume(growth);
+    }
     while (!growth->failed && run->steps < steps) {
         const int64_t before = run->steps, left = steps - before;
         const size_t block = left < BLOCK ? (size_t)left : BLOCK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The separation of neighbouring orbits: the largest Lyapunov exponent and MEGNO of a scheme's solution of a
-   problem, from the derivatives of the scheme's steps (tangent.h). */
+   problem, and the volume between them, from the derivatives of the scheme's steps (tangent.h). */
 #ifndef GM_CORE_ODE_INDICATORS_GROWTH_H
 #define GM_CORE_ODE_INDICATORS_GROWTH_H
 
@@ -28,6 +28,9 @@ struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct 
                                  const struct gm_settings *settings, double t0, double dt, const double *y0);
 void gm_growth_close(struct gm_growth *growth);
 
+/* Follows the volume instead of the indicators, from the start on. Returns false when out of memory. */
+bool gm_growth_follow_volume(struct gm_growth *growth);
+
 /* Advances to `steps` steps in all; never back. Returns false if the orbit or a neighbour stops being finite
    before. */
 bool gm_growth_to(struct gm_growth *growth, int64_t steps);
@@ -38,5 +41,14 @@ int64_t gm_growth_steps(const struct gm_growth *growth);
 
 /* Returns the indicators; NaN while no time has passed. */
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth);
+
+/* ln |det D y_t/D y_0| of the scheme's map; and the integral of div f along its solution by Simpson's rule, with the
+   state after half a step of the scheme, NaN without a Jacobian. The determinant is a product over the steps, each of
+   the lengths that make the moved vectors orthonormal again (G. Benettin, L. Galgani, A. Giorgilli & J.-M. Strelcyn,
+   Meccanica 15 (1980) 9). */
+struct gm_growth_volume {
+    double logarithm, divergence;
+};
+struct gm_growth_volume gm_growth_volume(const struct gm_growth *growth);
 
 #endif
