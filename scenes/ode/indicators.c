@@ -118,30 +118,30 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
     return followed->why ? NULL : followed->growth;
 }
 
-static struct gm_growth_values values_of(const struct gm_view *view)
+static struct gm_growth_values values_of(const struct gm_view *view, size_t kind)
 {
-    const struct gm_growth *growth = followed_to(view, GM_WORKED_GROWTH);
-    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN};
+    const struct gm_growth *growth = followed_to(view, kind);
+    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
 double gm_lyapunov(const struct gm_view *view)
 {
-    return values_of(view).exponent;
+    return values_of(view, GM_WORKED_GROWTH).exponent;
 }
 
 double gm_lyapunov_change(const struct gm_view *view)
 {
-    return values_of(view).exponent_change;
+    return values_of(view, GM_WORKED_GROWTH).exponent_change;
 }
 
 double gm_megno(const struct gm_view *view)
 {
-    return values_of(view).megno;
+    return values_of(view, GM_WORKED_GROWTH).megno;
 }
 
 double gm_megno_change(const struct gm_view *view)
 {
-    return values_of(view).megno_change;
+    return values_of(view, GM_WORKED_GROWTH).megno_change;
 }
 
 const char *gm_growth_why(const struct gm_view *view)
@@ -152,14 +152,13 @@ const char *gm_growth_why(const struct gm_view *view)
 
 double gm_log_volume(const struct gm_view *view)
 {
-    const struct gm_growth *growth = followed_to(view, GM_WORKED_VOLUME);
-    return growth ? gm_growth_volume(growth).logarithm : NAN;
+    return values_of(view, GM_WORKED_VOLUME).log_volume;
 }
 
 double gm_volume_error(const struct gm_view *view)
 {
-    const struct gm_growth *growth = followed_to(view, GM_WORKED_VOLUME);
-    return growth ? expm1(gm_growth_volume(growth).logarithm - gm_growth_volume(growth).divergence) : NAN;
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return expm1(values.log_volume - values.divergence);
 }
 
 const char *gm_volume_why(const struct gm_view *view)

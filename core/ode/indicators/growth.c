@@ -26,12 +26,10 @@ struct gm_growth {
     struct gm_tangent *tangent;
     double *v;
     bool failed;
-    double
-        *frame; /* n vectors of the tangent's size, orthonormal in their n first numbers; NULL: no volume */
-    double *jacobian;
-    void *snapshot;      /* the run before a step, which is repeated for each vector */
+    double *frame;  /* n vectors, orthonormal in their n first numbers, then a Jacobian; NULL: no volume */
+    void *snapshot; /* the run before a step, which is repeated for each vector */
     struct gm_run *half; /* makes steps of half the length */
-    struct gm_growth_volume volume;
+    double log_volume, divergence;
     struct sums sums;
     /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
@@ -94,7 +92,6 @@ void gm_growth_close(struct gm_growth *growth)
     }
     free(growth->v);
     free(growth->frame);
-    free(growth->jacobian);
     free(growth->snapshot);
     gm_run_close(growth->half);
     gm_tangent_close(growth->tangent);
@@ -134,8 +131,7 @@ bool gm_growth_follow_volume(struct gm_growth *growth)
 {
     const struct gm_run *run = growth->run;
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
-    growth->frame = calloc(n * size, sizeof *growth->frame);
-    growth->jacobian = malloc(n * n * sizeof *growth->jacobian);
+    growth->frame = calloc(n * (size + n), sizeof *growth->frame);
     growth->snapshot = malloc(gm_run_snapshot_size(run));
     growth->half =
         gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
@@ -143,7 +139,7 @@ bool gm_growth_follow_volume(struct gm_growth *growth)
         growth->frame[i * size + i] = 1;
         growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, growth->frame + i * size);
     }
-    return growth->frame && growth->jacobian && growth->snapshot && growth->half;
+    return growth->frame && growth->snapshot && growth->half;
 }
 
 /* Makes the vectors orthonormal, one after the other. Returns the logarithm of the volume that they spanned. */
@@ -176,36 +172,32 @@ static double orthonormalise(const struct gm_growth *growth)
 static double divergence_at(const struct gm_growth *growth, const struct gm_run *run)
 {
     const size_t n = growth->problem.n;
-    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), growth->jacobian);
-    double sum = known ? 0 : NAN;
-    for (size_t c = 0; known && c < n; c++) {
-        sum += growth->jacobian[c * n + c];
+    double *jacobian = growth->frame + n * gm_tangent_size(growth->tangent), sum = 0;
+    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), jacobian);
+    for (size_t c = 0; c < n; c++) {
+        sum += jacobian[c * n + c];
     }
-    return sum;
+    return known ? sum : NAN;
 }
 
+/* Makes a step of the run, from the same state for each vector. */
 static bool step_volume(struct gm_growth *growth)
 {
     struct gm_run *run = growth->run;
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
     const double t = run->t, before = divergence_at(growth, run);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
-    gm_run_advance(growth->half, 1);
+    const double middle =
+        gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
     gm_run_save(run, growth->snapshot);
     bool good = true;
     for (size_t i = 0; good && i < n; i++) {
         good = (i == 0 || gm_run_load(run, growth->snapshot)) &&
                gm_tangent_step(growth->tangent, growth->frame + i * size);
     }
-    growth->volume.logarithm += orthonormalise(growth);
-    growth->volume.divergence +=
-        (run->t - t) / 6 * (before + 4 * divergence_at(growth, growth->half) + divergence_at(growth, run));
+    growth->log_volume += orthonormalise(growth);
+    growth->divergence += (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run));
     return good;
-}
-
-struct gm_growth_volume gm_growth_volume(const struct gm_growth *growth)
-{
-    return growth->volume;
 }
 
 /* ---- advancing ---- */
@@ -252,5 +244,7 @@ struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
         .megno = megno,
         .exponent_change = exponent - half->growth / half->time,
         .megno_change = megno - half->average / half->time,
+        .log_volume = growth->log_volume,
+        .divergence = growth->divergence,
     };
 }

@@ -14,11 +14,18 @@ struct gm_growth;
        megno      (1/t) int_0^t Y(s) ds,   Y(t) = (2/t) int_0^t s d'(s)/d(s) ds
    MEGNO is 2 on a regular orbit (0 if its neighbours do not separate, as for an oscillator), and grows as t
    times half of the exponent on a chaotic one. P.M. Cincotta, C.M. Giordano & C. Simo, Physica D
-   182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338. */
+   182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338.
+   If the volume is followed instead:
+       log_volume   ln |det D y_t/D y_0| of the scheme's map
+       divergence   the integral of div f along its solution, NaN without a Jacobian
+   The determinant is a product over the steps, each of the lengths that make the moved vectors orthonormal again; the
+   integral is by Simpson's rule with the state after half a step of the scheme. G. Benettin, L. Galgani, A. Giorgilli &
+   J.-M. Strelcyn, Meccanica 15 (1980) 9. */
 struct gm_growth_values {
     double exponent, megno;
     double exponent_change,
         megno_change; /* the change since half of the steps, or since the last record before that */
+    double log_volume, divergence;
 };
 
 /* Starts at the state y0 (n, one member, without its passive block) at t0. The vector starts in a fixed
@@ -41,14 +48,5 @@ int64_t gm_growth_steps(const struct gm_growth *growth);
 
 /* Returns the indicators; NaN while no time has passed. */
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth);
-
-/* ln |det D y_t/D y_0| of the scheme's map; and the integral of div f along its solution by Simpson's rule, with the
-   state after half a step of the scheme, NaN without a Jacobian. The determinant is a product over the steps, each of
-   the lengths that make the moved vectors orthonormal again (G. Benettin, L. Galgani, A. Giorgilli & J.-M. Strelcyn,
-   Meccanica 15 (1980) 9). */
-struct gm_growth_volume {
-    double logarithm, divergence;
-};
-struct gm_growth_volume gm_growth_volume(const struct gm_growth *growth);
 
 #endif
