@@ -14,7 +14,8 @@ double gm_ring_area(const struct gm_view *view);
    sum of the magnitudes of the integrals. */
 double gm_ring_action(const struct gm_view *view);
 double gm_ring_action_error(const struct gm_view *view);
-/* The share of waves of a quarter of the points and more in the action. Above 1e-3 the ring is not resolved. */
+/* The share of waves of a quarter of the points and more in the action. Above 1e-3 the ring is not resolved; below, the
+   waves that the points miss change the action by a few times this share at most. */
 double gm_ring_resolution(const struct gm_view *view);
 
 /* Return the reason for NaN. */
