@@ -63,8 +63,8 @@ static struct gm_curve_action loop_at(const struct gm_view *view, const double *
 double gm_ring_area(const struct gm_view *view)
 {
     const size_t points = points_of(view), m = view->problem->m, *disc = gm_system_scene_of(view)->disc;
-    const double share =
-        1e-5; /* tighter: an area is shown unasked, and a scheme that changes it is warned of */
+    /* tighter than of an action: an area is shown unasked, and a scheme that changes it is warned of */
+    const double share = 1e-5;
     struct gm_curve_action loop = {0};
     const bool found = points > 0 && gm_curve_add_action(view->state + disc[0] * m, view->state + disc[1] * m,
                                                          points, &loop);
