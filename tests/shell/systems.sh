@@ -775,7 +775,7 @@ assert seen["observables"][sys.argv[1] + "_error"] < 1e-13 and not seen["warning
 done
 
 status 0 run duffing members=64 --json --strict # a polygon of the members is off by 42 %
-grep -q '"reasons":{"area":"the members no longer resolve the edge' out || fail "an edge that is not resolved: $(cat out)"
+grep -q '"reasons":{"area":"the loop is not resolved with 63 points' out || fail "an edge that is not resolved: $(cat out)"
 
 refused 1 'in H=, column 10: there is no operator' run system H='p^2/2 + 2q' q=1 p=0
 grep -q '^ *^$' err || fail 'no caret below a typed formula'
