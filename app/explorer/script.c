@@ -30,7 +30,7 @@ static int key_of(const char *word)
     return word[0] && word[1] ? gm_key_named(word, strlen(word)) : 0;
 }
 
-/* Returns true if nothing is typed by such a word, but it is written like the name of a key: DEL, F2, Ctrl-C. */
+/* Returns true for a word that is written like the name of a key: DEL, F2, Ctrl-C. */
 static bool is_like_a_key(const char *word)
 {
     static const char *const modifiers[] = {"ctrl-", "alt-", "meta-", "shift-"};

@@ -271,6 +271,9 @@ def ranges():
     for columns in COLUMNS:
         page = " ".join(line.strip() for line in shot("kepler", "9s DOWN", columns))
         check("0 to 0.9999; starts again" in page, f"{columns} columns: the range of eccentricity: {page}")
+    # the end of a range can be reached although it has no short decimal
+    lacks("out of range", "henon-heiles", "1s DOWN" + " RIGHT" * 12)
+    has(r"energy is at the end of its range", "henon-heiles", "1s DOWN" + " RIGHT" * 12, 120)
     has(r"eccentricity 0\.5 +0 ━+●─+ 0\.9999 *$", "kepler", "9s", 132, 43)
 
 

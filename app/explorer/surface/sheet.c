@@ -349,10 +349,11 @@ struct gm_sheet gm_screen_foot(const struct gm_sheet *whole)
     return gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
 }
 
-void gm_screen_say_above(const struct gm_sheet *whole, int most, const char *text)
+void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
 {
     const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
-    const int rows = gm_sheet_wrapped(&nothing, 0, 0, most, text, GM_INK), first = whole->height - 1 - rows;
+    const int rows = gm_sheet_wrapped(&nothing, 0, 0, whole->height / 3, text, GM_INK),
+              first = whole->height - 1 - rows;
     for (int row = first; row < first + rows; row++) {
         for (int column = 0; column < whole->width; column++) {
             gm_sheet_glyph(whole, column, row, ' ', GM_INK, false);
@@ -367,7 +368,7 @@ void gm_screen_ask(const struct gm_sheet *whole, const char *loss)
     char text[160];
     const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
     snprintf(text, sizeof text, "Quit? %s. q again quits, any other key stays", loss);
-    gm_screen_say_above(whole, whole->height / 3, text);
+    gm_screen_say_above(whole, text);
     for (int column = 0; column < last.width; column++) {
         gm_sheet_glyph(&last, column, 0, ' ', GM_INK, false);
     }

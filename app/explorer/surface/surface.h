@@ -214,8 +214,8 @@ int gm_screen_rows_below(const struct gm_cells *cells);
 void gm_screen_rule(const struct gm_sheet *whole, int below, int side);
 /* Draws the rule without a panel, if there is room; returns the last row. */
 struct gm_sheet gm_screen_foot(const struct gm_sheet *whole);
-/* Writes a text that does not fit beside the hints above the last row, in at most `most` rows. */
-void gm_screen_say_above(const struct gm_sheet *whole, int most, const char *text);
+/* Writes a text that does not fit beside the hints above the last row, in at most a third of the rows. */
+void gm_screen_say_above(const struct gm_sheet *whole, const char *text);
 /* Draws the question whether to quit, over the rows at the bottom. */
 void gm_screen_ask(const struct gm_sheet *whole, const char *loss);
 /* Paints the shot's picture, or leaves its cells to the pixels. */

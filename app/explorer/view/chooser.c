@@ -87,12 +87,10 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     }
     /* the formula has the rows that the list leaves, and those beyond a list of LIST rows */
     enum { LIST = 15, LEAST = 3 };
-    const int most = sheet->height - 2 - (count < LIST ? count : LIST),
-              wanted = face->choice ? 1 + gm_schemes_formula_rows(sheet, face->choice) : 0,
-              below = most < LEAST    ? 0
-                      : wanted < most ? wanted
-                                      : most,
-              rows = sheet->height - 2 - below;
+    const int most = sheet->height - 2 - (count < LIST ? count : LIST);
+    int below = face->choice ? 1 + gm_schemes_formula_rows(sheet, face->choice) : 0;
+    below = most < LEAST ? 0 : below < most ? below : most;
+    const int rows = sheet->height - 2 - below;
     int first = at >= rows ? at - rows + 1 : 0;
     char text[GM_TYPED + 16];
     gm_schemes_heading(sheet, row++, face->choosing == GM_CHOOSE_FORK ? "FORK WITH" : "SWITCH TO");

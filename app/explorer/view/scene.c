@@ -198,7 +198,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
     }
     const int reserved = apart ? 1 : FIRST_HINT;
     if (text[0] && rows_below(whole) >= 2 && column + gm_sheet_width(&sheet, text) + reserved > sheet.width) {
-        gm_screen_say_above(whole, whole->height / 3, text);
+        gm_screen_say_above(whole, text);
         text[0] = '\0';
     }
     /* the first hint has priority over the text */
@@ -271,7 +271,7 @@ static void draw_study(const struct gm_sheet *whole, int rows)
         last.width =
             gm_sheet_hints(&last, hint_column(from, most, 1), "esc:back|x:stop|p:save|b:blocks|q:quit") - 2;
         if (1 + gm_sheet_width(&last, text) > last.width && below == 2) {
-            gm_screen_say_above(whole, whole->height / 3, text);
+            gm_screen_say_above(whole, text);
         } else {
             gm_sheet_cut(&last, 1, 0, text, GM_INK, false);
         }

@@ -528,8 +528,6 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
 
 /* ---- the panel ---- */
 
-enum { LEAST_FORMULA = 3 }; /* rows, with the reference, of a formula that is cut */
-
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
     enum gm_side_panel side = sheet->face->side;
@@ -539,8 +537,7 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     row = draw_parameters(sheet, row + plan.gap, shot, &plan);
     row = draw_observables(sheet, row + plan.gap, shot, &plan);
     const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
-    const int wanted = gm_schemes_formula_rows(sheet, lane->scheme), room = sheet->height - row - 2;
-    if (side == GM_SIDE_PARAMETERS || (room < wanted && room < LEAST_FORMULA)) {
+    if (side == GM_SIDE_PARAMETERS || sheet->height - row < 5) { /* a blank row, a heading, and three rows */
         return;
     }
     draw_heading(sheet, row + 1, "FORMULA");
