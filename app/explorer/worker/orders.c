@@ -88,11 +88,10 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
         play->undos[play->undo_count - 1].amount = 0; /* an earlier drag has ended */
     }
+    const bool alone = gm_session_differs(&play->session, row, is_of_scheme(row));
     struct gm_order back = {.kind = GM_ORDER_TYPE,
                             .amount = order->kind == GM_ORDER_SLIDE,
-                            .value = gm_session_differs(&play->session, row, is_of_scheme(row))
-                                         ? (double)play->selected
-                                         : all_lanes,
+                            .value = alone ? (double)play->selected : all_lanes,
                             .row = row};
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,

@@ -75,9 +75,8 @@ static bool find_curve(const struct gm_system_scene *system_scene, const char *t
     return false;
 }
 
-/* Refuses the first `length` bytes of a text, a part of `all_of_it` after t:, with the name that was probably meant,
-   and the first names; false. */
-static bool refuse_name(const struct gm_system_scene *system_scene, const char *all_of_it, const char *text,
+/* Refuses a name in all of the text after t:, with the one that was probably meant, and the first names; false. */
+static bool refuse_name(const struct gm_system_scene *system_scene, const char *whole, const char *text,
                         size_t length, char *sentence)
 {
     char name[64], names[GM_MESSAGE / 2] = "";
@@ -92,8 +91,8 @@ static bool refuse_name(const struct gm_system_scene *system_scene, const char *
         }
     }
     const char *near = length > 0 ? gm_nearest(name, name_count(system_scene), name_at, system_scene) : NULL;
-    return length == 0 ? gm_refuse(sentence, "show=t:%.60s needs a name%s; the names are %s", all_of_it,
-                                   *all_of_it ? " before and after each +" : "", names)
+    return length == 0 ? gm_refuse(sentence, "show=t:%.60s needs a name%s; the names are %s", whole,
+                                   *whole ? " before and after each +" : "", names)
                        : gm_refuse(sentence, "show=t:%s: there is no \"%s\"%s%s; the names are %s", name,
                                    name, near ? "; did you mean " : "", near ? near : "", names);
 }
