@@ -43,12 +43,14 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     case GM_OUT_OF_RANGE:
         break;
     }
-    char low[40], high[40], nearest[64] = "";
+    char low[40], high[40], nearest[96] = "";
     double value = NAN;
     gm_number_parse(text, &value);
     gm_number_format(fmax(row->lowest, row->least), low, sizeof low);
     gm_number_format(row->highest, high, sizeof high);
-    if (!isnan(value) && !(row->least > 0)) {
+    if (strcmp(row->key, "dt") == 0 && value < 0) {
+        snprintf(nearest, sizeof nearest, "; key B of the explorer turns time");
+    } else if (!isnan(value) && !(row->least > 0)) {
         snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
     }
     return gm_refuse(message, "%s=%.60s is out of range: it %slies between %s and %s%s", row->key, text,

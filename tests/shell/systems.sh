@@ -877,6 +877,11 @@ refused 1 'a plane is shown' render space.system show=x:y azimuth=3 -o space.png
 refused 1 'azimuth' render duffing azimuth=3 -o space.png
 # names over time, trails, the phase portrait
 refused 1 'show=t: needs a name; the names are x, y' run lotka-volterra show=t:
+refused 1 'show=t:x+ needs a name before and after each +; the names are x, y' run lotka-volterra show=t:x+
+refused 1 'show=t:+x needs a name before and after each +' run lotka-volterra show=t:+x
+refused 1 'show=t:y+x+y has y twice' run lotka-volterra show=t:y+x+y
+refused 1 'show=x:nope is none of: all, t:all, x:y, t:NAME; did you mean x:y' run lotka-volterra show=x:nope
+refused 1 'show=q1:p3 is none of: .*; did you mean q1:p1' run kepler show=q1:p3
 refused 1 'there is no "angular_momentu"; did you mean angular_momentum; the names are q1, q2, p1, p2, energy' \
     run kepler show=t:angular_momentu
 refused 1 'has 9 names; a graph has at most 8' run lorenz show=t:x+y+z+x+y+z+x+y+z
