@@ -18,6 +18,7 @@
 #include "core/basics.h"
 #include "core/kind.h"
 #include "core/memory.h"
+#include "core/ode/families/composition.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/user/problem.h"
 #include "render/message.h"
@@ -59,11 +60,10 @@ static const char *const isa_flags[GM_ISA_COUNT][3] = {
     [GM_ISA_AVX2] = {"-mavx2"},
     [GM_ISA_AVX512] = {"-march=skylake-avx512", "-mno-fma", "-mprefer-vector-width=512"},
 };
-static const char *const family_flags[GM_OVER_COUNT] = {
-    [GM_OVER_NONE] = "-DGM_LOOP_NONE",
-    [GM_OVER_EXPLICIT] = "-DGM_LOOP_EXPLICIT",
-    [GM_OVER_IMPLICIT] = "-DGM_LOOP_IMPLICIT",
-    [GM_OVER_SPLITTING] = "-DGM_LOOP_SPLITTING",
+static const char *const family_flags[GM_OVER_COUNT + 1] = {
+    [GM_OVER_NONE] = "-DGM_LOOP_NONE",         [GM_OVER_EXPLICIT] = "-DGM_LOOP_EXPLICIT",
+    [GM_OVER_IMPLICIT] = "-DGM_LOOP_IMPLICIT", [GM_OVER_SPLITTING] = "-DGM_LOOP_SPLITTING",
+    [GM_OVER_ALL] = "-UGM_LOOP_NONE",
 };
 
 /* With small single states halves of q and p would be paired in registers and separated again: without that
@@ -136,11 +136,14 @@ static bool is_written(const struct gm_lane *lane)
     return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
 }
 
-/* Returns true if the lane has compiled code, with its scheme's family if that has loops. */
+/* Returns true if the lane has compiled code, with the loops that its scheme calls. */
 static bool is_native(const struct gm_lane *lane)
 {
     const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);
-    const int over = lane->scheme->family->over_kernels;
+    const int over = gm_scheme_over_kernels(lane->scheme);
+    if (taken && over == GM_OVER_ALL) {
+        return taken->over_kernels[GM_OVER_EXPLICIT] && taken->over_kernels[GM_OVER_IMPLICIT];
+    }
     return taken && (over == GM_OVER_NONE || taken->over_kernels[over]);
 }
 
@@ -157,7 +160,7 @@ static struct part part_of(const struct gm_lane *lane)
     enum { FILLS_ONE = 4 };
     const bool alone = lane->problem.m == 1;
     return (struct part){
-        .family = lane->scheme->family->over_kernels,
+        .family = gm_scheme_over_kernels(lane->scheme),
         .alone = alone,
         .isa = alone && lane->problem.n <= FILLS_ONE ? GM_ISA_BASELINE : gm_isa_best(),
     };
@@ -450,7 +453,7 @@ void gm_engine_meet(struct gm_lane *lane)
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane)) {
         return;
     }
-    gm_user_problem_take_compiled(&lane->problem, lane->scheme->family->over_kernels);
+    gm_user_problem_take_compiled(&lane->problem, gm_scheme_over_kernels(lane->scheme));
     if (chosen != GM_ENGINE_NATIVE || is_native(lane)) {
         return;
     }

@@ -60,30 +60,31 @@ bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coeffici
 static bool is_same_stage(const struct gm_coefficients *coefficients, int i, int j)
 {
     const int s = coefficients->stages;
-    const struct gm_ball *a = coefficients->a[0];
-    for (int k = 0; k < s; k++) {
-        if (!gm_ball_is_same(&a[i * s + k], &a[j * s + k])) {
-            return false;
-        }
+    bool same = true;
+    for (int k = 0; k < s * gm_coefficients_sides(coefficients) && same; k++) {
+        const struct gm_ball *a = coefficients->a[k / s] + k % s;
+        same = gm_ball_is_same(&a[i * s], &a[j * s]);
     }
-    return true;
+    return same;
 }
 
 static bool is_unused(const struct gm_coefficients *coefficients, int stage)
 {
     const int s = coefficients->stages;
-    bool unused = s > 1 && gm_ball_is_zero(&coefficients->b[0][stage]);
-    for (int i = 0; i < s && unused; i++) {
-        unused = i == stage || gm_ball_is_zero(&coefficients->a[0][i * s + stage]);
+    bool unused = s > 1;
+    for (int side = 0; side < gm_coefficients_sides(coefficients) && unused; side++) {
+        unused = gm_ball_is_zero(&coefficients->b[side][stage]);
+        for (int i = 0; i < s && unused; i++) {
+            unused = i == stage || gm_ball_is_zero(&coefficients->a[side][i * s + stage]);
+        }
     }
     return unused;
 }
 
-/* Removes stage `gone`. If kept >= 0, stage `kept` is equal to it and takes over its weights. */
-static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
+/* Removes stage `gone` of s from one side. If kept >= 0, stage `kept` is equal to it and takes over its
+   weights. */
+static void drop_from(struct gm_ball *a, struct gm_ball *b, int s, int gone, int kept)
 {
-    const int s = coefficients->stages;
-    struct gm_ball *a = coefficients->a[0], *b = coefficients->b[0];
     for (int i = 0; i < s && kept >= 0; i++) {
         a[i * s + kept] = gm_ball_add(a[i * s + kept], a[i * s + gone]);
     }
@@ -100,7 +101,15 @@ static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
             b[row++] = b[i];
         }
     }
+}
+
+static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
+{
+    for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
+        drop_from(coefficients->a[side], coefficients->b[side], coefficients->stages, gone, kept);
+    }
     coefficients->stages--;
+    coefficients->nystrom -= coefficients->nystrom > 0;
     for (int k = 0; k < coefficients->moved_count; k++) {
         drop_stage(&coefficients->moved[k], gone, kept);
     }
@@ -108,7 +117,8 @@ static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
 
 void gm_coefficients_reduce(struct gm_coefficients *coefficients)
 {
-    for (int i = 0; coefficients->equations == GM_EQUATIONS_PLAIN && i < coefficients->stages; i++) {
+    /* the last two stages of a Nystrom method have their places */
+    for (int i = 0; i < (coefficients->nystrom > 0 ? coefficients->nystrom : coefficients->stages); i++) {
         int same = -1;
         for (int j = 0; j < i && same < 0; j++) {
             same = is_same_stage(coefficients, i, j) ? j : -1;
@@ -151,6 +161,59 @@ static struct gm_ball time_of(const struct gm_coefficients *coefficients, int st
 static struct gm_ball end_of(const struct gm_coefficients *coefficients)
 {
     return gm_ball_add(coefficients->b[GM_SIDE_Q][coefficients->nystrom], gm_ball_of(1));
+}
+
+/* Writes a part for equations that are among its own: both sides of a plain method have its coefficients. */
+static bool narrow(struct gm_coefficients *part, enum gm_equations equations)
+{
+    const size_t s = (size_t)part->stages;
+    struct gm_coefficients made;
+    if (part->equations == GM_EQUATIONS_PLAIN && equations != GM_EQUATIONS_PLAIN) {
+        if (!gm_coefficients_open(&made, equations, part->stages)) {
+            return false;
+        }
+        for (int side = 0; side < GM_SIDES; side++) {
+            memcpy(made.a[side], part->a[0], s * s * sizeof(struct gm_ball));
+            memcpy(made.b[side], part->b[0], s * sizeof(struct gm_ball));
+        }
+        made.evaluations = part->evaluations;
+        gm_coefficients_close(part);
+        *part = made;
+    }
+    part->equations = equations;
+    return true;
+}
+
+/* Writes a method with two sides as a Nystrom method: if f_q is linear it has, with A = a_q and e = sum_j b_q,j,
+       a = A a_p,   b = b_q a_p,   bv = b_p,   c_i = sum_j A_ij */
+static bool make_nystrom(struct gm_coefficients *part)
+{
+    const int s = part->stages;
+    struct gm_ball *products = malloc(((size_t)s + 1) * ((size_t)s + 1) * sizeof *products);
+    struct gm_ball *times = products ? products + (s + 1) * s : NULL;
+    struct gm_coefficients made;
+    for (int i = 0; products && i <= s; i++) {
+        const struct gm_ball *row = i < s ? part->a[GM_SIDE_Q] + i * s : part->b[GM_SIDE_Q];
+        times[i] = gm_ball_of(0);
+        for (int j = 0; j < s; j++) {
+            struct gm_ball sum = gm_ball_of(0);
+            for (int k = 0; k < s; k++) {
+                sum = gm_ball_add(sum, gm_ball_multiply(row[k], part->a[GM_SIDE_P][k * s + j]));
+            }
+            products[i * s + j] = sum;
+            times[i] = gm_ball_add(times[i], row[j]);
+        }
+    }
+    const bool good = products && gm_coefficients_open_nystrom(&made, s, products, products + s * s,
+                                                               part->b[GM_SIDE_P], times);
+    if (good) {
+        made.b[GM_SIDE_Q][s] = gm_ball_subtract(times[s], gm_ball_of(1));
+        made.evaluations = part->evaluations;
+        gm_coefficients_close(part);
+        *part = made;
+    }
+    free(products);
+    return good;
 }
 
 /* Steps of Nystrom methods are one of all their stages: `begin` is the time at which the next one begins,
@@ -206,16 +269,24 @@ static void add_tableau(struct gm_coefficients *composed, int first, const struc
     }
 }
 
-bool gm_coefficients_open_composition(struct gm_coefficients *composed, const struct gm_coefficients *parts,
+bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct gm_coefficients *parts,
                                       const struct gm_ball *fractions, int count)
 {
-    const bool nystrom = parts[0].nystrom > 0;
+    enum gm_equations equations = GM_EQUATIONS_PLAIN;
+    bool nystrom = false;
+    for (int k = 0; k < count; k++) {
+        equations = parts[k].equations > equations ? parts[k].equations : equations;
+        nystrom = nystrom || parts[k].nystrom > 0;
+    }
     int stages = nystrom ? 2 : 0, evaluations = 0;
     for (int k = 0; k < count; k++) {
+        if (!narrow(&parts[k], equations) || (nystrom && parts[k].nystrom == 0 && !make_nystrom(&parts[k]))) {
+            return false;
+        }
         stages += nystrom ? parts[k].nystrom : parts[k].stages;
         evaluations += parts[k].evaluations;
     }
-    if (!gm_coefficients_open(composed, parts[0].equations, stages)) {
+    if (!gm_coefficients_open(composed, equations, stages)) {
         return false;
     }
     composed->evaluations = evaluations;

@@ -13,7 +13,7 @@
    the weights d being bv. A step whose end is not at the time 1, as a part of another one, takes (e - 1)
    f_q(p0) besides f_q at its last stage. */
 
-/* The systems that a method is made for; its order holds for all of them. */
+/* The systems that a method is made for; its order holds for all of them. Each kind includes the next. */
 enum gm_equations {
     GM_EQUATIONS_PLAIN,       /* y' = f(y) */
     GM_EQUATIONS_PARTITIONED, /* (q, p)' = (f_q(q, p), f_p(q, p)) */
@@ -45,14 +45,14 @@ bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coeffici
    memory. */
 bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
                                   const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c);
-/* Opens the composition of steps with these fractions. The parts are for the same equations; all of them are
-   Nystrom methods, or no part is. Returns false when out of memory. */
-bool gm_coefficients_open_composition(struct gm_coefficients *composed, const struct gm_coefficients *parts,
+/* Opens the composition of steps with these fractions. The parts are first written for the equations that all
+   of them are made for, as Nystrom methods if one is. Returns false when out of memory. */
+bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct gm_coefficients *parts,
                                       const struct gm_ball *fractions, int count);
 /* Opens the adjoint, the inverse of the step backwards. Returns false when out of memory. */
 bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact);
-/* Removes from a plain method the stages that occur twice or have no effect (Hairer, Lubich & Wanner, VI.7.3).
-   `evaluations` stays. Other kinds of methods stay unchanged. */
+/* Removes the stages that occur twice or have no effect (Hairer, Lubich & Wanner, VI.7.3). `evaluations`
+   stays. */
 void gm_coefficients_reduce(struct gm_coefficients *coefficients);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 

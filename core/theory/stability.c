@@ -208,6 +208,21 @@ static bool of_splitting(const struct gm_coefficients *coefficients, struct gm_t
     return true;
 }
 
+/* Returns true if each stage is a drift or a kick after those before it. */
+static bool is_splitting(const struct gm_coefficients *coefficients)
+{
+    const int s = coefficients->stages;
+    for (int k = 0; k < s * s * GM_SIDES; k++) {
+        const int side = k / (s * s), i = k / s % s, j = k % s;
+        const struct gm_ball *a = &coefficients->a[side][i * s + j], *b = &coefficients->b[side][j];
+        if (!(j < i ? gm_ball_is_same(a, b) : gm_ball_is_zero(a)) ||
+            !(gm_ball_is_zero(b) || gm_ball_is_zero(&coefficients->b[1 - side][j]))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool symmetric,
                             struct gm_theory_stability *stability)
 {
@@ -217,7 +232,7 @@ bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool sym
         return of_plain(coefficients, symmetric, stability);
     case GM_EQUATIONS_SEPARABLE:
     case GM_EQUATIONS_NYSTROM:
-        return coefficients->nystrom > 0 || of_splitting(coefficients, stability);
+        return !is_splitting(coefficients) || of_splitting(coefficients, stability);
     case GM_EQUATIONS_PARTITIONED:
         break;
     }

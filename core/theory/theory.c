@@ -445,6 +445,12 @@ bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients)
                                      : is_symplectic(coefficients, may_vanish, NULL);
 }
 
+bool gm_theory_is_symmetric(const struct gm_coefficients *coefficients)
+{
+    return coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
+                                     : is_symmetric(coefficients, may_vanish, NULL);
+}
+
 /* Beyond the trees that are asked: B(p), C(k), D(l) with p <= k + l + 1, p <= 2 k + 2 make the order p
    (Butcher 1964), and without B(p) none is. False: out of memory. */
 static bool simplify(const struct gm_coefficients *coefficients, struct gm_theory *theory)
@@ -495,8 +501,7 @@ static struct gm_theory theory_of_reduced(const struct gm_coefficients *coeffici
 {
     struct gm_theory theory = {
         .symplectic = gm_theory_is_symplectic(coefficients),
-        .symmetric = coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
-                                               : is_symmetric(coefficients, may_vanish, NULL),
+        .symmetric = gm_theory_is_symmetric(coefficients),
     };
     theory.digits = digits_of(coefficients);
     theory.known = find_order(coefficients, &theory) &&
@@ -508,9 +513,6 @@ static struct gm_theory theory_of_reduced(const struct gm_coefficients *coeffici
 struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
 {
     struct gm_coefficients reduced;
-    if (coefficients->equations != GM_EQUATIONS_PLAIN) {
-        return theory_of_reduced(coefficients);
-    }
     if (!gm_coefficients_copy(&reduced, coefficients)) {
         return (struct gm_theory){0};
     }

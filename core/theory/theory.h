@@ -33,8 +33,9 @@ struct gm_theory {
     struct gm_theory_stability stability;
 };
 
-/* Returns true if the coefficients satisfy the conditions of symplecticity, to their precision. */
+/* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision. */
 bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients);
+bool gm_theory_is_symmetric(const struct gm_coefficients *coefficients);
 
 struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients);
 

@@ -10,6 +10,7 @@
 
 #include "core/expression/choices.h"
 #include "core/expression/nearest.h"
+#include "core/expression/number.h"
 
 enum {
     ONE_TABLEAU = 1 << GM_WRITTEN_RUNGE_KUTTA | 1 << GM_WRITTEN_EXPLICIT,
@@ -133,9 +134,8 @@ static const char *kind_name(size_t i, const void *data)
 static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t place, struct gm_span value)
 {
     struct gm_written_scheme *scheme = reading->scheme;
-    const char *comment = holds[word] == TEXT || holds[word] == SCHEME
-                              ? memchr(reading->text + value.begin, '#', value.end - value.begin)
-                              : NULL;
+    const char *comment =
+        holds[word] == TEXT ? memchr(reading->text + value.begin, '#', value.end - value.begin) : NULL;
     if (comment) {
         value =
             gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
@@ -437,6 +437,26 @@ static bool take_piece(struct reading *reading, struct gm_span *rest, const char
     return gm_span_take(reading->text, rest, separator, piece);
 }
 
+/* Counts the schemes that each line names. Only those of a composition take turns. */
+static bool count_schemes(struct reading *reading)
+{
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        struct gm_written_line *line = &reading->scheme->lines[word];
+        struct gm_span rest = line->value, piece;
+        for (bool more = line->said && holds[word] == SCHEME; more; more = rest.begin < rest.end) {
+            take_piece(reading, &rest, ",", &piece);
+            if (!reading->fault.failed && ++line->columns > 1 &&
+                reading->scheme->kind != GM_WRITTEN_COMPOSITION) {
+                gm_fail_first(&reading->fault, piece.begin, "%s: names one scheme", words[word].word);
+            }
+            if (reading->fault.failed) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* The length up to the last character that is neither blank nor part of a comment. */
 static size_t length_of(const char *text, struct gm_span span)
 {
@@ -644,7 +664,13 @@ static bool check_tableau(struct reading *reading)
 static bool check_steps(struct reading *reading)
 {
     const struct gm_written_line *steps = &reading->scheme->lines[GM_SCHEME_WORD_STEPS];
+    const int bases = reading->scheme->lines[GM_SCHEME_WORD_BASE].columns;
     double sum = 0;
+    if (steps->columns % bases != 0) {
+        return gm_fail_first(&reading->fault, steps->value.begin,
+                             "%d step%s cannot be shared by %d bases in turns", steps->columns,
+                             gm_plural(steps->columns), bases);
+    }
     for (int i = 0; i < steps->columns; i++) {
         sum += steps->numbers[i].value;
     }
@@ -733,7 +759,7 @@ static bool read(struct reading *reading, struct gm_span span)
         return gm_fail_first(&reading->fault, format->value.begin,
                              "this is of a later format; this geomint reads 1");
     }
-    if (!read_order(reading) || !check_title(reading) || !read_lets(reading)) {
+    if (!read_order(reading) || !check_title(reading) || !count_schemes(reading) || !read_lets(reading)) {
         return false;
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {

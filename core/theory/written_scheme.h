@@ -59,7 +59,8 @@ struct gm_decimals {
 struct gm_written_line {
     bool said;
     struct gm_span value; /* of the text */
-    int rows, columns;    /* shape of its numbers; 0: it has none */
+    int rows,
+        columns; /* shape of its numbers, 0: it has none; columns: the number of schemes that it names */
     struct gm_written_number *numbers;
 };
 
@@ -86,7 +87,7 @@ bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t 
 void gm_written_close(struct gm_written_scheme *scheme);
 
 /* The word that is read to the same scheme: title, order, claims, lets and coefficients in parentheses behind
-   the kind. `schemes` are the words for the schemes that it names, by the word of its line. malloc'ed, NULL:
+   the kind. `schemes` are the words for the schemes that it names, by the word of their line. malloc'ed, NULL:
    out of memory. */
 char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
                       const char *const schemes[GM_SCHEME_WORDS]);

@@ -13,6 +13,7 @@
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
+#include "core/ode/user/scheme.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/bench/ensembles.h"
@@ -470,12 +471,54 @@ static void adaptive_steps(void)
     }
 }
 
-/* With the word "single": single steps of ensembles alone; "adaptive": dopri5 alone. */
+/* A composition of two schemes in turns beside half a step of each. */
+static void in_turns(const char *first, const char *second, size_t m)
+{
+    char word[100];
+    struct gm_fault fault;
+    snprintf(word, sizeof word, "composition(%s, %s; 1/2, 1/2)", first, second);
+    const struct gm_user_scheme_source source = {.text = word, .length = strlen(word), .name = word};
+    const struct gm_scheme *scheme = gm_user_scheme_open(&source, &fault);
+    if (!scheme || !gm_scheme_bring(scheme)) {
+        return;
+    }
+    struct line lines[] = {{first, first, KEPLER}, {second, second, KEPLER}, {word, word, KEPLER}};
+    double taken[GM_COUNT(lines)];
+    for (size_t i = 0; i < GM_COUNT(lines); i++) {
+        lines[i].m = m;
+        lines[i].steps = 100000 / (long)m;
+        lines[i].h /= lines[i].scheme == word ? 1 : 2;
+        taken[i] = measure(&lines[i]);
+    }
+    printf("  %zu members: ratio to its parts %.2f\n", m, taken[2] / (taken[0] + taken[1]));
+}
+
+static void compositions(void)
+{
+    static const char *const pairs[][2] = {
+        {"explicit-euler", "explicit-euler"},
+        {"explicit-euler", "implicit-euler"},
+        {"rk4", "rk4"},
+        {"rk4", "midpoint"},
+        {"midpoint", "gauss4"},
+        {"rk4", "verlet"},
+    };
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
+        in_turns(pairs[i][0], pairs[i][1], 1);
+        in_turns(pairs[i][0], pairs[i][1], 1000);
+    }
+}
+
+/* With the word "single": single steps of ensembles alone; "adaptive": dopri5 alone; "turns": compositions alone. */
 int main(int argc, char *argv[])
 {
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
     if (argc > 1 && strcmp(argv[1], "adaptive") == 0) {
         adaptive_steps();
+        return 0;
+    }
+    if (argc > 1 && strcmp(argv[1], "turns") == 0) {
+        compositions();
         return 0;
     }
     for (size_t m = 1000; m <= 1000000; m *= 10) {
@@ -520,6 +563,7 @@ int main(int argc, char *argv[])
     vortices_midpoint(
         &(struct line){"4 vortices, midpoint", "midpoint", SQUARE, .m = 1, .steps = 20000, .wanted = 200});
     adaptive_steps();
+    compositions();
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
     pair_sum();
     by_moments(1e-3);

@@ -26,6 +26,17 @@ cmp -s interpreted native || fail "the engines' numbers differ"
 entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
 [ "$entries" = 1 ] || fail "$entries files in the cache, not 1"
 
+# bases in turns: the loops of one family, or of several
+for bases in 'rk4, rk2' 'avf2, rk4, verlet, midpoint'; do
+    turns="scheme=composition($bases; 0.3, 0.5, 0.2, 0)"
+    numbers interpreted kepler-space until=5 "$turns" >interpreted_turns
+    numbers native kepler-space until=5 "$turns" >native_turns
+    grep -q '"engine":"native"' out || fail "$bases in turns: not native: $(cat err)"
+    cmp -s interpreted_turns native_turns || fail "$bases in turns: the engines' numbers differ"
+done
+rm -r "$XDG_CACHE_HOME/geomint"
+numbers native kepler-space until=20 scheme=verlet >native
+
 # no compiler is needed twice
 real=$PATH
 mkdir bin

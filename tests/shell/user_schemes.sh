@@ -71,6 +71,36 @@ rows = list(csv.DictReader(open("table.csv")))
 assert len(rows) == 4 and {row["status"] for row in rows} == {"ok"}, rows
 ' || fail "sweep: $(cat table.csv)"
 
+# bases in turns, as a word and as a file with other files; resumed from a checkpoint, and painted again
+printf 'kind: composition\nbase: symplectic-euler, adjoint(symplectic-euler)\nsteps: 1/2, 1/2\n' >deep/turns.scheme
+printf 'kind: composition\nbase: turns.scheme, ../gauss.scheme\nsteps: 1/2, 1/2\n' >deep/mixed.scheme
+word='composition(symplectic-euler, adjoint(symplectic-euler); 1/2, 1/2)'
+"$geomint" run kepler "scheme=verlet,deep/turns.scheme,$word,deep/mixed.scheme,composition(verlet, gauss4; 1/2, 1/2)" \
+    steps=40 dt=0.05 --state --json >out 2>err || fail "bases in turns: $(cat err)"
+python3 -c '
+import json
+states = [json.loads(line)["state"] for line in open("out")]
+for a, b in ((0, 1), (0, 2), (3, 4)):
+    assert max(abs(x - y) for x, y in zip(states[a], states[b])) < 1e-13, (a, b, states)
+' || fail 'bases in turns'
+status 0 certify deep/mixed.scheme
+grep -q 'order 2, measured' out && grep -q 'S symplectic *holds' out || fail "deep/mixed.scheme: $(cat out)"
+mixed='scheme=composition(rk4, verlet, midpoint; 0.3, 0.5, 0.2)'
+status 0 run kepler "$mixed" dt=0.05 until=5 --json --state
+grep -o '"state":.*' out >whole
+status 0 run kepler "$mixed" dt=0.05 until=2.5 --checkpoint half.checkpoint
+status 0 run kepler "$mixed" dt=0.05 until=5 --continue half.checkpoint --json --state
+grep -o '"state":.*' out | cmp -s - whole || fail 'bases in turns are not resumed'
+mkdir turns
+"$geomint" render kepler "$mixed" until=1 --size 160x90 -o turns.png >out 2>err &&
+    (cd turns && "$geomint" again ../turns.png --out . && "$geomint" again turns-again.png --out .) >out 2>err ||
+    fail "bases in turns again: $(cat err)"
+cmp -s turns/turns-again.png turns/turns-again-again.png || fail 'bases in turns: again of again'
+refused 1 'scheme, column 23: 7 steps cannot be shared by 2 bases in turns' certify \
+    'composition(rk4, rk2; 1, 0, 0, 0, 0, 0, 0)'
+sed -i 's/turns.scheme, .*/turns.scheme, rk44/' deep/mixed.scheme
+refused 1 'deep/mixed.scheme:2:21: there is no scheme "rk44"; did you mean rk4' certify deep/mixed.scheme
+
 # a wrong one
 "$geomint" certify 'explicit(order: 4; 0,0,0,0|1/2,0,0,0|0,1/2,0,0|0,0,1,0; 1/3,1/6,1/3,1/6)' >out 2>err
 [ $? = 4 ] || fail 'weights exchanged: not refuted'

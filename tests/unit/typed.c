@@ -111,6 +111,9 @@ static void schemes(void **unused)
     assert_non_null(strstr(fault.sentence, "sum to 1.5"));
     assert_false(gm_typed_check_scheme("  composition(vrlet; 1)", &fault));
     assert_int_equal(fault.at, 14);
+    assert_true(gm_typed_check_scheme("composition(rk4, adjoint(rk4); 1/2, 1/2)", &fault));
+    assert_false(gm_typed_check_scheme("composition(rk4, vrlet; 1/2, 1/2)", &fault));
+    assert_int_equal(fault.at, 17);
     assert_false(gm_typed_check_scheme("vrlet", &fault));
     assert_int_equal(fault.at, 0);
     assert_non_null(gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &fault));

@@ -323,6 +323,120 @@ static void schemes_of_schemes(void **unused)
     }
 }
 
+#define TEN_STEPS "let: g = 1/(4 - 4^(1/3)); g/2, g/2, g/2, g/2, (1-4*g)/2, (1-4*g)/2, g/2, g/2, g/2, g/2)"
+#define EULERS_IN_TURNS "composition(explicit-euler, implicit-euler; " TEN_STEPS
+
+/* After a step of -h of the scheme's adjoint a step of h is undone. */
+static void undone(const char *text, const struct gm_problem *problem)
+{
+    char other[300];
+    double y[4] = {0.1, -0.2, 0.3, 0.1};
+    const double start[4] = {0.1, -0.2, 0.3, 0.1};
+    snprintf(other, sizeof other, "adjoint(%s)", text);
+    const struct gm_scheme *schemes[2] = {open_user(text), open_user(other)};
+    for (int i = 0; i < 2; i++) {
+        struct gm_run *run =
+            gm_run_open(problem, schemes[i], &(struct gm_settings){0}, 0, i == 0 ? 0.2 : -0.2, y);
+        assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        assert_true(i == 1 || gm_distance(gm_run_state(run), start, problem->n) > 1e-2);
+        memcpy(y, gm_run_state(run), problem->n * sizeof *y);
+        gm_run_close(run);
+        gm_user_scheme_close(schemes[i]);
+    }
+    if (!(gm_distance(y, start, problem->n) < 1e-13)) {
+        fail_msg("%s is not undone: %g", text, gm_distance(y, start, problem->n));
+    }
+}
+
+static void bases_in_turns(void **unused)
+{
+    (void)unused;
+    const struct gm_problem *henon = &gm_problem_henon_heiles, *kepler = &gm_problem_kepler;
+    equal_walks("composition(explicit-euler, implicit-euler; 1/2, 1/2)", "trapezoidal", henon, 1e-13);
+    equal_walks("composition(implicit-euler, explicit-euler; 1/2, 1/2)", "midpoint", henon, 1e-13);
+    equal_walks("composition(symplectic-euler, adjoint(symplectic-euler); 1/2, 1/2)", "verlet", henon, 1e-14);
+    equal_walks(
+        "kind: composition\nbase: symplectic-euler, # half a step\n adjoint(symplectic-euler) # back\n"
+        "steps: 1/2, 1/2\n",
+        "verlet", henon, 1e-14);
+    equal_walks("composition(adjoint(symplectic-euler), symplectic-euler; 1/2, 1/2)", "verlet-position",
+                henon, 1e-14);
+    equal_walks("composition(verlet, composition(kahan2, rk4; 1/3, 2/3); 1/2, 1/2)",
+                "composition(verlet, kahan2, rk4; 1/2, 1/6, 1/3)", henon, 1e-14);
+    undone("composition(rk4, verlet, midpoint; 0.3, 0.5, 0.2)", henon);
+    undone("composition(explicit-euler, symplectic-euler; 1/3, 1/6, 1/4, 1/4)", henon);
+    /* its word makes it again */
+    const struct gm_scheme *mixed = open_user("composition(rk4, adjoint(rk4), composition(verlet, midpoint; "
+                                              "1/2, 1/2); 0.3, 0.5, 0.2)");
+    const struct gm_scheme *again = open_user(mixed->word);
+    assert_string_equal(again->word, mixed->word);
+    gm_user_scheme_close(again);
+    gm_user_scheme_close(mixed);
+    /* one period of an orbit of eccentricity 0.3; the errors are those of a program without this one's code */
+    static const double errors[] = {3.1163466585e-06, 1.9128172225e-07, 1.1900648113e-08};
+    const struct gm_scheme *turns = open_user(EULERS_IN_TURNS);
+    const double start[4] = {0.7, 0, 0, sqrt(1.3 / 0.7)};
+    for (int i = 0; i < 3; i++) {
+        const int steps = 100 << i;
+        struct gm_run *run = gm_run_open(kepler, turns, &(struct gm_settings){0}, 0, 2 * M_PI / steps, start);
+        assert_int_equal(gm_run_advance(run, steps), GM_OK);
+        assert_float_equal(gm_distance(gm_run_state(run), start, 4) / errors[i], 1, 1e-4);
+        gm_run_close(run);
+    }
+    gm_user_scheme_close(turns);
+}
+
+/* Theory in the equations that all bases are made for, and claims of bases without coefficients. */
+static void claims_in_turns(void **unused)
+{
+    (void)unused;
+    enum { S = GM_SYMPLECTIC, R = GM_SYMMETRIC };
+    static const struct {
+        const char *text;
+        int order;
+        unsigned claims;
+        bool known, holds;
+    } schemes[] = {
+        {EULERS_IN_TURNS, 4, R, true, true},
+        {"composition(symplectic-euler, adjoint(symplectic-euler); " TEN_STEPS, 4, S | R, true, true},
+        {"composition(midpoint, lobatto2, midpoint; 0.3, 0.4, 0.3)", 2, S | R, true, true},
+        {"composition(gauss4, verlet, gauss4; 0.3, 0.4, 0.3)", 2, S | R, true, true},
+        {"composition(gauss4, yoshida4, gauss4; let: g = 1/(2 - 2^(1/5)); g, 1 - 2*g, g)", 4, S | R, true,
+         true},
+        {"composition(blanes-moan-nystrom6, gauss6; 1/3, 2/3)", 6, S, true, true},
+        {"composition(rk4, lobatto4, yoshida4; 1/3, 1/3, 1/3)", 4, 0, true, true},
+        /* stages that are equal are one: these three are the midpoint rule and Verlet's */
+        {"composition(implicit-euler, explicit-euler, verlet; 1/4, 1/4, 1/2)", 2, S, true, true},
+        {"composition(midpoint, avf2, midpoint; 1/4, 1/2, 1/4)", 2, R, false, true},
+        {"composition(symplectic-euler, avf2, symplectic-euler-adjoint; 1/4, 1/2, 1/4)", 2, R, false, true},
+        {"composition(symplectic-euler, avf2, symplectic-euler; 1/4, 1/2, 1/4)", 1, 0, false, true},
+        {"composition(composition(avf2, rk4; 1/3, 2/3), adjoint(composition(avf2, rk4; 1/3, 2/3)); 1/2, 1/2)",
+         2, R, false, true},
+        {"composition(variational-midpoint2, verlet; 1/2, 1/2)", 2, S, false, true},
+        /* steps exchanged; a method without its adjoint; bases exchanged in one place; too much claimed */
+        {"composition(explicit-euler, implicit-euler; order: 4; claims: symmetric; let: g = 1/(4 - 4^(1/3)); "
+         "g/2, g/2, g/2, (1-4*g)/2, g/2, (1-4*g)/2, g/2, g/2, g/2, g/2)",
+         4, R, true, false},
+        {"composition(explicit-euler; order: 4; claims: none; " TEN_STEPS, 4, 0, true, false},
+        {"composition(explicit-euler, rk4; order: 2; claims: none; " TEN_STEPS, 2, 0, true, false},
+        {"composition(rk4, verlet; claims: symplectic; 1/2, 1/2)", 2, S, true, false},
+        {"composition(midpoint, verlet; claims: symmetric; 1/2, 1/2)", 2, R, true, false},
+        {"composition(midpoint, avf2; claims: symplectic; 1/2, 1/2)", 2, S, false, false},
+        {"composition(symplectic-euler, avf2, symplectic-euler; order: 2; 1/4, 1/2, 1/4)", 2, 0, false,
+         false},
+    };
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
+        const struct gm_scheme *own = open_user(schemes[i].text);
+        const struct gm_certificate certificate = gm_certify(own);
+        if (own->order != schemes[i].order || own->claims != schemes[i].claims ||
+            certificate.theory.known != schemes[i].known || certificate.holds != schemes[i].holds) {
+            fail_msg("%s: order %d, claims %x, theory %d, holds %d", schemes[i].text, own->order, own->claims,
+                     certificate.theory.known, certificate.holds);
+        }
+        gm_user_scheme_close(own);
+    }
+}
+
 /* ---- by theory ---- */
 
 #define RK4_C "; c: 0, 1/2, 1/2, 1"
@@ -629,6 +743,14 @@ static void nystrom_compositions(void **unused)
          true, true},
         {"composition(" NYSTROM5("7/27") "; 1/2, 1/2)", NULL, 5, false, false},
         {"adjoint(composition(" NYSTROM5("7/27") "; 1/3, 2/3))", NULL, 5, false, false},
+        /* with bases of other kinds that are the same for a quadratic T */
+        {"composition(verlet, " VERLET_AS_NYSTROM "; 1/4, 1/2, 1/8, 1/8)",
+         "composition(verlet; 1/4, 1/2, 1/8, 1/8)", 2, true, false},
+        {"composition(gauss4, " GAUSS4_AS_NYSTROM ", gauss4; let: g = 1/(2 - 2^(1/5)); g, 1 - 2*g, g)", NULL,
+         6, true, true},
+        {"composition(lobatto2, " VERLET_AS_NYSTROM ", verlet; let: g = 1/(2 - 2^(1/3)); g, 1 - 2*g, g)",
+         NULL, 4, true, true},
+        {"composition(rk4, " VERLET_AS_NYSTROM "; 1/2, 1/2)", NULL, 2, false, false},
         /* no identity up to h^2: a processor that costs an order, which is measured too */
         {"processed(" VERLET_AS_NYSTROM "; nystrom(0; 1/4; 1/2; 1/2))", NULL, 1, true, false},
     };
@@ -881,6 +1003,19 @@ static void refusals(void **unused)
         {"composition(zabusky-kruskal; 1)", "zabusky-kruskal",
          "not a scheme for ordinary differential equations"},
         {"composition(tao2; 1)", "tao2", "cannot be a part"},
+        {"composition(rk4, logh2; 1/2, 1/2)", "logh2", "cannot be a part of a step: it is adaptive"},
+        {"processed(verlet; logh2)", "logh2", "cannot be a part"},
+        {"composition(rk4, rk5; 1/2, 1/2)", "rk5", "there is no scheme \"rk5\""},
+        {"composition(rk4, composition(verlet, rk5; 1/2, 1/2); 1/2, 1/2)", "rk5", "there is no scheme"},
+        {"composition(rk4, verlet; 1/7, 1/7, 1/7, 1/7, 1/7, 1/7, 1/7)", "1/7, 1/7, 1/7, 1/7, 1/7, 1/7, 1/7)",
+         "7 steps cannot be shared by 2 bases in turns"},
+        {"composition(rk4, verlet; 1)", "1)", "1 step cannot be shared by 2 bases in turns"},
+        {"composition(rk4, verlet; 0.4, 0.5)", "0.4", "the steps sum to 0.9, not to 1"},
+        {"composition(rk4, ; 1/2, 1/2)", ", ;", "nothing follows this ,"},
+        {"composition(rk4, , verlet; 1/4, 1/4, 1/2)", ", verlet", "there is no scheme"},
+        {"composition(; 1)", "; 1", "there is no scheme"},
+        {"adjoint(rk4, verlet)", "verlet)", "base: names one scheme"},
+        {"processed(verlet, rk4; verlet)", "rk4", "kernel: names one scheme"},
         {"composition(./a.scheme; 1)", "./a", "could not be read"},
         {"adjoint(avf2)", "", ""}, /* symmetric: its own adjoint */
         {"splitting(1, 1, 1; 1)", "1)", "cannot take turns"},
@@ -953,6 +1088,8 @@ int main(void)
         cmocka_unit_test(every_row_retyped),
         cmocka_unit_test(many_stages),
         cmocka_unit_test(schemes_of_schemes),
+        cmocka_unit_test(bases_in_turns),
+        cmocka_unit_test(claims_in_turns),
         cmocka_unit_test(wrong_schemes),
         cmocka_unit_test(digits),
         cmocka_unit_test(digits_over_every_base),

@@ -62,9 +62,8 @@ static void print_certificate(const struct gm_certificate *certificate)
         gm_theory_print(theory, "    ");
         printf("\n");
     } else if (scheme->word) {
-        printf(
-            "  theory does not apply: the parts are not tableaus, splittings or Nystrom methods of one kind, or they "
-            "have more than 256 stages\n");
+        printf("  theory does not apply: a part is not a tableau, splitting or Nystrom method, or they "
+               "have more than 256 stages\n");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];

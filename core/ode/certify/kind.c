@@ -368,10 +368,10 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
         }
         gm_subject_close(&subject);
     }
-    /* a scheme that chooses its order has to follow its tolerance */
-    certificate->order_holds = scheme->order == 0
-                                   ? certificate->order > 0.5
-                                   : fabs(certificate->order - scheme->order) < 0.05 * scheme->order;
+    /* a scheme that chooses its order has to follow its tolerance; a user's has at least the order of its parts */
+    const double least = scheme->order == 0 ? 0.5 : 0.95 * scheme->order;
+    certificate->order_holds = certificate->order > least && (scheme->order == 0 || scheme->word ||
+                                                              certificate->order < 1.05 * scheme->order);
 }
 
 static const struct gm_family *const families[] = {

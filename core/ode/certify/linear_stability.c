@@ -137,7 +137,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
         }
         return cabs(product);
     }
-    if (scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying) {
+    if (gm_scheme_is_composition(scheme)) {
         const struct gm_substeps *substeps = scheme->coefficients;
         double product = gm_linear_test_of(scheme) == GM_TEST_PLANE ? 1 : NAN;
         for (int i = 0; i < substeps->count; i++) {

@@ -9,6 +9,7 @@
 #include "core/files/files.h"
 #include "core/model/equations.h"
 #include "core/ode/certify/measure.h"
+#include "core/ode/families/composition.h"
 #include "core/ode/problems/problems.h"
 #include "core/ode/user/problem.h"
 
@@ -168,7 +169,7 @@ bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_s
         return false;
     }
     if (!row->problem) {
-        gm_user_problem_take_compiled(&subject->problem, scheme->family->over_kernels);
+        gm_user_problem_take_compiled(&subject->problem, gm_scheme_over_kernels(scheme));
     }
     return true;
 }

@@ -10,6 +10,7 @@
 
 #include "core/kind.h"
 #include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
@@ -28,6 +29,26 @@ bool gm_scheme_composes(const struct gm_scheme *scheme)
     const struct gm_family *family = scheme->family;
     return family->kind == &gm_kind_ode && !family->memory && !family->adaptive && !family->doubled &&
            !family->not_resumable;
+}
+
+bool gm_scheme_is_composition(const struct gm_scheme *scheme)
+{
+    return scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying;
+}
+
+int gm_scheme_over_kernels(const struct gm_scheme *scheme)
+{
+    if (!gm_scheme_is_composition(scheme)) {
+        return scheme->family->over_kernels;
+    }
+    const struct gm_substeps *substeps = scheme->coefficients;
+    const int over = gm_scheme_over_kernels(substeps->at[0].scheme);
+    for (int i = 1; i < substeps->count; i++) {
+        if (gm_scheme_over_kernels(substeps->at[i].scheme) != over) {
+            return GM_OVER_ALL;
+        }
+    }
+    return over;
 }
 
 void gm_composition_close(void *data)

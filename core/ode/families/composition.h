@@ -16,6 +16,10 @@ struct gm_substeps {
 
 /* Returns true if a scheme may be a part of a composition. */
 bool gm_scheme_composes(const struct gm_scheme *scheme);
+bool gm_scheme_is_composition(const struct gm_scheme *scheme);
+/* Returns the number of the loop over kernels that a scheme's steps call, or GM_OVER_ALL if the parts of a
+   composition call several. */
+int gm_scheme_over_kernels(const struct gm_scheme *scheme);
 
 /* The loop of compositions and its workspace. If `projected`, these substeps, is not NULL, states are projected
    onto their constraints after a step, and the workspace frees it, also when out of memory. */

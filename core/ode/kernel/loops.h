@@ -7,8 +7,9 @@
 
 #include "core/ode/ode.h"
 
-/* The families that have a loop over kernels: gm_family.over_kernels. */
+/* The families that have a loop over kernels: gm_family.over_kernels. A composition may need all of these loops. */
 enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_OVER_COUNT };
+enum { GM_OVER_ALL = GM_OVER_COUNT };
 
 /* The functions that core/ode/compiled/over_kernels.c makes of a problem's kernels for one instruction set.
    */

@@ -657,7 +657,8 @@ char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const c
     }
     struct gm_kernel_source source = {.components = problem->n,
                                       .jacobian = &self->rates->jacobian,
-                                      .jacobian_wanted = over == GM_OVER_NONE || over == GM_OVER_IMPLICIT};
+                                      .jacobian_wanted =
+                                          over != GM_OVER_EXPLICIT && over != GM_OVER_SPLITTING};
     return tapes_of_kernels(self, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
 }
 

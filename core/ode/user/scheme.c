@@ -328,6 +328,11 @@ static struct own *flatten(const struct making *making, const struct substeps *s
     return of_pieces(making, &pieces, needs);
 }
 
+static bool has_coefficients(const struct gm_scheme *scheme)
+{
+    return scheme->exact || scheme->family->coefficients_open;
+}
+
 /* Composes the exact coefficients of substeps. Does nothing if a substep has none, or they are too many. */
 static void open_exact(const struct making *making, struct gm_coefficients *exact,
                        const struct substeps *substeps)
@@ -338,14 +343,13 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
     int stages = 0;
     for (size_t k = 0; k < count; k++) {
         const struct gm_scheme *scheme = substeps->at[k].scheme;
-        if (!scheme->exact && !scheme->family->coefficients_open) {
+        if (!has_coefficients(scheme)) {
             return;
         }
         gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &parts[k]));
         fractions[k] = substeps->at[k].fraction.ball;
         stages += parts[k].stages;
-        if (parts[k].equations != parts[0].equations || !parts[k].nystrom != !parts[0].nystrom ||
-            stages > MOST_STAGES) {
+        if (stages > MOST_STAGES) {
             return;
         }
     }
@@ -362,11 +366,6 @@ static struct own *compose(const struct making *making, const struct substeps *s
         splittings = splittings && scheme->family == &gm_family_splitting;
         carrying = carrying && scheme->family->carries_passive;
         needs |= scheme->needs;
-        if (!gm_scheme_composes(scheme)) {
-            fail(making, place,
-                 "%.60s cannot be a part of a step: it is adaptive, or carries data between steps",
-                 scheme->name);
-        }
     }
     if (splittings) {
         return flatten(making, substeps, place);
@@ -390,11 +389,12 @@ static struct own *compose(const struct making *making, const struct substeps *s
 static struct own *same(const struct making *making, const struct gm_scheme *scheme)
 {
     struct own *self = open_user(making, 1);
-    const bool known = scheme->exact || scheme->family->coefficients_open;
-    gm_arena_need(making->arena, !known || gm_scheme_coefficients_open(scheme, &self->exact));
+    gm_arena_need(making->arena,
+                  !has_coefficients(scheme) || gm_scheme_coefficients_open(scheme, &self->exact));
     self->row.family = scheme->family;
     self->row.coefficients = scheme->coefficients;
     self->row.needs = scheme->needs;
+    self->row.claims = scheme->claims;
     return self;
 }
 
@@ -485,7 +485,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
 /* Makes the adjoint of a scheme made of coefficients alone. */
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
-    if (!scheme->exact && !scheme->family->coefficients_open) {
+    if (!has_coefficients(scheme)) {
         fail(making, place,
              "the adjoint of %.60s is unknown: it is neither a Runge-Kutta method nor a splitting",
              scheme->name);
@@ -508,13 +508,38 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
 /* The adjoint of a scheme, which outlives it. */
 static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
-    const bool composed =
-        scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying;
-    struct own *self = scheme->claims & GM_SYMMETRIC ? same(making, scheme)
-                       : composed                    ? adjoint_composition(making, scheme, place)
-                                                     : adjoint_single(making, scheme, place);
+    struct own *self = scheme->claims & GM_SYMMETRIC      ? same(making, scheme)
+                       : gm_scheme_is_composition(scheme) ? adjoint_composition(making, scheme, place)
+                                                          : adjoint_single(making, scheme, place);
     self->row.exact = self->exact.stages > 0 ? &self->exact : NULL;
     return self;
+}
+
+/* Returns true if two schemes are known to be adjoint to each other: one that is its own adjoint, compositions
+   of such schemes in the opposite order, or coefficients that satisfy the conditions. */
+static bool are_adjoint(const struct making *making, const struct gm_scheme *a, const struct gm_scheme *b)
+{
+    bool mirrored = (a->claims | b->claims) & GM_SYMMETRIC && a->family == b->family &&
+                    a->coefficients == b->coefficients;
+    if (!mirrored && gm_scheme_is_composition(a) && gm_scheme_is_composition(b)) {
+        const struct gm_substeps *of_a = a->coefficients, *of_b = b->coefficients;
+        mirrored = of_a->count == of_b->count;
+        for (int i = 0, last = of_b->count - 1; i <= last && mirrored; i++) {
+            const struct gm_substep *here = &of_a->at[i], *there = &of_b->at[last - i];
+            mirrored = fabs(here->fraction - there->fraction) < 1e-15 &&
+                       are_adjoint(making, here->scheme, there->scheme);
+        }
+    }
+    if (mirrored || !has_coefficients(a) || !has_coefficients(b)) {
+        return mirrored;
+    }
+    /* then a step of one after a step of the other is symmetric */
+    struct gm_coefficients *taken = take_coefficients(making, 3);
+    const struct gm_ball fractions[] = {gm_ball_of(1), gm_ball_of(1)};
+    gm_arena_need(making->arena, gm_scheme_coefficients_open(a, &taken[0]) &&
+                                     gm_scheme_coefficients_open(b, &taken[1]) &&
+                                     gm_coefficients_open_composition(&taken[2], taken, fractions, 2));
+    return taken[0].stages == taken[1].stages && gm_theory_is_symmetric(&taken[2]);
 }
 
 /* ---- schemes of schemes ---- */
@@ -522,11 +547,20 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
 static struct own *make(const struct making *making, struct gm_span span, const char *name,
                         const char *title);
 
-/* The scheme that a line names. */
-static const struct gm_scheme *scheme_of(const struct making *making, const struct gm_written_line *line)
+/* The schemes that a line names. */
+struct named {
+    int count;
+    const struct gm_scheme **at;
+};
+
+/* The scheme that a piece of the text names. */
+static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span)
 {
-    const struct gm_span span = line->value;
     const char *text = making->source->text;
+    const char *comment = memchr(text + span.begin, '#', span.end - span.begin);
+    if (comment) {
+        span = gm_span_trimmed(text, (struct gm_span){span.begin, (size_t)(comment - text)});
+    }
     const char *name = gm_arena_keep(making->arena, gm_span_words(text, span), free);
     char sentence[GM_FAULT_SENTENCE] = "";
     if (gm_written_is_word(text + span.begin, span.end - span.begin)) {
@@ -557,13 +591,44 @@ static const struct gm_scheme *scheme_of(const struct making *making, const stru
     return scheme;
 }
 
+static struct named schemes_of(const struct making *making, const struct gm_written_scheme *written,
+                               enum gm_scheme_word word)
+{
+    const struct gm_written_line *line = &written->lines[word];
+    struct named named = {.count = line->said ? line->columns : 0};
+    struct gm_span rest = line->value, piece;
+    named.at = gm_arena_take(making->arena, (size_t)named.count, sizeof(*named.at));
+    for (int i = 0; i < named.count; i++) {
+        gm_span_take(making->source->text, &rest, ",", &piece);
+        named.at[i] = scheme_of(making, piece);
+        if (written->kind != GM_WRITTEN_ADJOINT && !gm_scheme_composes(named.at[i])) {
+            fail(making, piece.begin,
+                 "%.60s cannot be a part of a step: it is adaptive, or carries data between steps",
+                 named.at[i]->name);
+        }
+    }
+    return named;
+}
+
+/* The words or the titles of schemes, between commas. */
+static const char *join(const struct making *making, const struct named *named, bool titles)
+{
+    const char *text = "";
+    for (int i = 0; i < named->count; i++) {
+        text = gm_arena_print(making->arena, "%s%s%s", text, i ? ", " : "",
+                              titles ? named->at[i]->title : gm_scheme_word(named->at[i]));
+    }
+    return text;
+}
+
+/* The bases take turns. */
 static struct own *make_composition(const struct making *making, const struct gm_written_scheme *written,
-                                    const struct gm_scheme *base)
+                                    const struct named *bases)
 {
     const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
     struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
     for (int i = 0; i < steps->columns; i++) {
-        substeps->at[i].scheme = base;
+        substeps->at[i].scheme = bases->at[i % bases->count];
         substeps->at[i].fraction = steps->numbers[i];
     }
     substeps->count = steps->columns;
@@ -616,7 +681,7 @@ static const char *numbers_of(const struct gm_written_line *line, char text[64])
 
 /* Returns the title in pictures if the text gives none. */
 static char *title_of(const struct making *making, const struct gm_written_scheme *written,
-                      const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
+                      const struct named schemes[GM_SCHEME_WORDS])
 {
     const struct gm_written_line *lines = written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows, steps = lines[GM_SCHEME_WORD_STEPS].columns;
@@ -624,13 +689,14 @@ static char *title_of(const struct making *making, const struct gm_written_schem
     switch (written->kind) {
     case GM_WRITTEN_COMPOSITION:
         return gm_arena_print(making->arena, "%d step%s of %s (%s)", steps, gm_plural(steps),
-                              schemes[GM_SCHEME_WORD_BASE]->title,
+                              join(making, &schemes[GM_SCHEME_WORD_BASE], true),
                               numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
     case GM_WRITTEN_ADJOINT:
-        return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE]->title);
+        return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE].at[0]->title);
     case GM_WRITTEN_PROCESSED:
-        return gm_arena_print(making->arena, "%s, processed by %s", schemes[GM_SCHEME_WORD_KERNEL]->title,
-                              schemes[GM_SCHEME_WORD_PROCESSOR]->title);
+        return gm_arena_print(making->arena, "%s, processed by %s",
+                              schemes[GM_SCHEME_WORD_KERNEL].at[0]->title,
+                              schemes[GM_SCHEME_WORD_PROCESSOR].at[0]->title);
     case GM_WRITTEN_SPLITTING:
         return gm_arena_print(making->arena, "splitting (%s / %s)",
                               numbers_of(&lines[GM_SCHEME_WORD_DRIFTS], numbers),
@@ -670,14 +736,14 @@ static void check_weights(const struct making *making, const struct gm_written_s
 
 /* The row's texts, its word among them. */
 static void tell(const struct making *making, const struct gm_written_scheme *written, struct own *self,
-                 const char *name, const char *title, const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
+                 const char *name, const char *title, const struct named schemes[GM_SCHEME_WORDS])
 {
     const struct gm_written_line *own_title = &written->lines[GM_SCHEME_WORD_TITLE],
                                  *reference = &written->lines[GM_SCHEME_WORD_REFERENCE];
     struct gm_scheme *row = &self->row;
     const char *words[GM_SCHEME_WORDS] = {NULL};
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        words[word] = schemes[word] ? gm_scheme_word(schemes[word]) : NULL;
+        words[word] = join(making, &schemes[word], false);
     }
     row->name = gm_arena_print(making->arena, "%s", name);
     row->title = own_title->said
@@ -691,11 +757,25 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
                          : "user-defined";
 }
 
-/* Fills order and claims that the text does not give from theory; without theory the order is that of the
+/* Claims of a composition that follow from its bases if theory does not apply. A symmetric scheme has an even
+   order. */
+static struct gm_theory theory_of_bases(const struct making *making, const struct gm_scheme *row,
+                                        const struct named *bases)
+{
+    struct gm_theory theory = {.order = bases->at[0]->order, .symplectic = true};
+    for (int i = 0; i < bases->count; i++) {
+        theory.order = bases->at[i]->order < theory.order ? bases->at[i]->order : theory.order;
+        theory.symplectic = theory.symplectic && bases->at[i]->claims & GM_SYMPLECTIC;
+    }
+    theory.symmetric = are_adjoint(making, row, row);
+    theory.order += theory.symmetric ? theory.order % 2 : 0;
+    return theory;
+}
+
+/* Fills order and claims that the text does not give from theory; without theory they follow from the
    parts. A scheme that is already open under this name with the same text passes on its order and claims. */
 static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
-                   const char *name, const char *title,
-                   const struct gm_scheme *const schemes[GM_SCHEME_WORDS])
+                   const char *name, const char *title, const struct named schemes[GM_SCHEME_WORDS])
 {
     struct gm_scheme *row = &self->row;
     const struct gm_written_line *lines = written->lines;
@@ -722,8 +802,11 @@ static void finish(const struct making *making, const struct gm_written_scheme *
         theory = gm_theory_of(row->exact);
         gm_arena_need(making->arena, theory.known);
     }
-    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known; word++) {
-        theory.order = schemes[word] && theory.order == 0 ? schemes[word]->order : theory.order;
+    if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
+        theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
+    }
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known && theory.order == 0; word++) {
+        theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
     }
     row->order = written->order > 0 ? written->order : theory.order > 0 ? theory.order : 1;
     row->claims = (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
@@ -737,13 +820,12 @@ static struct own *make_written(const struct making *making, const struct gm_wri
 {
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
-    const struct gm_scheme *schemes[GM_SCHEME_WORDS] = {NULL};
+    struct named schemes[GM_SCHEME_WORDS] = {{0}};
     struct own *own = NULL;
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
-        const struct gm_written_line *line = &written->lines[of_schemes[i]];
-        schemes[of_schemes[i]] = line->said ? scheme_of(making, line) : NULL;
+        schemes[of_schemes[i]] = schemes_of(making, written, of_schemes[i]);
     }
-    const struct gm_scheme *base = schemes[GM_SCHEME_WORD_BASE];
+    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
     switch (written->kind) {
     case GM_WRITTEN_RUNGE_KUTTA:
     case GM_WRITTEN_EXPLICIT:
@@ -756,17 +838,17 @@ static struct own *make_written(const struct making *making, const struct gm_wri
         own = make_nystrom(making, written);
         break;
     case GM_WRITTEN_COMPOSITION:
-        own = make_composition(making, written, base);
+        own = make_composition(making, written, bases);
         break;
     case GM_WRITTEN_SPLITTING:
         own = make_splitting(making, written);
         break;
     case GM_WRITTEN_PROCESSED:
-        own = make_processed(making, written, schemes[GM_SCHEME_WORD_KERNEL],
-                             schemes[GM_SCHEME_WORD_PROCESSOR]);
+        own = make_processed(making, written, schemes[GM_SCHEME_WORD_KERNEL].at[0],
+                             schemes[GM_SCHEME_WORD_PROCESSOR].at[0]);
         break;
     case GM_WRITTEN_ADJOINT:
-        own = adjoint_of(making, base, written->lines[GM_SCHEME_WORD_BASE].value.begin);
+        own = adjoint_of(making, bases->at[0], written->lines[GM_SCHEME_WORD_BASE].value.begin);
         break;
     case GM_WRITTEN_KINDS:
         break;
