@@ -23,6 +23,7 @@
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
 #include "core/model/facts.h"
+#include "core/model/invariants.h"
 #include "core/model/recognition.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/problem.h"
@@ -181,14 +182,6 @@ static const char *kept_name(const struct report *report, const struct gm_system
     return item->name[0] ? item->name : gm_arena_print(report->arena, "momentum%d", number);
 }
 
-/* The item's formula; GM_NO_NODE for a symmetry without a momentum map. */
-static gm_node_id kept_node(const struct gm_user_system *system, const struct gm_system_item *item)
-{
-    return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
-           : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
-                                           : GM_NO_NODE;
-}
-
 static void print_texts(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
@@ -291,7 +284,7 @@ static void print_kept(const struct report *report)
         }
         printf("%s", any ? "" : "\ninvariants\n");
         any = true;
-        const gm_node_id node = kept_node(system, item);
+        const gm_node_id node = gm_system_conserved(system, item);
         const char *by = item->word == GM_WORD_CASIMIR    ? "a Casimir, "
                          : item->word == GM_WORD_SYMMETRY ? "by symmetry, "
                                                           : "";
@@ -758,10 +751,87 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
     gm_row_put(row, "file %s, source %s", file ? file->path : NULL, file ? source : NULL);
 }
 
+/* A formula that is written out, without names of parts. */
+static const char *written_out(struct report *report, gm_node_id node)
+{
+    struct gm_naming naming = gm_system_naming(&report->system);
+    naming.part = NULL;
+    const gm_node_id tidied = gm_formula_tidied(&report->system.graph, node, &naming);
+    char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
+    gm_arena_need(report->arena, text || !gm_memory_was_short());
+    return text ? gm_arena_keep(report->arena, text, free) : "(a long formula)";
+}
+
+static const char *found_name(const struct report *report, const struct gm_invariant *invariant)
+{
+    return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
+}
+
+static const char *proof_of(const struct gm_invariant *invariant)
+{
+    return invariant->proof == GM_ZERO_PROVED ? "exact" : "random points";
+}
+
+static void print_found(struct report *report, const struct gm_invariants *found)
+{
+    gm_print_wrapped(gm_arena_print(report->arena, "invariants of degree %zu at most, among %zu candidates",
+                                    found->degree, found->candidates),
+                     0, 0);
+    for (size_t i = 0; i < found->count; i++) {
+        const struct gm_invariant *invariant = &found->list[i];
+        const char *name = found_name(report, invariant);
+        gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu, %s)", name ? name : "",
+                                        name ? " = " : "", written_out(report, invariant->node),
+                                        invariant->degree, proof_of(invariant)),
+                         printf("  "), 2);
+    }
+    if (found->unwritten > 0) {
+        printf("  and %zu whose coefficients are no short fractions\n", found->unwritten);
+    }
+    printf("%zu found, %zu independent\n", found->count, found->independent);
+}
+
+static void put_found(struct report *report, const struct gm_invariants *found)
+{
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_put(&row, "degree %i, candidates %i", (int)found->degree, (int)found->candidates);
+    struct gm_row list = gm_row_open(&row, "invariants_found", ']');
+    for (size_t i = 0; i < found->count; i++) {
+        const struct gm_invariant *invariant = &found->list[i];
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
+                   (int)invariant->degree, proof_of(invariant), found_name(report, invariant));
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
+    gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)found->unwritten,
+               (int)found->independent);
+    printf("}\n");
+}
+
+static int list_invariants(const struct gm_options *options, struct report *report)
+{
+    const size_t usual = 4, degree = options->degree ? (size_t)options->degree : usual;
+    if (degree > GM_LARGEST_DEGREE) {
+        return gm_give_up(GM_EXIT_USAGE, "--degree %zu is not a whole number from 1 to %d", degree,
+                          GM_LARGEST_DEGREE);
+    }
+    struct gm_invariants found;
+    gm_invariants_find(&report->system, options->arena, degree, &found);
+    if (found.lacks) {
+        return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s", found.lacks);
+    }
+    (options->json ? put_found : print_found)(report, &found);
+    return gm_finish(GM_EXIT_OK);
+}
+
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
     check_scene(options, !file);
+    if (options->invariants) {
+        return list_invariants(options, report);
+    }
     const double *start = start_of(report);
     const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
     /* a check without memory does not count as unchecked */

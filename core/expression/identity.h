@@ -4,6 +4,7 @@
 #define GM_CORE_EXPRESSION_IDENTITY_H
 
 #include "core/expression/graph.h"
+#include "core/linear/residue.h"
 
 enum gm_identity {
     GM_NOT_ZERO,
@@ -19,5 +20,10 @@ enum gm_identity {
    Variables are random; in the second test variable i < variables is fixed[i], unless that is NaN. */
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
+
+/* The values of `count` ascending nodes, which include all their operands, at random point `number` of that field:
+   values[node]. False: they do not exist there. */
+bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                           uint64_t number, gm_residue *values);
 
 #endif

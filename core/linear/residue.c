@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/linear/residue.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+gm_residue gm_residue_power(gm_residue a, uint64_t n)
+{
+    gm_residue result = 1;
+    for (; n; n /= 2, a = gm_residue_times(a, a)) {
+        result = n % 2 ? gm_residue_times(result, a) : result;
+    }
+    return result;
+}
+
+gm_residue gm_residue_inverse(gm_residue a)
+{
+    return gm_residue_power(a, GM_PRIME - 2);
+}
+
+gm_residue gm_residue_of(double value)
+{
+    const double largest = 0x1p36, size = fabs(value);
+    gm_residue result = 0;
+    double rest = size, p[2] = {1, floor(size)}, q[2] = {0, 1}; /* the last two continued fractions */
+    while (p[1] * q[1] < largest && fabs(p[1] / q[1] - size) > 0x1p-52 * size) {
+        rest = 1 / (rest - floor(rest));
+        const double next[] = {floor(rest) * p[1] + p[0], floor(rest) * q[1] + q[0]};
+        p[0] = p[1];
+        q[0] = q[1];
+        p[1] = next[0];
+        q[1] = next[1];
+    }
+    if (p[1] * q[1] < largest) {
+        result = gm_residue_times((gm_residue)p[1], gm_residue_inverse((gm_residue)q[1]));
+    } else { /* m 2^e, and 2^61 = 1 */
+        int exponent = 0;
+        const double whole = ldexp(frexp(size, &exponent), 53);
+        exponent = ((exponent - 53) % 61 + 61) % 61;
+        result = gm_residue_times((gm_residue)whole % GM_PRIME, (gm_residue)1 << exponent);
+    }
+    return value < 0 ? gm_residue_minus(result) : result;
+}
+
+static int64_t divisor(int64_t a, int64_t b)
+{
+    while (b) {
+        const int64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return llabs(a);
+}
+
+/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^30: a = remainder / factor. */
+static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator)
+{
+    const int64_t bound = (int64_t)1 << 30;
+    int64_t remainders[] = {(int64_t)GM_PRIME, (int64_t)a}, factors[] = {0, 1};
+    while (remainders[1] >= bound) {
+        const int64_t quotient = remainders[0] / remainders[1],
+                      remainder = remainders[0] - quotient * remainders[1],
+                      factor = factors[0] - quotient * factors[1];
+        remainders[0] = remainders[1];
+        factors[0] = factors[1];
+        remainders[1] = remainder;
+        factors[1] = factor;
+    }
+    *numerator = factors[1] < 0 ? -remainders[1] : remainders[1];
+    *denominator = llabs(factors[1]);
+    return *denominator < bound;
+}
+
+bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole)
+{
+    const int64_t largest = (int64_t)1 << 53;
+    int64_t common = 1, numerator, denominator, shared = 0;
+    gm_residue first = 0;
+    for (size_t i = 0; i < count && !first; i++) {
+        first = residues[i] ? gm_residue_inverse(residues[i]) : 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!find_fraction(gm_residue_times(first, residues[i]), &numerator, &denominator)) {
+            return false;
+        }
+        const int64_t more = denominator / divisor(common, denominator);
+        if (common > largest / more) {
+            return false;
+        }
+        common *= more;
+    }
+    for (size_t i = 0; i < count; i++) {
+        find_fraction(gm_residue_times(first, residues[i]), &numerator, &denominator);
+        if (llabs(numerator) > largest / (common / denominator)) {
+            return false;
+        }
+        numerator *= common / denominator;
+        shared = divisor(shared, numerator);
+        whole[i] = (double)numerator;
+    }
+    for (size_t i = 0; i < count && shared; i++) {
+        whole[i] /= (double)shared;
+    }
+    return true;
+}
+
+struct gm_echelon gm_echelon_open(struct gm_arena *arena, size_t columns)
+{
+    struct gm_echelon echelon = {arena, columns, NULL};
+    echelon.rows = gm_arena_take(arena, columns + 1, sizeof(gm_residue *));
+    return echelon;
+}
+
+/* row += factor * other, from column `first` on */
+static void add_multiple(gm_residue *row, gm_residue factor, const gm_residue *other, size_t first,
+                         size_t columns)
+{
+    for (size_t i = first; i < columns; i++) {
+        row[i] = gm_residue_plus(row[i], gm_residue_times(factor, other[i]));
+    }
+}
+
+size_t gm_echelon_reduce(const struct gm_echelon *echelon, gm_residue *row)
+{
+    size_t c = 0;
+    while (c < echelon->columns && (!row[c] || echelon->rows[c])) {
+        if (row[c]) {
+            add_multiple(row, gm_residue_minus(row[c]), echelon->rows[c], c, echelon->columns);
+        }
+        c++;
+    }
+    return c;
+}
+
+bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row)
+{
+    const size_t c = gm_echelon_reduce(echelon, row);
+    if (c == echelon->columns) {
+        return false;
+    }
+    gm_residue *rest = gm_arena_take(echelon->arena, echelon->columns, sizeof *rest);
+    add_multiple(rest, gm_residue_inverse(row[c]), row, c, echelon->columns);
+    echelon->rows[c] = rest;
+    return true;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const gm_residue *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* The ratio a / b that most entries share, and the number of these. */
+static gm_residue most_frequent(const gm_residue *a, const gm_residue *inverses, size_t columns,
+                                gm_residue *ratios, size_t *often)
+{
+    size_t count = 0;
+    gm_residue best = 0;
+    for (size_t i = 0; i < columns; i++) {
+        if (a[i] && inverses[i]) {
+            ratios[count++] = gm_residue_times(a[i], inverses[i]);
+        }
+    }
+    qsort(ratios, count, sizeof *ratios, compare);
+    *often = 0;
+    for (size_t i = 0, same = 0; i < count; i++) {
+        same = i > 0 && ratios[i] == ratios[i - 1] ? same + 1 : 1;
+        if (same > *often) {
+            *often = same;
+            best = ratios[i];
+        }
+    }
+    return best;
+}
+
+static void count_terms(struct gm_null_vector *vector, size_t columns)
+{
+    vector->terms = 0;
+    for (size_t i = 0; i < columns; i++) {
+        vector->terms += vector->entries[i] != 0;
+    }
+}
+
+/* Subtracts a multiple of another vector if fewer terms are left. */
+static bool shorten(struct gm_null_vector *vector, const struct gm_null_vector *other, size_t columns,
+                    gm_residue *scratch[2])
+{
+    size_t often = 0, shared = 0;
+    for (size_t i = 0; i < columns; i++) {
+        const bool both = vector->entries[i] && other->entries[i];
+        scratch[0][i] = both ? gm_residue_inverse(other->entries[i]) : 0;
+        shared += both;
+    }
+    if (2 * shared <= other->terms) {
+        return false;
+    }
+    const gm_residue ratio = most_frequent(vector->entries, scratch[0], columns, scratch[1], &often);
+    if (other->terms - shared >= often) {
+        return false;
+    }
+    add_multiple(vector->entries, gm_residue_minus(ratio), other->entries, 0, columns);
+    count_terms(vector, columns);
+    return true;
+}
+
+struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, size_t *count)
+{
+    const size_t columns = echelon->columns;
+    struct gm_null_vector *basis = gm_arena_take(echelon->arena, columns + 1, sizeof *basis);
+    *count = 0;
+    for (size_t last = 0; last < columns; last++) {
+        if (echelon->rows[last]) {
+            continue;
+        }
+        gm_residue *entries = gm_arena_take(echelon->arena, columns, sizeof *entries);
+        entries[last] = 1;
+        for (size_t c = last; c-- > 0;) {
+            gm_residue sum = 0;
+            for (size_t i = c + 1; i <= last && echelon->rows[c]; i++) {
+                sum = gm_residue_plus(sum, gm_residue_times(echelon->rows[c][i], entries[i]));
+            }
+            entries[c] = gm_residue_minus(sum);
+        }
+        basis[*count] = (struct gm_null_vector){.entries = entries, .last = last};
+        count_terms(&basis[(*count)++], columns);
+    }
+    gm_residue *scratch[] = {gm_arena_take(echelon->arena, columns + 1, sizeof(gm_residue)),
+                             gm_arena_take(echelon->arena, columns + 1, sizeof(gm_residue))};
+    for (bool shorter = true; shorter;) {
+        shorter = false;
+        for (size_t i = 0; i < *count; i++) {
+            for (size_t k = 0; k < i; k++) {
+                shorter |= shorten(&basis[i], &basis[k], columns, scratch);
+            }
+        }
+    }
+    return basis;
+}

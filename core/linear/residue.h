@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers modulo the prime 2^61 - 1, in which rank and null space are exact, and elimination with them. */
+#ifndef GM_CORE_LINEAR_RESIDUE_H
+#define GM_CORE_LINEAR_RESIDUE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/arena.h"
+
+typedef uint64_t gm_residue;
+__extension__ typedef unsigned __int128 gm_wide;
+
+#define GM_PRIME ((UINT64_C(1) << 61) - 1) /* 3 modulo 4: roots are powers */
+
+static inline gm_residue gm_residue_times(gm_residue a, gm_residue b)
+{
+    const gm_wide product = (gm_wide)a * b;
+    const gm_residue sum = (gm_residue)(product & GM_PRIME) + (gm_residue)(product >> 61);
+    return sum >= GM_PRIME ? sum - GM_PRIME : sum;
+}
+
+static inline gm_residue gm_residue_plus(gm_residue a, gm_residue b)
+{
+    return a + b >= GM_PRIME ? a + b - GM_PRIME : a + b;
+}
+
+static inline gm_residue gm_residue_minus(gm_residue a)
+{
+    return a ? GM_PRIME - a : 0;
+}
+
+gm_residue gm_residue_power(gm_residue a, uint64_t n);
+gm_residue gm_residue_inverse(gm_residue a);
+
+/* The residue of a finite double: of p / q where one with p q < 2^36 rounds to this double, or to a neighbour of it,
+   so that 0.1 and 8/3 are what was written; else of the double itself, m 2^e. */
+gm_residue gm_residue_of(double value);
+
+/* The whole numbers with these ratios and no common divisor, the first that is not 0 above 0. False if they are not
+   below 2^53, or the ratios are no fractions with parts below 2^30. P. S. Wang, ISSAC 1981, 212. */
+bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole);
+
+/* Rows in echelon form: rows[c] begins with a 1 in column c; NULL: no row begins there. */
+struct gm_echelon {
+    struct gm_arena *arena;
+    size_t columns;
+    gm_residue **rows;
+};
+
+/* Inside a body of the arena. */
+struct gm_echelon gm_echelon_open(struct gm_arena *arena, size_t columns);
+/* Subtracts multiples of the rows. Returns the column in which the rest begins; `columns`: the row is a combination of
+   the others. */
+size_t gm_echelon_reduce(const struct gm_echelon *echelon, gm_residue *row);
+/* Reduces a row, and adds a copy of the rest. Returns false if nothing is left. Inside a body of the arena. */
+bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row);
+
+/* Vectors that all rows send to 0. */
+struct gm_null_vector {
+    gm_residue *entries; /* [columns]; entry `last` is 1, later ones are 0 */
+    size_t last, terms;  /* entries that are not 0 */
+};
+/* A basis of the null space, [*count], by rising `last`, with few terms: two vectors are replaced by a combination with
+   fewer terms as long as there is one. Inside a body of the arena. */
+struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, size_t *count);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Invariants that the equations of a system have, found and proved. */
+#ifndef GM_CORE_MODEL_INVARIANTS_H
+#define GM_CORE_MODEL_INVARIANTS_H
+
+#include "core/model/system.h"
+
+enum { GM_MOST_CANDIDATES = 3000, GM_LARGEST_DEGREE = 8 };
+
+struct gm_invariant {
+    const struct gm_system_item *item; /* the declared one; NULL: H, or found */
+    bool energy;                       /* H */
+    gm_node_id node;                   /* in the system's graph; what was found has whole coefficients */
+    size_t degree;                     /* in the components and in parts that are no polynomials */
+    enum gm_identity proof;
+};
+
+/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. */
+struct gm_invariants {
+    size_t degree; /* largest degree that was searched: less than wanted if there are too many candidates */
+    size_t candidates; /* products of components and parts */
+    struct gm_invariant *list;
+    size_t count, independent;
+    size_t unwritten;  /* further invariants: their coefficients are no short fractions */
+    const char *lacks; /* the reason why nothing was searched, in words; NULL: it was */
+};
+
+/* Finds the polynomial invariants up to a degree, for the system's values of parameters. Inside a body of the arena,
+   which is left when out of memory. The graph grows. */
+void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
+                        struct gm_invariants *found);
+
+/* A field a + A y along which the motion goes into motions: f'(y) (a + A y) - A f(y) = c f(y). */
+struct gm_symmetry {
+    gm_node_id *field; /* [n] */
+    double scaling;    /* c */
+};
+enum { GM_MOST_WITH_SYMMETRIES = 20 /* components */ };
+/* Finds a basis of the affine symmetries; the caller has found that the invariants lack nothing. Returns their number:
+   0 for too many components as well. */
+size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena, struct gm_symmetry **found);
+
+#endif
