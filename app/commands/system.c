@@ -767,11 +767,6 @@ static const char *found_name(const struct report *report, const struct gm_invar
     return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
 }
 
-static const char *proof_of(const struct gm_invariant *invariant)
-{
-    return invariant->proof == GM_ZERO_PROVED ? "exact" : "random points";
-}
-
 static void print_found(struct report *report, const struct gm_invariants *found)
 {
     gm_print_wrapped(gm_arena_print(report->arena, "invariants of degree %zu at most, among %zu candidates",
@@ -780,9 +775,9 @@ static void print_found(struct report *report, const struct gm_invariants *found
     for (size_t i = 0; i < found->count; i++) {
         const struct gm_invariant *invariant = &found->list[i];
         const char *name = found_name(report, invariant);
-        gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu, %s)", name ? name : "",
+        gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu)", name ? name : "",
                                         name ? " = " : "", written_out(report, invariant->node),
-                                        invariant->degree, proof_of(invariant)),
+                                        invariant->degree),
                          printf("  "), 2);
     }
     if (found->unwritten > 0) {
@@ -800,7 +795,7 @@ static void put_found(struct report *report, const struct gm_invariants *found)
         const struct gm_invariant *invariant = &found->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
-                   (int)invariant->degree, proof_of(invariant), found_name(report, invariant));
+                   (int)invariant->degree, "exact", found_name(report, invariant));
         gm_row_close(&one);
     }
     gm_row_close(&list);

@@ -152,9 +152,9 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
 }
 
 bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                           uint64_t number, gm_residue *values)
+                           const struct gm_random_point *point, gm_residue *values)
 {
-    const uint64_t seed = mix(number);
+    const uint64_t seed = mix(point->number);
     bool exists = true;
     for (size_t k = 0; k < count && exists; k++) {
         const gm_node_id i = parts[k];
@@ -163,7 +163,9 @@ bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *par
             exists = isfinite(node->value);
             values[i] = exists ? gm_residue_of(node->value) : 0;
         } else if (node->operation == GM_VARIABLE) {
-            values[i] = unrelated(seed, GM_VARIABLE, node->a, 0);
+            const bool is_fixed = node->a < point->variables && !isnan(point->fixed[node->a]);
+            values[i] =
+                is_fixed ? gm_residue_of(point->fixed[node->a]) : unrelated(seed, GM_VARIABLE, node->a, 0);
         } else {
             const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
             exists = value_of(node, values[node->a], values[b], graph->nodes[b].value, seed, &values[i]);
@@ -243,7 +245,8 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
                                                                          : LEAST_TRIES;
         int proofs = 0, tests = 0;
         for (uint64_t i = 0; i < tries && proofs >= 0 && proofs < enough; i++) {
-            if (gm_residues_at_random(graph, parts, count, i, &memory->exact)) {
+            const struct gm_random_point point = {.number = i};
+            if (gm_residues_at_random(graph, parts, count, &point, &memory->exact)) {
                 proofs = (&memory->exact)[node] == 0 ? proofs + 1 : -1;
             }
         }

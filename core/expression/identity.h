@@ -21,9 +21,15 @@ enum gm_identity {
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
 
-/* The values of `count` ascending nodes, which include all their operands, at random point `number` of that field:
-   values[node]. False: they do not exist there. */
+/* Random point `number` of that field; variable i < variables is fixed[i], unless that is NaN. */
+struct gm_random_point {
+    uint64_t number;
+    const double *fixed;
+    size_t variables;
+};
+/* The values of `count` ascending nodes, which include all their operands: values[node]. False: they do not exist at
+   this point. */
 bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                           uint64_t number, gm_residue *values);
+                           const struct gm_random_point *point, gm_residue *values);
 
 #endif

@@ -53,10 +53,11 @@ static int64_t divisor(int64_t a, int64_t b)
     return llabs(a);
 }
 
-/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^30: a = remainder / factor. */
+/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^25: a = remainder / factor. Of random
+   residues one in two thousand is such a fraction. */
 static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator)
 {
-    const int64_t bound = (int64_t)1 << 30;
+    const int64_t bound = (int64_t)1 << 25;
     int64_t remainders[] = {(int64_t)GM_PRIME, (int64_t)a}, factors[] = {0, 1};
     while (remainders[1] >= bound) {
         const int64_t quotient = remainders[0] / remainders[1],

@@ -39,7 +39,7 @@ gm_residue gm_residue_inverse(gm_residue a);
 gm_residue gm_residue_of(double value);
 
 /* The whole numbers with these ratios and no common divisor, the first that is not 0 above 0. False if they are not
-   below 2^53, or the ratios are no fractions with parts below 2^30. P. S. Wang, ISSAC 1981, 212. */
+   below 2^53, or the ratios are no fractions with parts below 2^25. P. S. Wang, ISSAC 1981, 212. */
 bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole);
 
 /* Rows in echelon form: rows[c] begins with a 1 in column c; NULL: no row begins there. */

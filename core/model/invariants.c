@@ -9,12 +9,14 @@
    (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
 #include "core/model/invariants.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/model/equations.h"
 
 enum { SPARE_POINTS = 30, MOST_TRIES = 1000 /* for a point: roots do not exist at every one */ };
+static const uint64_t FRESH = UINT64_C(1) << 40; /* the first point of a proof */
 
 /* A product of variables: the product `parent` times one more variable. Product 0 is 1. */
 struct candidate {
@@ -24,7 +26,7 @@ struct candidate {
 /* An invariant that the system has a name for. */
 struct named {
     const struct gm_system_item *item; /* NULL: H */
-    gm_node_id written, node;          /* as it was written, and with the values of parameters */
+    gm_node_id written, node;          /* as it was written, and without parameters that are 0 */
     gm_residue *values;                /* [points] */
 };
 
@@ -39,7 +41,8 @@ struct search {
     struct gm_user_system *system;
     struct gm_arena *arena;
     size_t degree, n;
-    gm_node_id *rates;              /* [n], with the values of parameters */
+    double *fixed;                  /* [variable_count of the system]: parameters; NaN */
+    gm_node_id *rates;              /* [n] */
     gm_node_id *variables, *slopes; /* components and parts, and their rates */
     size_t variable_count;
     struct candidate *candidates;
@@ -88,6 +91,10 @@ static void find_variables(struct search *search, const gm_node_id *roots, size_
     gm_node_id *parts =
         gm_arena_keep(search->arena, gm_formula_parts_of(graph, roots, root_count, &count), free);
     unsigned *use = gm_arena_take(search->arena, graph->count, sizeof *use);
+    bool *components = gm_arena_take(search->arena, search->n, sizeof *components);
+    memset(components, true, search->n * sizeof *components);
+    const bool *moving =
+        gm_arena_keep(search->arena, gm_formula_dependent(graph, components, search->n), free);
     search->variables = gm_arena_take(search->arena, search->n + 3 * count, sizeof *search->variables);
     for (size_t i = 0; i < search->n; i++) {
         add_variable(search, gm_formula_variable(graph, i));
@@ -99,7 +106,7 @@ static void find_variables(struct search *search, const gm_node_id *roots, size_
         const struct gm_node node = graph->nodes[parts[k]];
         const unsigned here = use[parts[k]], turned = here / 2 + here % 2 * 2;
         bool whole = true; /* a quotient has 1/node as a variable, not 1/factor */
-        switch (here ? node.operation : GM_CONSTANT) {
+        switch (here && moving[parts[k]] ? node.operation : GM_CONSTANT) {
         case GM_CONSTANT:
             whole = false;
             break;
@@ -184,9 +191,11 @@ static struct parts parts_of(struct search *search, const gm_node_id *nodes, siz
    that of the next point. NULL: they exist at none. */
 static const gm_residue *values_at_random(struct search *search, const struct parts *parts, uint64_t *number)
 {
-    for (const uint64_t most = *number + MOST_TRIES; *number < most;) {
-        if (gm_residues_at_random(&search->system->graph, parts->nodes, parts->count, (*number)++,
+    struct gm_random_point point = {*number, search->fixed, search->system->variable_count};
+    for (int tries = 0; tries < MOST_TRIES; tries++, point.number++) {
+        if (gm_residues_at_random(&search->system->graph, parts->nodes, parts->count, &point,
                                   parts->values)) {
+            *number = point.number + 1;
             return parts->values;
         }
     }
@@ -382,10 +391,15 @@ static gm_node_id formula_of(const struct search *search, const struct gm_null_v
         return GM_NO_NODE;
     }
     for (size_t i = 0; i < search->kept_count; i++) {
-        gm_node_id product = gm_formula_constant(graph, coefficients[i]);
+        gm_node_id product = gm_formula_constant(graph, coefficients[i] != 0);
+        size_t factors[GM_LARGEST_DEGREE], count = 0; /* the last first */
         for (size_t c = search->kept[i]; c > 0 && coefficients[i] != 0; c = search->candidates[c].parent) {
-            product = gm_product(graph, search->variables[search->candidates[c].factor], product);
+            factors[count++] = search->candidates[c].factor;
         }
+        while (count-- > 0) {
+            product = gm_product(graph, product, search->variables[factors[count]]);
+        }
+        product = gm_product(graph, gm_formula_constant(graph, coefficients[i]), product);
         sum = gm_sum(graph, sum, product);
     }
     return sum;
@@ -410,6 +424,19 @@ static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t
     return rank;
 }
 
+/* True if a node is 0 at fresh points of the field; and in doubles, where coefficients are what is printed. */
+static bool is_zero(struct search *search, gm_node_id node)
+{
+    const struct parts parts = parts_of(search, &node, 1);
+    bool zero = true;
+    for (uint64_t number = FRESH; number < FRESH + SPARE_POINTS && zero;) {
+        const gm_residue *at = values_at_random(search, &parts, &number);
+        zero = at && at[node] == 0;
+    }
+    const enum gm_identity found = zero ? gm_equations_vanishes(search->system, node) : GM_NOT_ZERO;
+    return found == GM_ZERO_PROVED || found == GM_ZERO_TESTED;
+}
+
 /* Writes and proves the generators. Those without a gradient are constants: exp(x - y) exp(y - x). */
 static void write_generators(struct search *search, struct gm_invariants *found)
 {
@@ -429,26 +456,23 @@ static void write_generators(struct search *search, struct gm_invariants *found)
         invariant.item = named ? named->item : NULL;
         invariant.energy = named && !named->item;
         invariant.node = named ? named->written : node;
-        invariant.proof = gm_identity_of(graph, gm_derivative_along(graph, node, search->rates, n), NULL, 0);
+        const gm_node_id slope = gm_derivative_along(graph, node, search->rates, n);
         gm_arena_need(search->arena,
-                      !graph->failed && gm_gradient(graph, node, NULL, n, gradients + found->count * n));
-        if (rank_of(search, gradients + found->count * n, 1) == 1 &&
-            (invariant.proof == GM_ZERO_PROVED || invariant.proof == GM_ZERO_TESTED)) {
+                      slope != GM_NO_NODE && gm_gradient(graph, node, NULL, n, gradients + found->count * n));
+        if (is_zero(search, slope) && rank_of(search, gradients + found->count * n, 1) == 1) {
             found->list[found->count++] = invariant;
         }
     }
     found->independent = rank_of(search, gradients, found->count);
 }
 
-/* Replaces parameters by their values in `count` nodes. */
-static void set_parameters(struct search *search, gm_node_id *nodes, size_t count)
+/* Removes parameters that are 0 from `count` nodes, with the parts that they multiply. */
+static void remove_zeros(struct search *search, gm_node_id *nodes, size_t count)
 {
     struct gm_user_system *system = search->system;
-    const double *values = gm_arena_keep(search->arena, gm_equations_start(system, NULL), free);
     gm_node_id *replacement = gm_arena_take(search->arena, system->variable_count, sizeof *replacement);
     for (size_t i = 0; i < system->variable_count; i++) {
-        const bool parameter = i >= system->parameters && i < system->velocities;
-        replacement[i] = parameter ? gm_formula_constant(&system->graph, values[i]) : GM_NO_NODE;
+        replacement[i] = search->fixed[i] == 0 ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
     }
     gm_arena_need(search->arena,
                   gm_formula_substitute(&system->graph, nodes, count, replacement, system->variable_count));
@@ -492,7 +516,7 @@ static void find_named(struct search *search)
     }
     for (size_t i = 0; i < search->named_count; i++) {
         search->named[i].node = search->named[i].written;
-        set_parameters(search, &search->named[i].node, 1);
+        remove_zeros(search, &search->named[i].node, 1);
     }
 }
 
@@ -526,12 +550,17 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
         return;
     }
     const size_t n = system->n;
+    search.fixed = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
+    for (size_t i = 0; i < system->variable_count; i++) {
+        const bool parameter = i >= system->parameters && i < system->velocities;
+        search.fixed[i] = parameter ? search.fixed[i] : NAN;
+    }
     search.rates = gm_arena_take(arena, n, sizeof *search.rates);
     memcpy(search.rates, system->rates, n * sizeof *search.rates);
-    set_parameters(&search, search.rates, n);
+    remove_zeros(&search, search.rates, n);
     gm_node_id *roots = gm_arena_take(arena, 1 + n * n, sizeof *roots);
     const size_t root_count = find_roots(&search, roots);
-    set_parameters(&search, roots, root_count);
+    remove_zeros(&search, roots, root_count);
     find_variables(&search, roots, root_count);
     while (search.degree > 0 && count_candidates(search.variable_count, search.degree) > GM_MOST_CANDIDATES) {
         search.degree--;
@@ -547,7 +576,7 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     find_named(&search);
     list_candidates(&search);
     if (!take_values(&search)) {
-        found->lacks = "its roots do not exist at random points";
+        found->lacks = "it has too many roots";
         return;
     }
     keep_independent(&search);

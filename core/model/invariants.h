@@ -12,7 +12,6 @@ struct gm_invariant {
     bool energy;                       /* H */
     gm_node_id node;                   /* in the system's graph; what was found has whole coefficients */
     size_t degree;                     /* in the components and in parts that are no polynomials */
-    enum gm_identity proof;
 };
 
 /* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. */
