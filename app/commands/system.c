@@ -25,6 +25,7 @@
 #include "core/model/facts.h"
 #include "core/model/invariants.h"
 #include "core/model/recognition.h"
+#include "core/model/symmetries.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
@@ -751,13 +752,16 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
     gm_row_put(row, "file %s, source %s", file ? file->path : NULL, file ? source : NULL);
 }
 
-/* A formula that is written out, without names of parts. */
+/* A formula without names of parts, as it was typed or tidied. */
 static const char *written_out(struct report *report, gm_node_id node)
 {
+    struct gm_formula *graph = &report->system.graph;
     struct gm_naming naming = gm_system_naming(&report->system);
     naming.part = NULL;
-    const gm_node_id tidied = gm_formula_tidied(&report->system.graph, node, &naming);
-    char *text = tidied == GM_NO_NODE ? NULL : gm_formula_text(&report->system.graph, tidied, &naming);
+    if (graph->places[node] == GM_NO_PLACE) {
+        node = gm_formula_tidied(graph, node, &naming);
+    }
+    char *text = node == GM_NO_NODE ? NULL : gm_formula_text(graph, node, &naming);
     gm_arena_need(report->arena, text || !gm_memory_was_short());
     return text ? gm_arena_keep(report->arena, text, free) : "(a long formula)";
 }
@@ -767,40 +771,78 @@ static const char *found_name(const struct report *report, const struct gm_invar
     return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
 }
 
-static void print_found(struct report *report, const struct gm_invariants *found)
+struct found {
+    struct gm_invariants invariants;
+    struct gm_symmetry *symmetries;
+    size_t symmetry_count;
+};
+
+/* "x = -y, y = x": the components that are not 0 */
+static const char *symmetry_formula(struct report *report, const struct gm_symmetry *symmetry)
 {
-    gm_print_wrapped(gm_arena_print(report->arena, "invariants of degree %zu at most, among %zu candidates",
-                                    found->degree, found->candidates),
-                     0, 0);
-    for (size_t i = 0; i < found->count; i++) {
-        const struct gm_invariant *invariant = &found->list[i];
+    const char *text = "";
+    for (size_t i = 0; i < report->system.n; i++) {
+        if (!gm_is_constant(&report->system.graph, symmetry->field[i], 0)) {
+            text = gm_arena_print(report->arena, "%s%s%s = %s", text, text[0] ? ", " : "",
+                                  report->system.variables[i].name, written_out(report, symmetry->field[i]));
+        }
+    }
+    return text;
+}
+
+static void print_found(struct report *report, const struct found *found)
+{
+    const struct gm_invariants *invariants = &found->invariants;
+    printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
+           invariants->count, invariants->independent);
+    for (size_t i = 0; i < invariants->count; i++) {
+        const struct gm_invariant *invariant = &invariants->list[i];
         const char *name = found_name(report, invariant);
         gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu)", name ? name : "",
                                         name ? " = " : "", written_out(report, invariant->node),
                                         invariant->degree),
                          printf("  "), 2);
     }
-    if (found->unwritten > 0) {
-        printf("  and %zu whose coefficients are no short fractions\n", found->unwritten);
+    if (invariants->unwritten > 0) {
+        printf("  and %zu whose coefficients are no short fractions\n", invariants->unwritten);
     }
-    printf("%zu found, %zu independent\n", found->count, found->independent);
+    if (report->system.n > GM_MOST_WITH_SYMMETRIES) {
+        printf("affine symmetries are found for up to %d components\n", GM_MOST_WITH_SYMMETRIES);
+        return;
+    }
+    printf("affine symmetries, fields that send motions into motions: %zu\n", found->symmetry_count);
+    for (size_t i = 0; i < found->symmetry_count; i++) {
+        const char *formula = symmetry_formula(report, &found->symmetries[i]);
+        gm_print_wrapped(
+            gm_arena_print(report->arena, "%s (scaling %g)", formula, found->symmetries[i].scaling),
+            printf("  "), 4);
+    }
 }
 
-static void put_found(struct report *report, const struct gm_invariants *found)
+static void put_found(struct report *report, const struct found *found)
 {
+    const struct gm_invariants *invariants = &found->invariants;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_put(&row, "degree %i, candidates %i", (int)found->degree, (int)found->candidates);
+    gm_row_put(&row, "degree %i, candidates %i", (int)invariants->degree, (int)invariants->candidates);
     struct gm_row list = gm_row_open(&row, "invariants_found", ']');
-    for (size_t i = 0; i < found->count; i++) {
-        const struct gm_invariant *invariant = &found->list[i];
+    for (size_t i = 0; i < invariants->count; i++) {
+        const struct gm_invariant *invariant = &invariants->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
                    (int)invariant->degree, "exact", found_name(report, invariant));
         gm_row_close(&one);
     }
     gm_row_close(&list);
-    gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)found->unwritten,
-               (int)found->independent);
+    gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)invariants->unwritten,
+               (int)invariants->independent);
+    list = gm_row_open(&row, "symmetries_found", ']');
+    for (size_t i = 0; i < found->symmetry_count; i++) {
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "formula %s, scaling %.17g", symmetry_formula(report, &found->symmetries[i]),
+                   found->symmetries[i].scaling);
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
     printf("}\n");
 }
 
@@ -811,11 +853,13 @@ static int list_invariants(const struct gm_options *options, struct report *repo
         return gm_give_up(GM_EXIT_USAGE, "--degree %zu is not a whole number from 1 to %d", degree,
                           GM_LARGEST_DEGREE);
     }
-    struct gm_invariants found;
-    gm_invariants_find(&report->system, options->arena, degree, &found);
-    if (found.lacks) {
-        return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s", found.lacks);
+    struct found found;
+    gm_invariants_find(&report->system, options->arena, degree, &found.invariants);
+    if (found.invariants.lacks) {
+        return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s",
+                          found.invariants.lacks);
     }
+    found.symmetry_count = gm_symmetries_find(&report->system, options->arena, &found.symmetries);
     (options->json ? put_found : print_found)(report, &found);
     return gm_finish(GM_EXIT_OK);
 }

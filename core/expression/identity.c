@@ -151,27 +151,48 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
     return exists;
 }
 
-bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                           const struct gm_random_point *point, gm_residue *values)
+/* Sets the values at the next point. False: they do not exist there. */
+static bool take_point(struct gm_random_values *random)
 {
-    const uint64_t seed = mix(point->number);
+    const uint64_t seed = mix(random->number++);
+    gm_residue *values = random->values;
     bool exists = true;
-    for (size_t k = 0; k < count && exists; k++) {
-        const gm_node_id i = parts[k];
-        const struct gm_node *node = &graph->nodes[i];
+    for (size_t k = 0; k < random->count && exists; k++) {
+        const gm_node_id i = random->parts[k];
+        const struct gm_node *node = &random->graph->nodes[i];
         if (node->operation == GM_CONSTANT) {
             exists = isfinite(node->value);
             values[i] = exists ? gm_residue_of(node->value) : 0;
         } else if (node->operation == GM_VARIABLE) {
-            const bool is_fixed = node->a < point->variables && !isnan(point->fixed[node->a]);
+            const bool is_fixed = node->a < random->variables && !isnan(random->fixed[node->a]);
             values[i] =
-                is_fixed ? gm_residue_of(point->fixed[node->a]) : unrelated(seed, GM_VARIABLE, node->a, 0);
+                is_fixed ? gm_residue_of(random->fixed[node->a]) : unrelated(seed, GM_VARIABLE, node->a, 0);
         } else {
             const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
-            exists = value_of(node, values[node->a], values[b], graph->nodes[b].value, seed, &values[i]);
+            exists =
+                value_of(node, values[node->a], values[b], random->graph->nodes[b].value, seed, &values[i]);
         }
     }
     return exists;
+}
+
+void gm_random_values_of(struct gm_random_values *values, struct gm_arena *arena, const gm_node_id *nodes,
+                         size_t count)
+{
+    gm_arena_need(arena, !values->graph->failed);
+    values->parts =
+        gm_arena_keep(arena, gm_formula_parts_of(values->graph, nodes, count, &values->count), free);
+    values->values = gm_arena_take(arena, values->graph->count, sizeof *values->values);
+}
+
+const gm_residue *gm_random_values_next(struct gm_random_values *values)
+{
+    for (int tries = 0; tries < TRIES; tries++) {
+        if (take_point(values)) {
+            return values->values;
+        }
+    }
+    return NULL;
 }
 
 /* True if a part has one of two values, as a sign or a root, so that a further point is half a proof at
@@ -243,11 +264,12 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
         const uint64_t most = WORK / count, tries = most > TRIES         ? TRIES
                                                     : most > LEAST_TRIES ? most
                                                                          : LEAST_TRIES;
+        struct gm_random_values random = {
+            .graph = graph, .parts = parts, .count = count, .values = &memory->exact};
         int proofs = 0, tests = 0;
         for (uint64_t i = 0; i < tries && proofs >= 0 && proofs < enough; i++) {
-            const struct gm_random_point point = {.number = i};
-            if (gm_residues_at_random(graph, parts, count, &point, &memory->exact)) {
-                proofs = (&memory->exact)[node] == 0 ? proofs + 1 : -1;
+            if (take_point(&random)) {
+                proofs = random.values[node] == 0 ? proofs + 1 : -1;
             }
         }
         for (uint64_t i = 0; i < tries && tests >= 0 && tests < TESTS && proofs < enough; i++) {

@@ -21,15 +21,20 @@ enum gm_identity {
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
 
-/* Random point `number` of that field; variable i < variables is fixed[i], unless that is NaN. */
-struct gm_random_point {
-    uint64_t number;
-    const double *fixed;
+/* Values of some nodes at random points of that field, one point after the other. */
+struct gm_random_values {
+    const struct gm_formula *graph;
+    const double *fixed; /* variable i < variables is fixed[i], unless that is NaN */
     size_t variables;
+    uint64_t number; /* of the next point */
+    gm_node_id *parts;
+    size_t count;
+    gm_residue *values;
 };
-/* The values of `count` ascending nodes, which include all their operands: values[node]. False: they do not exist at
-   this point. */
-bool gm_residues_at_random(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                           const struct gm_random_point *point, gm_residue *values);
+/* Asks for `count` nodes, when all other fields but `parts` and `values` are set. Inside a body of the arena. */
+void gm_random_values_of(struct gm_random_values *values, struct gm_arena *arena, const gm_node_id *nodes,
+                         size_t count);
+/* The values at the next point where they exist, values[node]; NULL: they exist at none of a thousand. */
+const gm_residue *gm_random_values_next(struct gm_random_values *values);
 
 #endif

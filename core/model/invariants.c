@@ -9,13 +9,12 @@
    (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
 #include "core/model/invariants.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/model/equations.h"
 
-enum { SPARE_POINTS = 30, MOST_TRIES = 1000 /* for a point: roots do not exist at every one */ };
+enum { SPARE_POINTS = 30 };
 static const uint64_t FRESH = UINT64_C(1) << 40; /* the first point of a proof */
 
 /* A product of variables: the product `parent` times one more variable. Product 0 is 1. */
@@ -41,7 +40,7 @@ struct search {
     struct gm_user_system *system;
     struct gm_arena *arena;
     size_t degree, n;
-    double *fixed;                  /* [variable_count of the system]: parameters; NaN */
+    const double *fixed;            /* gm_equations_fixed */
     gm_node_id *rates;              /* [n] */
     gm_node_id *variables, *slopes; /* components and parts, and their rates */
     size_t variable_count;
@@ -169,37 +168,15 @@ static void list_candidates(struct search *search)
     }
 }
 
-/* Some nodes with all that they depend on, and room for their values, [node]. */
-struct parts {
-    const gm_node_id *nodes;
-    size_t count;
-    gm_residue *values;
-};
-
-static struct parts parts_of(struct search *search, const gm_node_id *nodes, size_t node_count)
+static struct gm_random_values random_values(const struct search *search, const gm_node_id *nodes,
+                                             size_t count, uint64_t first)
 {
-    struct parts parts = {0};
-    struct gm_formula *graph = &search->system->graph;
-    gm_arena_need(search->arena, !graph->failed);
-    parts.nodes =
-        gm_arena_keep(search->arena, gm_formula_parts_of(graph, nodes, node_count, &parts.count), free);
-    parts.values = gm_arena_take(search->arena, graph->count, sizeof *parts.values);
-    return parts;
-}
-
-/* The values of some nodes and their parts at the first random point from *number on where they exist; then *number is
-   that of the next point. NULL: they exist at none. */
-static const gm_residue *values_at_random(struct search *search, const struct parts *parts, uint64_t *number)
-{
-    struct gm_random_point point = {*number, search->fixed, search->system->variable_count};
-    for (int tries = 0; tries < MOST_TRIES; tries++, point.number++) {
-        if (gm_residues_at_random(&search->system->graph, parts->nodes, parts->count, &point,
-                                  parts->values)) {
-            *number = point.number + 1;
-            return parts->values;
-        }
-    }
-    return NULL;
+    struct gm_random_values values = {.graph = &search->system->graph,
+                                      .fixed = search->fixed,
+                                      .variables = search->system->variable_count,
+                                      .number = first};
+    gm_random_values_of(&values, search->arena, nodes, count);
+    return values;
 }
 
 /* The values of candidates, and of their slopes along the motion, at random points; of what the system says of itself,
@@ -216,12 +193,11 @@ static bool take_values(struct search *search)
         nodes[2 * variables + i] = search->named[i].node;
         search->named[i].values = gm_arena_take(arena, search->points, sizeof(gm_residue));
     }
-    const struct parts parts = parts_of(search, nodes, node_count);
+    struct gm_random_values random = random_values(search, nodes, node_count, 0);
     search->values = gm_arena_take(arena, search->points, sizeof *search->values);
     search->slope_values = gm_arena_take(arena, search->points, sizeof *search->slope_values);
-    uint64_t number = 0;
     for (size_t p = 0; p < search->points; p++) {
-        const gm_residue *at = values_at_random(search, &parts, &number);
+        const gm_residue *at = gm_random_values_next(&random);
         if (!at) {
             return false;
         }
@@ -409,12 +385,11 @@ static gm_node_id formula_of(const struct search *search, const struct gm_null_v
 static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t count)
 {
     const size_t n = search->n;
-    const struct parts parts = parts_of(search, gradients, count * n);
+    struct gm_random_values random = random_values(search, gradients, count * n, 0);
     struct gm_echelon rows = gm_echelon_open(search->arena, n);
     gm_residue *row = gm_arena_take(search->arena, n, sizeof *row);
-    uint64_t number = 0;
     size_t rank = 0;
-    const gm_residue *at = values_at_random(search, &parts, &number);
+    const gm_residue *at = gm_random_values_next(&random);
     for (size_t g = 0; g < count && at; g++) {
         for (size_t i = 0; i < n; i++) {
             row[i] = at[gradients[g * n + i]];
@@ -427,10 +402,10 @@ static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t
 /* True if a node is 0 at fresh points of the field; and in doubles, where coefficients are what is printed. */
 static bool is_zero(struct search *search, gm_node_id node)
 {
-    const struct parts parts = parts_of(search, &node, 1);
+    struct gm_random_values random = random_values(search, &node, 1, FRESH);
     bool zero = true;
-    for (uint64_t number = FRESH; number < FRESH + SPARE_POINTS && zero;) {
-        const gm_residue *at = values_at_random(search, &parts, &number);
+    for (int p = 0; p < SPARE_POINTS && zero; p++) {
+        const gm_residue *at = gm_random_values_next(&random);
         zero = at && at[node] == 0;
     }
     const enum gm_identity found = zero ? gm_equations_vanishes(search->system, node) : GM_NOT_ZERO;
@@ -550,11 +525,7 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
         return;
     }
     const size_t n = system->n;
-    search.fixed = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
-    for (size_t i = 0; i < system->variable_count; i++) {
-        const bool parameter = i >= system->parameters && i < system->velocities;
-        search.fixed[i] = parameter ? search.fixed[i] : NAN;
-    }
+    search.fixed = gm_arena_keep(arena, gm_equations_fixed(system), free);
     search.rates = gm_arena_take(arena, n, sizeof *search.rates);
     memcpy(search.rates, system->rates, n * sizeof *search.rates);
     remove_zeros(&search, search.rates, n);

@@ -29,14 +29,4 @@ struct gm_invariants {
 void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
                         struct gm_invariants *found);
 
-/* A field a + A y along which the motion goes into motions: f'(y) (a + A y) - A f(y) = c f(y). */
-struct gm_symmetry {
-    gm_node_id *field; /* [n] */
-    double scaling;    /* c */
-};
-enum { GM_MOST_WITH_SYMMETRIES = 20 /* components */ };
-/* Finds a basis of the affine symmetries; the caller has found that the invariants lack nothing. Returns their number:
-   0 for too many components as well. */
-size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena, struct gm_symmetry **found);
-
 #endif
