@@ -479,12 +479,14 @@ int gm_command_list(const struct gm_options *options)
     const bool equations =
         options->latex || options->invariants || options->arguments.count > 1 || !gm_scene_find(first);
     const bool is_system = *first && equations && find_file(GM_FILE_SYSTEM, first, &file);
+    if (options->degree && !options->invariants) {
+        return gm_give_up(GM_EXIT_USAGE, "--degree is that of --invariants, which is missing");
+    }
     if ((is_system || typed) && !options->markdown && !options->source) {
         return gm_list_system(options, typed ? NULL : &file);
     }
-    if (options->invariants || options->degree) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "--invariants, and with it --degree, are for a system: list toda --invariants");
+    if (options->invariants) {
+        return gm_give_up(GM_EXIT_USAGE, "--invariants are those of a system: list kepler --invariants");
     }
     if (options->latex) {
         return gm_give_up(GM_EXIT_USAGE,

@@ -795,6 +795,9 @@ static void print_found(struct report *report, const struct found *found)
     const struct gm_invariants *invariants = &found->invariants;
     printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
            invariants->count, invariants->independent);
+    if (invariants->lowered) {
+        printf("degree %zu has more than %d candidates\n", invariants->degree + 1, GM_MOST_CANDIDATES);
+    }
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_invariant *invariant = &invariants->list[i];
         const char *name = found_name(report, invariant);

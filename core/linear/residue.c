@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 gm_residue gm_residue_power(gm_residue a, uint64_t n)
 {
@@ -146,75 +145,16 @@ bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row)
     return true;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const gm_residue *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* The ratio a / b that most entries share, and the number of these. */
-static gm_residue most_frequent(const gm_residue *a, const gm_residue *inverses, size_t columns,
-                                gm_residue *ratios, size_t *often)
-{
-    size_t count = 0;
-    gm_residue best = 0;
-    for (size_t i = 0; i < columns; i++) {
-        if (a[i] && inverses[i]) {
-            ratios[count++] = gm_residue_times(a[i], inverses[i]);
-        }
-    }
-    qsort(ratios, count, sizeof *ratios, compare);
-    *often = 0;
-    for (size_t i = 0, same = 0; i < count; i++) {
-        same = i > 0 && ratios[i] == ratios[i - 1] ? same + 1 : 1;
-        if (same > *often) {
-            *often = same;
-            best = ratios[i];
-        }
-    }
-    return best;
-}
-
-static void count_terms(struct gm_null_vector *vector, size_t columns)
-{
-    vector->terms = 0;
-    for (size_t i = 0; i < columns; i++) {
-        vector->terms += vector->entries[i] != 0;
-    }
-}
-
-/* Subtracts a multiple of another vector if fewer terms are left. */
-static bool shorten(struct gm_null_vector *vector, const struct gm_null_vector *other, size_t columns,
-                    gm_residue *scratch[2])
-{
-    size_t often = 0, shared = 0;
-    for (size_t i = 0; i < columns; i++) {
-        const bool both = vector->entries[i] && other->entries[i];
-        scratch[0][i] = both ? gm_residue_inverse(other->entries[i]) : 0;
-        shared += both;
-    }
-    if (2 * shared <= other->terms) {
-        return false;
-    }
-    const gm_residue ratio = most_frequent(vector->entries, scratch[0], columns, scratch[1], &often);
-    if (other->terms - shared >= often) {
-        return false;
-    }
-    add_multiple(vector->entries, gm_residue_minus(ratio), other->entries, 0, columns);
-    count_terms(vector, columns);
-    return true;
-}
-
 struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, size_t *count)
 {
-    const size_t columns = echelon->columns;
-    struct gm_null_vector *basis = gm_arena_take(echelon->arena, columns + 1, sizeof *basis);
+    struct gm_null_vector *basis = gm_arena_take(echelon->arena, echelon->columns + 1, sizeof *basis);
     *count = 0;
-    for (size_t last = 0; last < columns; last++) {
+    for (size_t last = 0; last < echelon->columns; last++) {
         if (echelon->rows[last]) {
             continue;
         }
-        gm_residue *entries = gm_arena_take(echelon->arena, columns, sizeof *entries);
+        gm_residue *entries = gm_arena_take(echelon->arena, echelon->columns, sizeof *entries);
+        size_t terms = 1;
         entries[last] = 1;
         for (size_t c = last; c-- > 0;) {
             gm_residue sum = 0;
@@ -222,19 +162,9 @@ struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, s
                 sum = gm_residue_plus(sum, gm_residue_times(echelon->rows[c][i], entries[i]));
             }
             entries[c] = gm_residue_minus(sum);
+            terms += sum != 0;
         }
-        basis[*count] = (struct gm_null_vector){.entries = entries, .last = last};
-        count_terms(&basis[(*count)++], columns);
-    }
-    gm_residue *scratch[] = {gm_arena_take(echelon->arena, columns + 1, sizeof(gm_residue)),
-                             gm_arena_take(echelon->arena, columns + 1, sizeof(gm_residue))};
-    for (bool shorter = true; shorter;) {
-        shorter = false;
-        for (size_t i = 0; i < *count; i++) {
-            for (size_t k = 0; k < i; k++) {
-                shorter |= shorten(&basis[i], &basis[k], columns, scratch);
-            }
-        }
+        basis[(*count)++] = (struct gm_null_vector){entries, last, terms};
     }
     return basis;
 }

@@ -57,13 +57,12 @@ size_t gm_echelon_reduce(const struct gm_echelon *echelon, gm_residue *row);
 /* Reduces a row, and adds a copy of the rest. Returns false if nothing is left. Inside a body of the arena. */
 bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row);
 
-/* Vectors that all rows send to 0. */
+/* A vector that all rows send to 0; no other one of its basis has an entry at `last`. */
 struct gm_null_vector {
     gm_residue *entries; /* [columns]; entry `last` is 1, later ones are 0 */
-    size_t last, terms;  /* entries that are not 0 */
+    size_t last, terms;  /* terms: entries that are not 0 */
 };
-/* A basis of the null space, [*count], by rising `last`, with few terms: two vectors are replaced by a combination with
-   fewer terms as long as there is one. Inside a body of the arena. */
+/* A basis of the null space, [*count], by rising `last`. Inside a body of the arena. */
 struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, size_t *count);
 
 #endif

@@ -25,8 +25,8 @@ struct candidate {
 /* An invariant that the system has a name for. */
 struct named {
     const struct gm_system_item *item; /* NULL: H */
-    gm_node_id written, node;          /* as it was written, and without parameters that are 0 */
-    gm_residue *values;                /* [points] */
+    gm_node_id node;
+    gm_residue *values; /* [points] */
 };
 
 struct generator {
@@ -41,7 +41,6 @@ struct search {
     struct gm_arena *arena;
     size_t degree, n;
     const double *fixed;            /* gm_equations_fixed */
-    gm_node_id *rates;              /* [n] */
     gm_node_id *variables, *slopes; /* components and parts, and their rates */
     size_t variable_count;
     struct candidate *candidates;
@@ -81,12 +80,16 @@ static void add_function(struct search *search, gm_node_id node)
     }
 }
 
-/* The components, then the parts that are no polynomials of some formulas: functions, and 1/b of a quotient a/b. */
-static void find_variables(struct search *search, const gm_node_id *roots, size_t root_count)
+/* The components, then the parts of H, or else of the rates, that are no polynomials: functions, and 1/b of a
+   quotient a/b. */
+static void find_variables(struct search *search)
 {
     enum { FACTOR = 1, DIVISOR = 2 };
-    struct gm_formula *graph = &search->system->graph;
-    size_t count = 0;
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const bool rates = system->kind == GM_RATES;
+    const gm_node_id *roots = rates ? system->rates : &system->energy;
+    size_t count = 0, root_count = rates ? system->n : 1;
     gm_node_id *parts =
         gm_arena_keep(search->arena, gm_formula_parts_of(graph, roots, root_count, &count), free);
     unsigned *use = gm_arena_take(search->arena, graph->count, sizeof *use);
@@ -367,9 +370,12 @@ static gm_node_id formula_of(const struct search *search, const struct gm_null_v
         return GM_NO_NODE;
     }
     for (size_t i = 0; i < search->kept_count; i++) {
-        gm_node_id product = gm_formula_constant(graph, coefficients[i] != 0);
+        if (coefficients[i] == 0) {
+            continue;
+        }
+        gm_node_id product = gm_formula_constant(graph, 1);
         size_t factors[GM_LARGEST_DEGREE], count = 0; /* the last first */
-        for (size_t c = search->kept[i]; c > 0 && coefficients[i] != 0; c = search->candidates[c].parent) {
+        for (size_t c = search->kept[i]; c > 0; c = search->candidates[c].parent) {
             factors[count++] = search->candidates[c].factor;
         }
         while (count-- > 0) {
@@ -422,56 +428,20 @@ static void write_generators(struct search *search, struct gm_invariants *found)
     for (size_t g = 0; g < search->generator_count; g++) {
         const struct generator *generator = &search->generators[g];
         const struct named *named = generator->named;
-        struct gm_invariant invariant = {.degree = generator->degree};
         const gm_node_id node = named ? named->node : formula_of(search, generator->combined);
-        if (node == GM_NO_NODE) {
+        gm_node_id *gradient = gradients + found->count * n;
+        if (node == GM_NO_NODE ||
+            !is_zero(search, gm_derivative_along(graph, node, search->system->rates, n))) {
             found->unwritten++;
             continue;
         }
-        invariant.item = named ? named->item : NULL;
-        invariant.energy = named && !named->item;
-        invariant.node = named ? named->written : node;
-        const gm_node_id slope = gm_derivative_along(graph, node, search->rates, n);
-        gm_arena_need(search->arena,
-                      slope != GM_NO_NODE && gm_gradient(graph, node, NULL, n, gradients + found->count * n));
-        if (is_zero(search, slope) && rank_of(search, gradients + found->count * n, 1) == 1) {
-            found->list[found->count++] = invariant;
+        gm_arena_need(search->arena, gm_gradient(graph, node, NULL, n, gradient));
+        if (rank_of(search, gradient, 1) == 1) {
+            found->list[found->count++] = (struct gm_invariant){
+                named ? named->item : NULL, named && !named->item, node, generator->degree};
         }
     }
     found->independent = rank_of(search, gradients, found->count);
-}
-
-/* Removes parameters that are 0 from `count` nodes, with the parts that they multiply. */
-static void remove_zeros(struct search *search, gm_node_id *nodes, size_t count)
-{
-    struct gm_user_system *system = search->system;
-    gm_node_id *replacement = gm_arena_take(search->arena, system->variable_count, sizeof *replacement);
-    for (size_t i = 0; i < system->variable_count; i++) {
-        replacement[i] = search->fixed[i] == 0 ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
-    }
-    gm_arena_need(search->arena,
-                  gm_formula_substitute(&system->graph, nodes, count, replacement, system->variable_count));
-}
-
-/* The nodes of the motion in which variables are looked for: H and the bracket have fewer parts than rates. Returns
-   their number. */
-static size_t find_roots(const struct search *search, gm_node_id *roots)
-{
-    const struct gm_user_system *system = search->system;
-    bool forced = system->kind == GM_RATES;
-    for (size_t i = 0; i < system->n; i++) {
-        forced |= system->variables[i].force != GM_NO_NODE;
-    }
-    if (forced) {
-        memcpy(roots, system->rates, system->n * sizeof *roots);
-        return system->n;
-    }
-    roots[0] = system->energy;
-    if (system->kind == GM_POISSON) {
-        memcpy(roots + 1, system->bracket, system->n * system->n * sizeof *roots);
-        return 1 + system->n * system->n;
-    }
-    return 1;
 }
 
 /* H, and the invariants that were declared. */
@@ -480,18 +450,14 @@ static void find_named(struct search *search)
     const struct gm_user_system *system = search->system;
     search->named = gm_arena_take(search->arena, system->item_count + 1, sizeof *search->named);
     if (system->kind != GM_RATES) {
-        search->named[search->named_count++].written = system->energy;
+        search->named[search->named_count++].node = system->energy;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const gm_node_id node = gm_system_conserved(system, item);
         if (node != GM_NO_NODE) {
-            search->named[search->named_count++] = (struct named){.item = item, .written = node};
+            search->named[search->named_count++] = (struct named){.item = item, .node = node};
         }
-    }
-    for (size_t i = 0; i < search->named_count; i++) {
-        search->named[i].node = search->named[i].written;
-        remove_zeros(search, &search->named[i].node, 1);
     }
 }
 
@@ -526,13 +492,7 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     }
     const size_t n = system->n;
     search.fixed = gm_arena_keep(arena, gm_equations_fixed(system), free);
-    search.rates = gm_arena_take(arena, n, sizeof *search.rates);
-    memcpy(search.rates, system->rates, n * sizeof *search.rates);
-    remove_zeros(&search, search.rates, n);
-    gm_node_id *roots = gm_arena_take(arena, 1 + n * n, sizeof *roots);
-    const size_t root_count = find_roots(&search, roots);
-    remove_zeros(&search, roots, root_count);
-    find_variables(&search, roots, root_count);
+    find_variables(&search);
     while (search.degree > 0 && count_candidates(search.variable_count, search.degree) > GM_MOST_CANDIDATES) {
         search.degree--;
     }
@@ -542,7 +502,7 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     }
     search.slopes = gm_arena_take(arena, search.variable_count, sizeof *search.slopes);
     for (size_t v = 0; v < search.variable_count; v++) {
-        search.slopes[v] = gm_derivative_along(&system->graph, search.variables[v], search.rates, n);
+        search.slopes[v] = gm_derivative_along(&system->graph, search.variables[v], system->rates, n);
     }
     find_named(&search);
     list_candidates(&search);
@@ -555,5 +515,6 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     find_generators(&search);
     write_generators(&search, found);
     found->degree = search.degree;
+    found->lowered = search.degree < degree;
     found->candidates = search.count - 1;
 }

@@ -16,7 +16,8 @@ struct gm_invariant {
 
 /* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. */
 struct gm_invariants {
-    size_t degree; /* largest degree that was searched: less than wanted if there are too many candidates */
+    size_t degree;     /* largest degree that was searched */
+    bool lowered;      /* a larger one was wanted; it has more than GM_MOST_CANDIDATES */
     size_t candidates; /* products of components and parts */
     struct gm_invariant *list;
     size_t count, independent;
