@@ -766,13 +766,13 @@ static const char *written_out(struct report *report, gm_node_id node)
     return text ? gm_arena_keep(report->arena, text, free) : "(a long formula)";
 }
 
-static const char *found_name(const struct report *report, const struct gm_invariant *invariant)
+static const char *found_name(const struct report *report, const struct gm_found_invariant *invariant)
 {
     return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
 }
 
 struct found {
-    struct gm_invariants invariants;
+    struct gm_found_invariants invariants;
     struct gm_symmetry *symmetries;
     size_t symmetry_count;
 };
@@ -792,14 +792,14 @@ static const char *symmetry_formula(struct report *report, const struct gm_symme
 
 static void print_found(struct report *report, const struct found *found)
 {
-    const struct gm_invariants *invariants = &found->invariants;
+    const struct gm_found_invariants *invariants = &found->invariants;
     printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
            invariants->count, invariants->independent);
     if (invariants->lowered) {
         printf("degree %zu has more than %d candidates\n", invariants->degree + 1, GM_MOST_CANDIDATES);
     }
     for (size_t i = 0; i < invariants->count; i++) {
-        const struct gm_invariant *invariant = &invariants->list[i];
+        const struct gm_found_invariant *invariant = &invariants->list[i];
         const char *name = found_name(report, invariant);
         gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu)", name ? name : "",
                                         name ? " = " : "", written_out(report, invariant->node),
@@ -807,7 +807,7 @@ static void print_found(struct report *report, const struct found *found)
                          printf("  "), 2);
     }
     if (invariants->unwritten > 0) {
-        printf("  and %zu whose coefficients are no short fractions\n", invariants->unwritten);
+        printf("  and %zu whose coefficients are not short fractions\n", invariants->unwritten);
     }
     if (report->system.n > GM_MOST_WITH_SYMMETRIES) {
         printf("affine symmetries are found for up to %d components\n", GM_MOST_WITH_SYMMETRIES);
@@ -824,12 +824,12 @@ static void print_found(struct report *report, const struct found *found)
 
 static void put_found(struct report *report, const struct found *found)
 {
-    const struct gm_invariants *invariants = &found->invariants;
+    const struct gm_found_invariants *invariants = &found->invariants;
     struct gm_row row = gm_row_begin(stdout);
     gm_row_put(&row, "degree %i, candidates %i", (int)invariants->degree, (int)invariants->candidates);
     struct gm_row list = gm_row_open(&row, "invariants_found", ']');
     for (size_t i = 0; i < invariants->count; i++) {
-        const struct gm_invariant *invariant = &invariants->list[i];
+        const struct gm_found_invariant *invariant = &invariants->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
                    (int)invariant->degree, "exact", found_name(report, invariant));

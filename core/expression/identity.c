@@ -176,15 +176,6 @@ static bool take_point(struct gm_random_values *random)
     return exists;
 }
 
-void gm_random_values_of(struct gm_random_values *values, struct gm_arena *arena, const gm_node_id *nodes,
-                         size_t count)
-{
-    gm_arena_need(arena, !values->graph->failed);
-    values->parts =
-        gm_arena_keep(arena, gm_formula_parts_of(values->graph, nodes, count, &values->count), free);
-    values->values = gm_arena_take(arena, values->graph->count, sizeof *values->values);
-}
-
 const gm_residue *gm_random_values_next(struct gm_random_values *values)
 {
     for (int tries = 0; tries < TRIES; tries++) {

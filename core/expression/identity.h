@@ -4,7 +4,7 @@
 #define GM_CORE_EXPRESSION_IDENTITY_H
 
 #include "core/expression/graph.h"
-#include "core/linear/residue.h"
+#include "core/expression/residue.h"
 
 enum gm_identity {
     GM_NOT_ZERO,
@@ -26,14 +26,11 @@ struct gm_random_values {
     const struct gm_formula *graph;
     const double *fixed; /* variable i < variables is fixed[i], unless that is NaN */
     size_t variables;
-    uint64_t number; /* of the next point */
-    gm_node_id *parts;
+    uint64_t number;         /* of the next point */
+    const gm_node_id *parts; /* [count] ascending nodes, which include all their operands */
     size_t count;
-    gm_residue *values;
+    gm_residue *values; /* [node], set for parts alone */
 };
-/* Asks for `count` nodes, when all other fields but `parts` and `values` are set. Inside a body of the arena. */
-void gm_random_values_of(struct gm_random_values *values, struct gm_arena *arena, const gm_node_id *nodes,
-                         size_t count);
 /* The values at the next point where they exist, values[node]; NULL: they exist at none of a thousand. */
 const gm_residue *gm_random_values_next(struct gm_random_values *values);
 

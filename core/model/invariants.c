@@ -4,7 +4,7 @@
        sum_i c_i (f . grad) m_i = 0   at every point.
 
    At as many random points as there are candidates, and thirty more, these are linear equations for c. They are solved
-   modulo a prime, so that there is no rounding: the rank is exact. A part of a formula that is no polynomial, such as
+   modulo a prime, so that there is no rounding: the rank is exact. A part of a formula that is not a polynomial, such as
    1/r, is one more variable, whose rate is derived. A. Goriely, Integrability and Nonintegrability of Dynamical Systems
    (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
 #include "core/model/invariants.h"
@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/model/elimination.h"
 #include "core/model/equations.h"
 
 enum { SPARE_POINTS = 30 };
@@ -40,7 +41,6 @@ struct search {
     struct gm_user_system *system;
     struct gm_arena *arena;
     size_t degree, n;
-    const double *fixed;            /* gm_equations_fixed */
     gm_node_id *variables, *slopes; /* components and parts, and their rates */
     size_t variable_count;
     struct candidate *candidates;
@@ -48,7 +48,7 @@ struct search {
     gm_residue **values, **slope_values; /* [points][count] */
     size_t *kept, kept_count;            /* candidates that are independent as functions, but for 1 */
     struct gm_null_vector *basis;        /* of all invariants, by rising degree */
-    size_t basis_count, samples;         /* points that tell invariants apart */
+    size_t basis_count, samples;         /* points at which invariants differ */
     struct named *named;
     size_t named_count;
     struct generator *generators;
@@ -80,7 +80,7 @@ static void add_function(struct search *search, gm_node_id node)
     }
 }
 
-/* The components, then the parts of H, or else of the rates, that are no polynomials: functions, and 1/b of a
+/* The components, then the parts of H, or else of the rates, that are not polynomials: functions, and 1/b of a
    quotient a/b. */
 static void find_variables(struct search *search)
 {
@@ -171,19 +171,8 @@ static void list_candidates(struct search *search)
     }
 }
 
-static struct gm_random_values random_values(const struct search *search, const gm_node_id *nodes,
-                                             size_t count, uint64_t first)
-{
-    struct gm_random_values values = {.graph = &search->system->graph,
-                                      .fixed = search->fixed,
-                                      .variables = search->system->variable_count,
-                                      .number = first};
-    gm_random_values_of(&values, search->arena, nodes, count);
-    return values;
-}
-
-/* The values of candidates, and of their slopes along the motion, at random points; of what the system says of itself,
-   too. False: the formulas have no values at any. */
+/* Values at random points: of candidates, their slopes along the motion, and declared invariants. False: they do not
+   exist. */
 static bool take_values(struct search *search)
 {
     struct gm_arena *arena = search->arena;
@@ -196,7 +185,7 @@ static bool take_values(struct search *search)
         nodes[2 * variables + i] = search->named[i].node;
         search->named[i].values = gm_arena_take(arena, search->points, sizeof(gm_residue));
     }
-    struct gm_random_values random = random_values(search, nodes, node_count, 0);
+    struct gm_random_values random = gm_random_values_of(search->system, search->arena, nodes, node_count, 0);
     search->values = gm_arena_take(arena, search->points, sizeof *search->values);
     search->slope_values = gm_arena_take(arena, search->points, sizeof *search->slope_values);
     for (size_t p = 0; p < search->points; p++) {
@@ -360,7 +349,7 @@ static void find_generators(struct search *search)
     }
 }
 
-/* A combination of candidates as a formula; GM_NO_NODE if its coefficients are no short fractions. */
+/* A combination of candidates as a formula; GM_NO_NODE if its coefficients are not short fractions. */
 static gm_node_id formula_of(const struct search *search, const struct gm_null_vector *vector)
 {
     struct gm_formula *graph = &search->system->graph;
@@ -391,7 +380,8 @@ static gm_node_id formula_of(const struct search *search, const struct gm_null_v
 static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t count)
 {
     const size_t n = search->n;
-    struct gm_random_values random = random_values(search, gradients, count * n, 0);
+    struct gm_random_values random =
+        gm_random_values_of(search->system, search->arena, gradients, count * n, 0);
     struct gm_echelon rows = gm_echelon_open(search->arena, n);
     gm_residue *row = gm_arena_take(search->arena, n, sizeof *row);
     size_t rank = 0;
@@ -408,7 +398,7 @@ static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t
 /* True if a node is 0 at fresh points of the field; and in doubles, where coefficients are what is printed. */
 static bool is_zero(struct search *search, gm_node_id node)
 {
-    struct gm_random_values random = random_values(search, &node, 1, FRESH);
+    struct gm_random_values random = gm_random_values_of(search->system, search->arena, &node, 1, FRESH);
     bool zero = true;
     for (int p = 0; p < SPARE_POINTS && zero; p++) {
         const gm_residue *at = gm_random_values_next(&random);
@@ -419,7 +409,7 @@ static bool is_zero(struct search *search, gm_node_id node)
 }
 
 /* Writes and proves the generators. Those without a gradient are constants: exp(x - y) exp(y - x). */
-static void write_generators(struct search *search, struct gm_invariants *found)
+static void write_generators(struct search *search, struct gm_found_invariants *found)
 {
     struct gm_formula *graph = &search->system->graph;
     const size_t n = search->n;
@@ -437,7 +427,7 @@ static void write_generators(struct search *search, struct gm_invariants *found)
         }
         gm_arena_need(search->arena, gm_gradient(graph, node, NULL, n, gradient));
         if (rank_of(search, gradient, 1) == 1) {
-            found->list[found->count++] = (struct gm_invariant){
+            found->list[found->count++] = (struct gm_found_invariant){
                 named ? named->item : NULL, named && !named->item, node, generator->degree};
         }
     }
@@ -483,15 +473,14 @@ static const char *find_lack(const struct search *search)
 }
 
 void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
-                        struct gm_invariants *found)
+                        struct gm_found_invariants *found)
 {
     struct search search = {.system = system, .arena = arena, .n = system->n, .degree = degree};
-    *found = (struct gm_invariants){.lacks = find_lack(&search)};
+    *found = (struct gm_found_invariants){.lacks = find_lack(&search)};
     if (found->lacks) {
         return;
     }
     const size_t n = system->n;
-    search.fixed = gm_arena_keep(arena, gm_equations_fixed(system), free);
     find_variables(&search);
     while (search.degree > 0 && count_candidates(search.variable_count, search.degree) > GM_MOST_CANDIDATES) {
         search.degree--;

@@ -7,9 +7,7 @@
    of Lie Groups to Differential Equations (1993), 2.3. */
 #include "core/model/symmetries.h"
 
-#include <stdlib.h>
-
-#include "core/model/equations.h"
+#include "core/model/elimination.h"
 
 /* The equation of component k: the coefficients of a [n], A [n][n] and c. */
 static void set_equation(gm_residue *row, size_t n, size_t k, const gm_residue *const point[3])
@@ -55,12 +53,7 @@ size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
         wanted[n + i] = system->rates[i];
         gm_gradient(&system->graph, system->rates[i], NULL, n, wanted + 2 * n + i * n);
     }
-    struct gm_random_values random = {
-        .graph = &system->graph,
-        .fixed = gm_arena_keep(arena, gm_equations_fixed(system), free),
-        .variables = system->variable_count,
-    };
-    gm_random_values_of(&random, arena, wanted, nodes);
+    struct gm_random_values random = gm_random_values_of(system, arena, wanted, nodes, 0);
     struct gm_echelon equations = gm_echelon_open(arena, unknowns);
     gm_residue *row = gm_arena_take(arena, unknowns + nodes, sizeof *row), *values = row + unknowns;
     const gm_residue *at = values;

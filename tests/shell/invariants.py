@@ -154,7 +154,7 @@ if lowered["degree"] != 3 or "degree 4 has more than 3000 candidates" not in run
     fail("toda, five particles: the degree is not lowered, or not said to be")
 irrational = run("system", "H=(p1^2+w^2*q1^2)/2+(p2^2+4*w^2*q2^2)/2", "w=sqrt(2)", "q1=1", "q2=1", "p1=1", "p2=1",
                  "--degree", "3", "--invariants")
-if "and 3 whose coefficients are no short fractions" not in irrational.stdout:
+if "and 3 whose coefficients are not short fractions" not in irrational.stdout:
     fail(f"irrational coefficients: {irrational.stdout}{irrational.stderr}")
 for words, sentence in [
     (["kepler", "--invariants", "--degree", "9"], "--degree 9 is not a whole number from 1 to 8"),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "core/linear/residue.h"
+#include "core/expression/residue.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -103,68 +103,4 @@ bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole)
         whole[i] /= (double)shared;
     }
     return true;
-}
-
-struct gm_echelon gm_echelon_open(struct gm_arena *arena, size_t columns)
-{
-    struct gm_echelon echelon = {arena, columns, NULL};
-    echelon.rows = gm_arena_take(arena, columns + 1, sizeof(gm_residue *));
-    return echelon;
-}
-
-/* row += factor * other, from column `first` on */
-static void add_multiple(gm_residue *row, gm_residue factor, const gm_residue *other, size_t first,
-                         size_t columns)
-{
-    for (size_t i = first; i < columns; i++) {
-        row[i] = gm_residue_plus(row[i], gm_residue_times(factor, other[i]));
-    }
-}
-
-size_t gm_echelon_reduce(const struct gm_echelon *echelon, gm_residue *row)
-{
-    size_t c = 0;
-    while (c < echelon->columns && (!row[c] || echelon->rows[c])) {
-        if (row[c]) {
-            add_multiple(row, gm_residue_minus(row[c]), echelon->rows[c], c, echelon->columns);
-        }
-        c++;
-    }
-    return c;
-}
-
-bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row)
-{
-    const size_t c = gm_echelon_reduce(echelon, row);
-    if (c == echelon->columns) {
-        return false;
-    }
-    gm_residue *rest = gm_arena_take(echelon->arena, echelon->columns, sizeof *rest);
-    add_multiple(rest, gm_residue_inverse(row[c]), row, c, echelon->columns);
-    echelon->rows[c] = rest;
-    return true;
-}
-
-struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, size_t *count)
-{
-    struct gm_null_vector *basis = gm_arena_take(echelon->arena, echelon->columns + 1, sizeof *basis);
-    *count = 0;
-    for (size_t last = 0; last < echelon->columns; last++) {
-        if (echelon->rows[last]) {
-            continue;
-        }
-        gm_residue *entries = gm_arena_take(echelon->arena, echelon->columns, sizeof *entries);
-        size_t terms = 1;
-        entries[last] = 1;
-        for (size_t c = last; c-- > 0;) {
-            gm_residue sum = 0;
-            for (size_t i = c + 1; i <= last && echelon->rows[c]; i++) {
-                sum = gm_residue_plus(sum, gm_residue_times(echelon->rows[c][i], entries[i]));
-            }
-            entries[c] = gm_residue_minus(sum);
-            terms += sum != 0;
-        }
-        basis[(*count)++] = (struct gm_null_vector){entries, last, terms};
-    }
-    return basis;
 }
