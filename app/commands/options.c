@@ -12,6 +12,7 @@
 #include "app/words/words.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/memory.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
 
@@ -157,7 +158,8 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
                  : isinf(low) ? "is not a number"
                               : "is not a number above 0",
                  low, high);
-        return refuse(message, row->name, value, what);
+        return gm_memory_was_short() ? gm_refuse(message, "not enough memory")
+                                     : refuse(message, row->name, value, what);
     }
     const long integer = whole ? (long)number : 0;
     memcpy(place, whole ? (const void *)&integer : &number, sizeof number);

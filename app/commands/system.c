@@ -863,6 +863,7 @@ static int list_invariants(const struct gm_options *options, struct report *repo
                           found.invariants.lacks);
     }
     found.symmetry_count = gm_symmetries_find(&report->system, options->arena, &found.symmetries);
+    gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);
     return gm_finish(GM_EXIT_OK);
 }
