@@ -13,8 +13,8 @@ enum gm_identity {
     GM_UNTESTED     /* not finite at any tested point, or out of memory */
 };
 
-/* The proof uses the field of the 2^61 - 1 residues: + - * / and whole powers are exact, roots are roots, and
-   sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
+/* The proof uses the field of the 2^61 - 1 residues (gm_residue_of): + - * / and whole powers are exact, roots are
+   roots, and sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
    0; the probability of an error is below 1e-15 times the degree. Signs and roots have two values and take
    more points. If the proof fails, doubles at 20 random points must be 0 to 1e-12 of the sum of magnitudes.
    Variables are random; in the second test variable i < variables is fixed[i], unless that is NaN. */

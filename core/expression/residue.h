@@ -12,11 +12,17 @@ __extension__ typedef unsigned __int128 gm_wide;
 
 #define GM_PRIME ((UINT64_C(1) << 61) - 1) /* 3 modulo 4: roots are powers */
 
+/* a b + c */
+static inline gm_residue gm_residue_fused(gm_residue a, gm_residue b, gm_residue c)
+{
+    const gm_wide sum = (gm_wide)a * b + c;
+    const gm_residue folded = (gm_residue)(sum & GM_PRIME) + (gm_residue)(sum >> 61);
+    return folded >= GM_PRIME ? folded - GM_PRIME : folded;
+}
+
 static inline gm_residue gm_residue_times(gm_residue a, gm_residue b)
 {
-    const gm_wide product = (gm_wide)a * b;
-    const gm_residue sum = (gm_residue)(product & GM_PRIME) + (gm_residue)(product >> 61);
-    return sum >= GM_PRIME ? sum - GM_PRIME : sum;
+    return gm_residue_fused(a, b, 0);
 }
 
 static inline gm_residue gm_residue_plus(gm_residue a, gm_residue b)

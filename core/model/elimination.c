@@ -31,7 +31,7 @@ static void add_multiple(gm_residue *row, gm_residue factor, const gm_residue *o
                          size_t columns)
 {
     for (size_t i = first; i < columns; i++) {
-        row[i] = gm_residue_plus(row[i], gm_residue_times(factor, other[i]));
+        row[i] = gm_residue_fused(factor, other[i], row[i]);
     }
 }
 
@@ -73,7 +73,7 @@ struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, s
         for (size_t c = last; c-- > 0;) {
             gm_residue sum = 0;
             for (size_t i = c + 1; i <= last && echelon->rows[c]; i++) {
-                sum = gm_residue_plus(sum, gm_residue_times(echelon->rows[c][i], entries[i]));
+                sum = gm_residue_fused(echelon->rows[c][i], entries[i], sum);
             }
             entries[c] = gm_residue_minus(sum);
             terms += sum != 0;

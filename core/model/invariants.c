@@ -200,8 +200,8 @@ static bool take_values(struct search *search)
             const struct candidate *of = &search->candidates[i];
             const gm_residue factor = at[search->variables[of->factor]];
             value[i] = gm_residue_times(value[of->parent], factor);
-            slope[i] = gm_residue_plus(gm_residue_times(slope[of->parent], factor),
-                                       gm_residue_times(value[of->parent], at[search->slopes[of->factor]]));
+            slope[i] = gm_residue_fused(value[of->parent], at[search->slopes[of->factor]],
+                                        gm_residue_times(slope[of->parent], factor));
         }
         for (size_t i = 0; i < search->named_count; i++) {
             search->named[i].values[p] = at[search->named[i].node];
@@ -257,8 +257,8 @@ static gm_residue *values_of(const struct search *search, const struct gm_null_v
     for (size_t p = 0; p < search->samples; p++) {
         for (size_t i = 0; i <= vector->last; i++) {
             if (vector->entries[i]) {
-                values[p] = gm_residue_plus(
-                    values[p], gm_residue_times(vector->entries[i], search->values[p][search->kept[i]]));
+                values[p] =
+                    gm_residue_fused(vector->entries[i], search->values[p][search->kept[i]], values[p]);
             }
         }
     }
