@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 
 #include "app/base/arguments.h"
@@ -13,6 +14,7 @@
 #include "app/output/folder.h"
 #include "app/output/printer.h"
 #include "app/output/say.h"
+#include "core/basics.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 #include "render/drawing/pen.h"
@@ -22,10 +24,24 @@ enum { FRAMES = 30 /* per second */, LONGEST = 600 /* seconds of a word */ };
 
 /* ---- the words ---- */
 
-/* Returns the key that a word of capital letters names; 0: its letters are typed. */
+/* Returns the key that a word of several letters names; 0: its letters are typed. */
 static int key_of(const char *word)
 {
-    return word[0] >= 'A' && word[0] <= 'Z' && word[1] ? gm_key_named(word, strlen(word)) : 0;
+    return word[0] && word[1] ? gm_key_named(word, strlen(word)) : 0;
+}
+
+/* Returns true for a word that is written like the name of a key: DEL, F2, Ctrl-C. */
+static bool is_like_a_key(const char *word)
+{
+    static const char *const modifiers[] = {"ctrl-", "alt-", "meta-", "shift-"};
+    for (size_t i = 0; i < GM_COUNT(modifiers); i++) {
+        if (strncasecmp(word, modifiers[i], strlen(modifiers[i])) == 0) {
+            return true;
+        }
+    }
+    return word[0] && word[1] &&
+           (word[strspn(word, "ABCDEFGHIJKLMNOPQRSTUVWXYZ")] == '\0' ||
+            (word[0] == 'F' && word[1 + strspn(word + 1, "0123456789")] == '\0'));
 }
 
 /* Returns true for a time such as "2s" or "0.5s", and sets its frames. */
@@ -39,14 +55,13 @@ static bool read_time(const char *word, int *frames)
 
 static bool check_words(const struct gm_arguments *words, char *message)
 {
-    static const char capitals[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
     for (int i = 0; i < words->count; i++) {
         const char *word = words->words[i];
         int frames = 0;
         if (read_time(word, &frames) && frames < 0) {
             return gm_refuse(message, "--keys %.40s is too long: a word lasts at most %d s", word, LONGEST);
         }
-        if (strlen(word) > 1 && strspn(word, capitals) == strlen(word) && !key_of(word)) {
+        if (is_like_a_key(word) && !key_of(word)) {
             size_t used =
                 (size_t)snprintf(message, GM_MESSAGE, "--keys has no key %.40s; its keys are", word);
             for (size_t k = 0; gm_key_name(k) && used < GM_MESSAGE; k++) {

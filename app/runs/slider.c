@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The value; for a negative step its size. */
@@ -136,6 +137,16 @@ static double fine_step(double value, int direction)
     return scale * (at < 1 ? 0.01 : at < 2 ? 0.02 : at < 5 ? 0.05 : 0.1);
 }
 
+/* Writes a value as it would be typed; it has all its digits if the rounded value is out of range. */
+static void write_value(const struct gm_parameter *row, double value, int digits, char *text)
+{
+    snprintf(text, GM_TEXT_SIZE, "%.*g", row->type == GM_INTEGER ? 15 : digits, value + 0.0); /* not -0 */
+    const double rounded = strtod(text, NULL);
+    if (rounded < row->lowest || rounded > row->highest) {
+        gm_number_format(value, text, GM_TEXT_SIZE);
+    }
+}
+
 bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, bool fine,
                     char text[GM_TEXT_SIZE])
 {
@@ -159,7 +170,7 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
     if (next == value) {
         return false;
     }
-    snprintf(text, GM_TEXT_SIZE, row->type == GM_INTEGER ? "%.0f" : "%.10g", next == 0 ? 0.0 : next);
+    write_value(row, next, 10, text);
     return true;
 }
 
@@ -185,6 +196,6 @@ bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_
         value = round(value / unit) * unit;
     }
     value = fmin(fmax(value, row->lowest), row->highest);
-    snprintf(text, GM_TEXT_SIZE, row->type == GM_INTEGER ? "%.0f" : "%.6g", value == 0 ? 0.0 : value);
+    write_value(row, value, 6, text);
     return true;
 }

@@ -174,21 +174,28 @@ const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word)
     return scheme->name;
 }
 
-bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message)
+bool gm_scheme_refuse_among(const struct gm_scheme *const *fitting, size_t count, const char *word,
+                            const char *otherwise, char *message)
 {
     const struct gm_near *row = gm_near_find(GM_NEAR_SCHEME, word, 0);
-    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
-    const size_t count = scene ? gm_fitting_elsewhere(scene, fitting) : 0;
-    const char *meant = gm_scheme_near(word, scene ? fitting : NULL, count);
-    char words[256] = "schemes";
+    const char *meant = gm_scheme_near(word, fitting, count);
     if (row && meant == row->meant) {
         return gm_refuse(message, "%.40s is not here; %s", word, row->why);
     }
+    return gm_refuse(message, "there is no scheme \"%.60s\"; %s%s", word, meant ? "did you mean " : "",
+                     meant ? meant : otherwise);
+}
+
+bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message)
+{
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+    const size_t count = scene ? gm_fitting_elsewhere(scene, fitting) : 0;
+    char list[256] = "see geomint list schemes";
     if (scene) {
-        gm_arguments_tell_scene(scene, words, sizeof words);
+        const size_t front = strlen("see geomint list ");
+        gm_arguments_tell_scene(scene, list + front, sizeof list - front);
     }
-    return gm_refuse(message, "there is no scheme \"%.60s\"%s%s", word,
-                     meant ? "; did you mean " : "; see geomint list ", meant ? meant : words);
+    return gm_scheme_refuse_among(scene ? fitting : NULL, count, word, list, message);
 }
 
 /* Names of scenes and files for an unknown word. */

@@ -55,6 +55,9 @@ const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word);
 
 /* Refuses an unknown scheme, with what the word probably means. Returns false. */
 bool gm_scheme_refuse(const struct gm_scene *scene, const char *word, char *message);
+/* The same, where these schemes fit (NULL: all do); `otherwise` is the way out if the word means none of them. */
+bool gm_scheme_refuse_among(const struct gm_scheme *const *fitting, size_t count, const char *word,
+                            const char *otherwise, char *message);
 
 /* Writes to `near` the name of a scene, a system or a room that is nearest to an unknown word, else those that
    contain it. Returns false if none is near; the message then names a folder of the environment that could

@@ -43,12 +43,14 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
     case GM_OUT_OF_RANGE:
         break;
     }
-    char low[40], high[40], nearest[64] = "";
+    char low[40], high[40], nearest[96] = "";
     double value = NAN;
     gm_number_parse(text, &value);
     gm_number_format(fmax(row->lowest, row->least), low, sizeof low);
     gm_number_format(row->highest, high, sizeof high);
-    if (!isnan(value) && !(row->least > 0)) {
+    if (strcmp(row->key, "dt") == 0 && value < 0) {
+        snprintf(nearest, sizeof nearest, "; key B of the explorer turns time");
+    } else if (!isnan(value) && !(row->least > 0)) {
         snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
     }
     return gm_refuse(message, "%s=%.60s is out of range: it %slies between %s and %s%s", row->key, text,
@@ -491,8 +493,12 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     if (!scene && gm_system_is(words[0])) {
         return gm_system_scene(count, words, status, message);
     }
-    if (!scene && gm_typed_is_formula(words[0])) {
+    const size_t name = strcspn(words[0], "='");
+    if (!scene && (gm_typed_is_formula(words[0]) || words[0][name] == '\'')) {
         gm_refuse(message, "a formula is for the scene system: system %.60s", words[0]);
+    } else if (!scene && words[0][name]) {
+        gm_refuse(message, "the scene comes before %.60s, as kepler in: geomint run kepler dt=0.01",
+                  words[0]);
     } else if (!scene) {
         char near[GM_NEAR_NAMES], folder[GM_MESSAGE];
         if (gm_system_near(words[0], near, folder)) {

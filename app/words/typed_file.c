@@ -450,6 +450,15 @@ static void put_missing(struct typing *typing)
 
 /* ---- words of another form ---- */
 
+/* The length in bytes of value .. end without blanks at its end. */
+static int trimmed(const char *value, const char *end)
+{
+    while (end > value && end[-1] == ' ') {
+        end--;
+    }
+    return (int)(end - value);
+}
+
 /* "H = p^2/2, q = 1" as words, "H='p^2/2' q=1", of which there are *count; 0 for another text. */
 static const char *as_words(const struct typing *typing, const char *text, size_t *count)
 {
@@ -457,42 +466,79 @@ static const char *as_words(const struct typing *typing, const char *text, size_
     for (*count = 0; *text; ++*count) {
         text += strspn(text, " ");
         const size_t length = gm_word_first(text), name = gm_name_length(text, length);
-        const char *end = text + length, *value = text + name + strspn(text + name, " ");
+        const char *value = text + name + strspn(text + name, " ");
         if (name == 0 || *value != '=') {
             *count = 0;
             break;
         }
         value += 1 + strspn(value + 1, " ");
-        while (end > value && end[-1] == ' ') {
-            end--;
-        }
-        const bool plain = strspn(value, "0123456789.+-eE") >= (size_t)(end - value);
+        const int size = trimmed(value, text + length);
+        const bool plain = strspn(value, "0123456789.+-eE") >= (size_t)size;
         words = gm_arena_print(typing->arena, "%s%s%.*s=%s%.*s%s", words, *count > 0 ? " " : "", (int)name,
-                               text, plain ? "" : "'", (int)(end - value), value, plain ? "" : "'");
+                               text, plain ? "" : "'", size, value, plain ? "" : "'");
         text += length + (text[length] != '\0');
     }
     return words;
 }
 
-/* Refuses words without a formula, with the words that were probably meant: also rate='x = y' for x'=y. */
-static void refuse_words(const struct typing *typing)
+/* " rate='x = y' ..." for x' = y, dx/dt = y and x'' = f, with commas between them; "" for another text. */
+static const char *as_rates(const struct typing *typing, const char *text)
+{
+    const char *rates = "", *const whole = text;
+    while (*text) {
+        text += strspn(text, " ");
+        const size_t length = gm_word_first(text);
+        const char *name = text, *value = text + gm_name_length(text, length);
+        size_t order = strspn(value, "'"), size = (size_t)(value - name);
+        value += order;
+        if (order == 0 && size > 1 && name[0] == 'd' && strncmp(value, "/dt", 3) == 0) {
+            name++;
+            size--;
+            order = 1;
+            value += 3;
+        }
+        value += strspn(value, " ");
+        if (size == 0 || order == 0 || order > 2 || *value != '=') {
+            return "";
+        }
+        value += 1 + strspn(value + 1, " ");
+        const int given = trimmed(value, text + length);
+        if (order == 2) { /* the velocity is a component, too */
+            const bool taken = strchr(whole, 'v') != NULL;
+            const char *velocity = taken ? gm_arena_print(typing->arena, "v_%.*s", (int)size, name) : "v";
+            rates = gm_arena_print(typing->arena, "%s rate='%.*s = %s' rate='%s = %.*s'", rates, (int)size,
+                                   name, velocity, velocity, given, value);
+        } else {
+            rates =
+                gm_arena_print(typing->arena, "%s rate='%.*s = %.*s'", rates, (int)size, name, given, value);
+        }
+        text += length + (text[length] != '\0');
+    }
+    return rates;
+}
+
+/* Refuses a word that is a formula and values, if these are at least `least`. */
+static void refuse_values(const struct typing *typing, const char *word, size_t least)
 {
     static const char *const numbers[] = {"one word", "two words", "three words", "four words", "five words"};
+    size_t count;
+    const char *words = as_words(typing, word, &count);
+    if (count >= least) {
+        gm_arena_refuse(typing->arena, "a formula and each value are words of their own, here %s: %.300s",
+                        count <= GM_COUNT(numbers) ? numbers[count - 1] : "these", words);
+    }
+}
+
+/* Refuses words without a formula, with the words that were probably meant. */
+static void refuse_words(const struct typing *typing)
+{
     const char *rates = "";
     for (int i = 1; i < typing->file->count; i++) {
         const char *word = typing->file->words[i];
-        const size_t first = strcspn(word, " ="), name = gm_name_length(word, strlen(word)),
-                     equals = name + strspn(word + name, "' ");
-        size_t count = 0;
-        const char *words = word[first] == ' ' && !rates[0] ? as_words(typing, word, &count) : "";
-        if (count > 0) {
-            gm_arena_refuse(typing->arena, "a formula and each value are words of their own, here %s: %.300s",
-                            count <= GM_COUNT(numbers) ? numbers[count - 1] : "these", words);
+        if (word[strcspn(word, " =")] == ' ' && !rates[0]) {
+            refuse_values(typing, word, 1);
         }
-        if (name > 0 && word[name] == '\'' && word[equals] == '=') {
-            rates = gm_arena_print(typing->arena, "%s rate='%.*s = %s'", rates, (int)name, word,
-                                   word + equals + 1 + strspn(word + equals + 1, " "));
-        }
+        rates = gm_arena_print(typing->arena, "%s%s", rates, as_rates(typing, word));
     }
     if (rates[0]) {
         gm_arena_refuse(typing->arena, "a derivative is typed as a rate:%.300s", rates);
@@ -516,6 +562,9 @@ static void put_typed(struct gm_arena *arena, void *data)
     for (int i = 1; i < file->count; i++) {
         const size_t key = key_of(file->words[i], gm_typed_keys, &value);
         if (gm_typed_keys[key]) {
+            if (key == FORMULA_H || key == FORMULA_L) {
+                refuse_values(typing, file->words[i], 2);
+            }
             put_line(file, file->words[i], i);
             typing->has[key] = true;
         }

@@ -344,6 +344,67 @@ static bool add_components_in_order(struct gm_reading *reading, enum gm_system_w
     return !reading->fault.failed;
 }
 
+/* Returns the number of the component that a text names; SIZE_MAX for another text. */
+static size_t component_named(struct gm_reading *reading, struct gm_span name)
+{
+    name = gm_span_trimmed(reading->text, name);
+    const struct gm_entry *entry =
+        gm_reading_entry(reading, reading->text + name.begin, name.end - name.begin, false, 0);
+    return entry && entry->role == GM_ENTRY_COMPONENT ? entry->number : SIZE_MAX;
+}
+
+/* Numbers the components of x' = v: x from 0 on, v from n / 2 on, where `order` is SIZE_MAX. Returns false unless
+   these are all. */
+static bool pair_components(struct gm_reading *reading, size_t *order)
+{
+    const size_t n = reading->component_count;
+    size_t places = 0;
+    for (size_t i = 0; i < reading->line_count; i++) {
+        struct gm_span rest = reading->lines[i].value, piece;
+        while (reading->lines[i].word == GM_WORD_RATE && gm_span_take(reading->text, &rest, ",", &piece)) {
+            const size_t equals = gm_span_until(reading->text, piece, "=");
+            const size_t x = component_named(reading, (struct gm_span){piece.begin, equals}),
+                         v = component_named(reading, (struct gm_span){equals + 1, piece.end});
+            if (equals == piece.end || x == SIZE_MAX) {
+                return false;
+            }
+            if (v != SIZE_MAX) {
+                if (x == v || order[x] != SIZE_MAX || order[v] != SIZE_MAX) {
+                    return false;
+                }
+                order[x] = places++;
+                order[v] = n / 2 + order[x];
+            }
+        }
+    }
+    return 2 * places == n;
+}
+
+/* Reorders the components of two or more x' = v with the rates of v, which may have any order: all x, then all v. */
+static bool put_places_first(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    const size_t n = reading->component_count, first = system->variable_count - n;
+    size_t *order = gm_arena_take(system->arena, n + 1, sizeof *order);
+    struct gm_system_variable *moved = gm_arena_take(system->arena, n + 1, sizeof *moved);
+    if (!order || !moved) {
+        return gm_fail_memory(&reading->fault);
+    }
+    memset(order, 0xff, n * sizeof *order);
+    if (n <= 2 || !pair_components(reading, order)) {
+        return true;
+    }
+    for (size_t i = 0; i < n; i++) {
+        moved[order[i]] = system->variables[first + i];
+    }
+    memcpy(system->variables + first, moved, n * sizeof *moved);
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        struct gm_entry *entry = &reading->entries[i];
+        entry->number = entry->role == GM_ENTRY_COMPONENT ? order[entry->number] : entry->number;
+    }
+    return true;
+}
+
 /* Adds the tangents of all components: xi1_q, xi2_q. */
 static bool add_tangents(struct gm_reading *reading)
 {
@@ -522,7 +583,10 @@ bool gm_declared_state(struct gm_reading *reading)
     } else if (components) {
         add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count);
     } else {
-        add_components_in_order(reading, system->kind == GM_RATES ? GM_WORD_RATE : GM_WORD_BRACKET);
+        const bool rates = system->kind == GM_RATES;
+        if (add_components_in_order(reading, rates ? GM_WORD_RATE : GM_WORD_BRACKET) && rates) {
+            put_places_first(reading);
+        }
     }
     if (!reading->fault.failed && reading->component_count > GM_MOST_COMPONENTS) {
         const struct gm_system_line *list = coordinates ? coordinates : components;

@@ -20,6 +20,9 @@ static const struct {
 } rows[GM_FACTS] = {
     [GM_FACT_SEPARABLE] = {"separable", "H = T(p) + V(q)", "holds coordinates and momenta"},
     [GM_FACT_NYSTROM] = {"nystrom", "T is quadratic in the momenta", "is not quadratic in the momenta"},
+    [GM_FACT_SECOND_ORDER] = {"second-order", "x' = v and v' = g(x, t)", "holds a velocity"},
+    [GM_FACT_MAGNETIC] = {"magnetic", "the velocity is rotated by a magnetic field",
+                          "does not rotate the velocity"},
     [GM_FACT_LINEAR] = {"linear", "every rate is linear in the components", "is not linear"},
     [GM_FACT_QUADRATIC] = {"quadratic", "every rate is a polynomial of degree 2", "is not of degree 2"},
     [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
@@ -552,6 +555,121 @@ static void find_of_rates(struct gm_user_system *system, struct gm_finding *find
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
+/* Finds x' = v, v' = g(x, t) for the first and the second half of the components. */
+static void find_second_order(struct gm_user_system *system, struct gm_finding *finding, const bool *all,
+                              const bool *velocities)
+{
+    const size_t half = system->n / 2;
+    const bool *const once[] = {velocities};
+    finding->asked = true;
+    if (system->n % 2 != 0) {
+        deny(finding, GM_NO_NODE, "the number of components is odd");
+        return;
+    }
+    for (size_t i = 0; i < system->n && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id rate = system->rates[i];
+        finding->component = i;
+        if (i >= half) {
+            conclude(finding, vanishes(system, rate, once, 1));
+            finding->term = finding->holds ? GM_NO_NODE : culprit(system, rate, all, once, 1);
+        } else if (rate != gm_formula_variable(&system->graph, half + i)) {
+            deny(finding, rate, "is not a velocity");
+        }
+    }
+}
+
+/* Returns true if H is all that acts. */
+static bool is_alone(const struct gm_user_system *system)
+{
+    bool alone = system->tangents == 0 && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        alone = alone && system->variables[i].force == GM_NO_NODE;
+    }
+    return alone;
+}
+
+/* Concludes that a node vanishes; else the rate of a component is the reason. */
+static void need_zero(struct gm_user_system *system, struct gm_finding *finding, gm_node_id node,
+                      size_t component)
+{
+    if (finding->holds && !system->graph.failed) {
+        conclude(finding, gm_equations_vanishes(system, node));
+        finding->component = component;
+        finding->term = finding->holds ? GM_NO_NODE : system->rates[component];
+    }
+}
+
+/* Writes the nodes of the facet: the velocity u of p = 0, or 0; g; W by rows, which are the slopes of v' over v, or
+   those of u over x without their symmetric part; c, the slope of v over p, or 1. */
+static void write_magnetic(struct gm_user_system *system, gm_node_id *nodes, bool *own)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n, half = n / 2;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    gm_node_id *u = nodes, *g = u + half, *w = g + half, *c = w + half * half;
+    gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count);
+    system->graph.failed |= !replacement;
+    if (system->kind == GM_RATES) {
+        for (size_t i = 0; i < half; i++) {
+            u[i] = zero;
+            g[i] = at_zero(system, system->rates[half + i], half, half);
+        }
+        *c = gm_formula_constant(graph, 1);
+        return;
+    }
+    *c = w[0];
+    for (size_t i = 0; i < half && replacement; i++) {
+        u[i] = at_zero(system, system->rates[i], half, half);
+        replacement[half + i] = gm_negative(graph, gm_simplified(graph, GM_OPERATION_DIVIDE, u[i], *c));
+    }
+    for (size_t i = 0; i < half && replacement; i++) {
+        g[i] = system->rates[half + i];
+        system->graph.failed |= !gm_formula_substitute(graph, &g[i], 1, replacement, system->variable_count);
+        g[i] = gm_sum(graph, gm_product(graph, *c, g[i]), slope_of(system, u[i], own, n)); /* du/dt */
+        for (size_t j = 0; j < half; j++) {
+            w[i * half + j] =
+                gm_difference(graph, slope_of(system, u[i], own, j), slope_of(system, u[j], own, i));
+        }
+    }
+}
+
+/* Finds v' = g + W v by the slopes of v' over v, which hold no v and are antisymmetric; or p = v/c + A by those of
+   v = dH/dp over p, which are c times the unit matrix. */
+static void find_magnetic(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
+                          const bool *all, const bool *velocities, bool *own)
+{
+    const size_t half = system->n / 2;
+    const bool canonical = system->kind == GM_CANONICAL;
+    const size_t first = canonical ? 0 : half; /* of the rates that are looked at */
+    gm_node_id *slopes = nodes + 2 * half;
+    for (size_t i = 0; i < half && !canonical; i++) {
+        const gm_node_id v = gm_formula_variable(&system->graph, half + i);
+        need_zero(system, finding, gm_difference(&system->graph, system->rates[i], v), i);
+    }
+    for (size_t i = 0; i < half * half && finding->holds; i++) {
+        const size_t row = i / half, column = i % half;
+        slopes[i] = slope_of(system, system->rates[first + row], own, half + column);
+        gm_node_id rest = slopes[i];
+        if (canonical && row == column) {
+            rest = gm_difference(&system->graph, slopes[i], slopes[0]);
+        } else if (!canonical) {
+            rest = column <= row ? gm_sum(&system->graph, slopes[i], slopes[column * half + row])
+                                 : gm_formula_constant(&system->graph, 0);
+        }
+        need_zero(system, finding, rest, first + row);
+        const bool *const fixed = canonical ? all : velocities;
+        if (finding->holds && (depends(system, slopes[i], fixed) ||
+                               (canonical && depends_on(system, slopes[i], own, system->n)))) {
+            deny(finding, system->rates[first + row], NULL);
+            finding->component = first + row;
+        }
+    }
+    if (finding->holds && !system->graph.failed) {
+        write_magnetic(system, nodes, own);
+        finding->nodes = nodes;
+    }
+}
+
 static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
 {
     (void)graph;
@@ -605,7 +723,7 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
 {
     const size_t half = system->n / 2, count = system->variable_count;
     gm_node_id *nodes =
-        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 7, sizeof *nodes);
+        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 17, sizeof *nodes);
     for (size_t i = 0; i < GM_FACTS; i++) {
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
@@ -630,6 +748,19 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
         find_split(system, findings, q, p, all);
         find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
         find_mechanical(system, findings, nodes + 1, q, all, own);
+    }
+    if (system->kind == GM_RATES) {
+        for (size_t i = 0; i < half; i++) {
+            p[half + i] = true;
+        }
+        find_second_order(system, &findings[GM_FACT_SECOND_ORDER], components, p);
+    }
+    const bool split = findings[GM_FACT_SEPARABLE].asked ? findings[GM_FACT_SEPARABLE].holds
+                                                         : findings[GM_FACT_SECOND_ORDER].holds;
+    if ((system->kind == GM_RATES || (system->kind == GM_CANONICAL && is_alone(system))) && !split &&
+        (system->n == 4 || system->n == 6)) {
+        findings[GM_FACT_MAGNETIC].asked = true;
+        find_magnetic(system, &findings[GM_FACT_MAGNETIC], nodes + 1, components, p, own);
     }
     /* else the rates are only a part of the motion */
     if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {

@@ -15,11 +15,12 @@ struct gm_loops; /* core/ode/kernel/loops.h */
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 
-/* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
+/* H(q, p) = T(p) + V(q), or q' = p, p' = g(q, t): exact flows of two parts; q are the first n / 2 components */
 struct gm_split {
-    bool nystrom;   /* T is quadratic */
-    bool unit_mass; /* q' = p: needs no evaluation */
-    bool attracts;  /* H at p = 0 is negative at the start */
+    bool nystrom;      /* T is quadratic */
+    bool unit_mass;    /* q' = p: needs no evaluation */
+    bool no_potential; /* the force has none that is known */
+    bool attracts;     /* H at p = 0 is negative at the start */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
@@ -54,6 +55,16 @@ struct gm_action {
     /* writes g (constraints), G = dg/dq (constraints * half), and d(G' multipliers)/dq (half * half) */
     void (*constrain)(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
                       double *slopes, double *curvature);
+};
+
+/* x' = v, v' = g(x, t) + W(x, t) v with W antisymmetric, in two or three dimensions */
+struct gm_magnetic {
+    bool canonical; /* the state is (x, p), H = c |p - A(x, t)|^2/2 + phi(x, t); else (x, v) */
+    double c;
+    /* -c A at the place and time of a whole state: n / 2 */
+    void (*drift)(const struct gm_problem *problem, const double *y, double *drift);
+    /* g, and W by rows: n / 2 + (n / 2)^2 */
+    void (*forces)(const struct gm_problem *problem, const double *y, double *forces);
 };
 
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
@@ -146,6 +157,7 @@ enum gm_ode_facet {
     GM_NEEDS_PIECES = 1u << 20,     /* a bracket, and an energy in pieces that have exact flows */
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
     GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
+    GM_NEEDS_MAGNETIC = 1u << 23,
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -163,6 +175,7 @@ struct gm_ode {
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
+    const struct gm_magnetic *magnetic;
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;

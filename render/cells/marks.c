@@ -354,7 +354,8 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
                    bool outline)
 {
     struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
-    if (mark->count == 0) {
+    if (mark->count == 0 ||
+        !gm_mark_is_shown(mark, axes->box.width / raster->unit_x, axes->box.height / raster->unit_y)) {
         return true;
     }
     gm_raster_clip(raster, &axes->box);

@@ -187,6 +187,9 @@ static void draw_polygon(struct gm_painter *painter, const struct gm_axes *axes,
 void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes)
 {
     for (const struct gm_mark *mark = axes->panel->first; mark; mark = mark->next) {
+        if (!gm_mark_is_shown(mark, axes->box.width, axes->box.height)) {
+            continue;
+        }
         clip_to(painter, &axes->box, 2.5 * painter->scale);
         switch (mark->kind) {
         case GM_MARK_LINE:

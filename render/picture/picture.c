@@ -209,6 +209,12 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
     return mark;
 }
 
+bool gm_mark_is_shown(const struct gm_mark *mark, double width, double height)
+{
+    const double side = width < height ? width : height;
+    return side >= mark->least && (mark->most == 0 || side < mark->most);
+}
+
 static bool drawable(const struct gm_axis *axis, double value)
 {
     return isfinite(value) && (axis->scale != GM_LOG || value > 0.0);

@@ -78,6 +78,8 @@ struct gm_mark {
     const char *text;
     enum gm_anchor anchor;
     bool fixed; /* a text stays at its place and does not move to find room */
+    double least,
+        most; /* dots of the shorter sides of panels that show it: from least to below most; 0: any */
     struct gm_mark *next;
 };
 
@@ -176,6 +178,8 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
 struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
                               double low, double high, const double corners[4], const double *values,
                               size_t rows, size_t columns);
+/* Returns true if a panel of that width and height, in dots of its painter, shows the mark. */
+bool gm_mark_is_shown(const struct gm_mark *mark, double width, double height);
 /* Adds the lines of equal value of a triangle mesh, at `levels`. */
 void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                          const double *points, const double *values, size_t count, const int *triangles,

@@ -9,6 +9,8 @@
 
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/variational/action.h"
 #include "scenes/common/lane.h"
 
 /* ---- growth ---- */
@@ -37,9 +39,9 @@ static double last_of(const struct gm_view *view, const double *state, size_t c)
 }
 
 /* Opens the copy of the orbit; NULL when out of memory, which is noted. */
-static struct followed *open_followed(const struct gm_view *view)
+static struct followed *open_followed(const struct gm_view *view, size_t kind)
 {
-    struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
+    struct gm_worked *worked = &view->worked[kind];
     struct followed *followed = calloc(1, sizeof *followed);
     worked->data = followed;
     worked->forget = forget;
@@ -59,10 +61,22 @@ static struct followed *open_followed(const struct gm_view *view)
         followed->why = view->scheme->family->by_tolerance
                             ? "the lengths of its steps follow a tolerance and have no derivative"
                             : "the state of the scheme is in a library: its steps have no derivative here";
+    } else if (kind == GM_WORKED_VOLUME) {
+        followed->why = followed->n > GM_NEWTON_LARGEST
+                            ? "the volume of more than 64 components is not followed"
+                        : gm_action_constraints(view->problem) > 0 ? "constraints leave no volume"
+                        : view->scheme->family->adaptive ? "its steps have other lengths beside the orbit"
+                                                         : NULL;
+    }
+    if (followed->why) {
         return followed;
     }
     followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,
                                       followed->start);
+    if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_volume(followed->growth)) {
+        gm_growth_close(followed->growth);
+        followed->growth = NULL;
+    }
     return followed->growth ? followed : NULL;
 }
 
@@ -79,9 +93,9 @@ static bool is_same(const struct gm_view *view, const struct followed *followed)
 }
 
 /* Returns the orbit, followed up to the view's step; NULL if there are no values. */
-static const struct gm_growth *followed_to(const struct gm_view *view)
+static const struct gm_growth *followed_to(const struct gm_view *view, size_t kind)
 {
-    struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
+    struct gm_worked *worked = &view->worked[kind];
     struct followed *followed = worked->data;
     const int64_t steps = view->run->steps;
     const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
@@ -90,7 +104,7 @@ static const struct gm_growth *followed_to(const struct gm_view *view)
         forget(followed);
         followed = NULL;
     }
-    followed = followed ? followed : open_followed(view);
+    followed = followed ? followed : open_followed(view, kind);
     if (!followed || !followed->growth) {
         return NULL;
     }
@@ -104,36 +118,53 @@ static const struct gm_growth *followed_to(const struct gm_view *view)
     return followed->why ? NULL : followed->growth;
 }
 
-static struct gm_growth_values values_of(const struct gm_view *view)
+static struct gm_growth_values values_of(const struct gm_view *view, size_t kind)
 {
-    const struct gm_growth *growth = followed_to(view);
-    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN};
+    const struct gm_growth *growth = followed_to(view, kind);
+    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
 double gm_lyapunov(const struct gm_view *view)
 {
-    return values_of(view).exponent;
+    return values_of(view, GM_WORKED_GROWTH).exponent;
 }
 
 double gm_lyapunov_change(const struct gm_view *view)
 {
-    return values_of(view).exponent_change;
+    return values_of(view, GM_WORKED_GROWTH).exponent_change;
 }
 
 double gm_megno(const struct gm_view *view)
 {
-    return values_of(view).megno;
+    return values_of(view, GM_WORKED_GROWTH).megno;
 }
 
 double gm_megno_change(const struct gm_view *view)
 {
-    return values_of(view).megno_change;
+    return values_of(view, GM_WORKED_GROWTH).megno_change;
 }
 
 const char *gm_growth_why(const struct gm_view *view)
 {
     const struct followed *followed = view->worked[GM_WORKED_GROWTH].data;
     return followed ? followed->why : NULL;
+}
+
+double gm_log_volume(const struct gm_view *view)
+{
+    return values_of(view, GM_WORKED_VOLUME).log_volume;
+}
+
+double gm_volume_error(const struct gm_view *view)
+{
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return expm1(values.log_volume - values.divergence);
+}
+
+const char *gm_volume_why(const struct gm_view *view)
+{
+    const struct followed *followed = view->worked[GM_WORKED_VOLUME].data;
+    return !followed ? NULL : followed->why ? followed->why : "the divergence of the equations is not known";
 }
 
 /* ---- coming back, and leaving ---- */

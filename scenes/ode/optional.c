@@ -2,6 +2,8 @@
 /* The rows of the observables on request. */
 #include "scenes/ode/asked.h"
 
+#include "scenes/ode/system/ring.h"
+
 #define MODIFIED(power, powers)                                                                              \
     {                                                                                                        \
         .key = "modified_energy" #power "_error", .unit = "", .evaluate = gm_modified_error_##power,         \
@@ -13,7 +15,7 @@
         .key = name, .title = words, .unit = "", .evaluate = function, .why = reason                         \
     }
 
-const struct gm_observable gm_ode_asked[GM_ODE_ASKED] = {
+const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
     MODIFIED(2, "²"),
     MODIFIED(4, "⁴"),
     MODIFIED(6, "⁶"),
@@ -29,4 +31,11 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED] = {
      .recalls = true,
      .why = gm_return_why},
     INDICATOR("escape_time", gm_escape_time, gm_escape_why, "time until the orbit has left"),
+    INDICATOR("volume_error", gm_volume_error, gm_volume_why, "error of the volume against exp(∫ div f dt)"),
+    INDICATOR("log_volume", gm_log_volume, gm_volume_why, "ln of the volume that the steps make of 1"),
+    INDICATOR("loop_action", gm_ring_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
+    INDICATOR("loop_action_error", gm_ring_action_error, gm_ring_error_why,
+              "relative error of the loop's action"),
+    INDICATOR("loop_resolution", gm_ring_resolution, gm_ring_why,
+              "share of short waves in the loop's action"),
 };

@@ -684,7 +684,8 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
     gm_user_problem_close(&problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
     system_scene->scene.asked = gm_ode_asked + skipped;
-    system_scene->scene.asked_count = GM_ODE_ASKED - skipped;
+    system_scene->scene.asked_count = GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
+                                      (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
     for (size_t i = 0; good && i < system->choices.count; i++) {

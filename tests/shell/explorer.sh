@@ -179,7 +179,7 @@ drive_parameters() {
     keys Right
     wait_for '▸ dt +0\.3'
     wait_for 't = (π/3|1\.0)'
-    wait_for 'time step, 1e−6 to 100; acts at once'
+    wait_for 'time step, 1e-6 to 100; acts at once'
     keys Left Left
     wait_for '▸ dt +0\.2[^0-9]'
     keys Enter

@@ -80,6 +80,8 @@ def refusals():
             (["--shot", "b.txt", "--screen", "5x5"], r"--screen 5x5 is not COLUMNSxROWS from 20x6 to 400x120"),
             (["--shot", "b.txt", "--screen", "80"], r"--screen 80 is not COLUMNSxROWS"),
             (["--shot", "b.txt", "--keys", "2s FOO"], r"--keys has no key FOO; its keys are ENTER, ESC, "),
+            *((["--shot", "b.txt", "--keys", f"1s {key}"], rf"--keys has no key {key}; its keys are ENTER, ESC, .*, F1, CTRL-U")
+              for key in ("CTRL-C", "ALT-R", "Alt-R", "shift-tab", "F2", "DEL")),
             (["--shot", "b.txt", "--keys", "1e9s"], r"--keys 1e9s is too long"),
             (["--shot", "b.txt", "--theme", "mauve"], r"--theme is \"mauve\""),
             (["--shot", "b.txt", "--graphics", "sixel"], r"--graphics sixel needs a terminal"),
@@ -93,7 +95,20 @@ def refusals():
     check(done.returncode == 3 and done.stderr.count("\n") == 1, f"no folder: {done.returncode} {done.stderr}")
 
 
+def names_of_keys():
+    for key in ("Space", "space", "SPACE"):
+        has("paused", "kepler", f"1s {key}")
+    same("s rk4 Esc 1s", "s rk4 esc 1s", "kepler", "names in any case")
+    has("^ zz", "kepler", "1s e ctrl-u zz")
+    has("search: RK4_", "kepler", "1s s RK4")  # a figure after letters is no key
+
+
 def footer():
+    # what to watch takes two rows at most: whole sentences, or the words that fit
+    for columns, end in ((40, "methods…"), (60, "grows and…"), (80, "theirs does not.")):
+        lines = shot("kepler", "1s", columns)
+        check("Watch the energy" in lines[21] and lines[22].rstrip().endswith(end), f"{columns} columns: no two rows to watch up to {end}", lines)
+    check("q quit" in shot("kepler", "1s", 40)[-1], "40 columns: no q quit", shot("kepler", "1s", 40))
     keys = ["space pause", "? help", "esc back", "q quit", "s scheme", "f fork", "← → change"]
     for columns in COLUMNS:
         for wait in ("0s", "1s", "9s"):
@@ -181,7 +196,9 @@ def labels():
 
 
 def values():
-    for value, sentence in (("5e9", "dt=5e9 is out of range: it lies between 1e-[67] and"), ("x", "dt=x is not a number")):
+    for value, sentence in (("5e9", "dt=5e9 is out of range: it lies between 1e-[67] and"),
+                            ("-0.01", "dt=-0.01 is out of range: it lies between 1e-[67] and 1000; key B of the explorer turns time"),
+                            ("x", "dt=x is not a number")):
         command = run("run", "kepler", f"dt={value}", "steps=1").stderr.split("geomint: ")[1].strip()
         check(re.search(sentence, command), f"run: {command}")
         page = " ".join(line.strip() for line in shot("kepler", f"1s ENTER {value} ENTER", 200, 40))
@@ -200,7 +217,14 @@ def undoing():
     has(r"▸ eccentricity +0\.5 ", "kepler", "SPACE DOWN RIGHT u", 120, 40)
     has(r"Undone: dt is 0\.1 again", "kepler", "SPACE ENTER 0.1 ENTER ENTER 0.1 ENTER ENTER 0.2 ENTER u")
     has("There is nothing to undo", "kepler", "SPACE" + " RIGHT" * 40 + " u" * 40)
-    # a removed lane takes its changes along
+    # what all lanes have changed stays when one of them is removed
+    for columns in COLUMNS:
+        has("Undone: dt is pi/50 again", "kepler scheme=verlet,rk4", "SPACE ENTER 0.1 ENTER x u", columns)
+        has("Undone: dt is pi/50 again", "kepler scheme=verlet,rk4", "SPACE ENTER 0.1 ENTER TAB x u", columns)
+    has(r"▸ dt +pi/50", "kepler scheme=verlet,rk4,rk2", "SPACE ENTER 0.1 ENTER TAB s gauss4 ENTER x u", 120, 40)
+    has(r"Undone: the scheme is RK2 \(Heun\) again", "kepler scheme=verlet,rk4,rk2", "SPACE TAB TAB s gauss4 ENTER TAB x u", 120, 40)
+    has("There is nothing to undo", "kepler scheme=verlet eccentricity=0.1,0.2", "SPACE DOWN RIGHT x u", 120, 40)
+    # a removed lane takes its own changes along
     has("There is nothing to undo", "kepler scheme=verlet,rk4", "SPACE . . . . s rk2 ENTER x u")
 
 
@@ -226,6 +250,45 @@ def aliases():
     lacks("portrait", "kepler", "1s", 120, 40)
     has("portrait", "system H=p^2/2-cos(q) q=2 p=0", "1s", 120, 40)
     has("portrait needs a plane", "kepler", "1s d 1s", 120, 40)
+
+
+def lists():
+    for columns, rows in ((40, 24), (60, 24), (80, 24), (132, 43)):
+        page = " ".join(line[-columns:].split("│")[-1].strip() for line in shot("kepler", "9s s rkf45", columns, rows))
+        check("rkf45 is not here; dopri5 is the adaptive scheme of order 5" in page, f"{columns}: rkf45: {page}")
+        page = " ".join(line.split("│")[-1].strip() for line in shot("kepler", "9s f xyzzy", columns, rows))
+        check('there is no scheme "xyzzy"; backspace takes a letter back' in page, f"{columns}: xyzzy: {page}")
+        page = " ".join(line.split("│")[-1].strip() for line in shot("kepler", "9s s verlat", columns, rows))
+        check('there is no scheme "verlat"; did you mean verlet' in page, f"{columns}: verlat: {page}")
+        # the formula is whole, and wrapped between its words
+        page = " ".join(line.split("│")[-1].strip() for line in shot("kepler", "9s s gauss4", columns, rows))
+        check("y₁ = y₀ + h/2 [f(Y₁) + f(Y₂)] a = [1/4, 1/4 − √3/6; 1/4 + √3/6, 1/4]" in page, f"{columns}: the formula: {page}")
+    has(r"│ Yᵢ = y₀ \+ h Σⱼ aᵢⱼ f\(Yⱼ\), +…", "kepler", "9s s", 80)  # or cut after a word
+
+
+def ranges():
+    """The ends of ranges have all their digits."""
+    for columns in COLUMNS:
+        page = " ".join(line.strip() for line in shot("kepler", "9s DOWN", columns))
+        check("0 to 0.9999; starts again" in page, f"{columns} columns: the range of eccentricity: {page}")
+    # the end of a range can be reached although it has no short decimal
+    lacks("out of range", "henon-heiles", "1s DOWN" + " RIGHT" * 12)
+    has(r"energy is at the end of its range", "henon-heiles", "1s DOWN" + " RIGHT" * 12, 120)
+    has(r"eccentricity 0\.5 +0 ━+●─+ 0\.9999 *$", "kepler", "9s", 132, 43)
+
+
+def portraits():
+    """A legend that fits, and arrows that leave room: most cells of a small panel were full of them."""
+    system = "system rate=x=x*(3-x-2*y) rate=y=y*(2-x-y) x=0.4 y=0.3 scheme=rk4 portrait=yes window=-0.5,3.5,-0.5,2.5"
+    for columns, rows in ((60, 24), (80, 24), (132, 43)):
+        lines = shot(system, "4s", columns, rows)
+        page = "\n".join(lines)
+        check(columns == 60 or re.search("○ unstable  ● stable  ◐ saddle|● stable  ○ unstable  ◐ saddle", page), f"{columns}x{rows}: legend", lines)
+        check("centre" not in page, f"{columns}x{rows}: a kind that is not there", lines)
+    lines = shot("lotka-volterra portrait=yes", "4s")
+    panel = "".join(line[3:45] for line in lines[4:12])
+    check(panel.count(" ") > len(panel) / 4, "the arrows of a small portrait are too dense", lines)
+    has("◌ centre", "lotka-volterra portrait=yes", "4s", 60)
 
 
 def notices():
@@ -289,7 +352,8 @@ def drive():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, movies, aliases, notices, drive):
+        for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, movies, aliases,
+                     names_of_keys, lists, ranges, portraits, notices, drive):
             part()
         os.chdir("/")
     print("shots: all passed" if not faults else f"shots: {faults} faults")

@@ -82,6 +82,19 @@ static const struct {
      {-1.1, 1.3, -1.2, 1.5},
      1,
      {{0, 0, "degenerate", {{0, 0}, {-1, 0}}}}},
+    /* triple zeros, and units in which the entries of the Jacobian differ by 10^18 */
+    {"components: x y\nrate: x = y\nrate: y = -(x - 0.5)^3\nstart: x = 1, y = 0\n",
+     {-2, 2, -2, 2},
+     1,
+     {{0.5, 0, "degenerate", {{0, 0}, {0, 0}}}}},
+    {"components: x y\nrate: x = x^2 - y^2\nrate: y = x*y\nstart: x = 1, y = 0\n",
+     {-2, 2, -2, 2},
+     1,
+     {{0, 0, "degenerate", {{0, 0}, {0, 0}}}}},
+    {"components: x y\nrate: x = 1e-9*y\nrate: y = -1e9*x\nstart: x = 1, y = 0\n",
+     {-2, 2, -2, 2},
+     1,
+     {{0, 0, "centre", {{0, 1}, {0, -1}}}}},
     {"components: x y\nrate: x = 1\nrate: y = x\nstart: x = 1, y = 0\n", {-1, 1, -1, 1}, 0, {{.kind = NULL}}},
 };
 

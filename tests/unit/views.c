@@ -204,13 +204,16 @@ static void test_portrait(void **state)
     draw(&drawn, "lotka-volterra scheme=rk4 dt=0.05 until=2 portrait=yes window=-0.5,4,-0.5,5");
     const struct gm_panel *panel = drawn.picture->first;
     assert_true(panel->x.low == -0.5 && panel->x.high == 4 && panel->y.low == -0.5 && panel->y.high == 5);
-    size_t saddles = 0, centres = 0, names = 0, arrows = 0;
+    size_t saddles = 0, centres = 0, names = 0, arrows = 0, fewer = 0, few = 0;
     for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
         saddles += mark->glyph == GM_HALF_DISC && hypot(mark->points[0], mark->points[1]) < 1e-9;
         centres += mark->glyph == GM_DOTTED_RING && hypot(mark->points[0] - 1, mark->points[1] - 2) < 1e-9;
         names += mark->kind == GM_MARK_TEXT &&
                  (strcmp(mark->text, "x′ = 0") == 0 || strcmp(mark->text, "y′ = 0") == 0);
-        arrows += mark->kind == GM_MARK_LINE && mark->count == 5;
+        const bool is_arrow = mark->kind == GM_MARK_LINE && mark->count == 5;
+        arrows += is_arrow && gm_mark_is_shown(mark, 400, 300);
+        fewer += is_arrow && gm_mark_is_shown(mark, 80, 60);
+        few += is_arrow && gm_mark_is_shown(mark, 26, 32);
         const bool is_nullcline = mark->kind == GM_MARK_LINE && mark->style.role == GM_INK;
         for (size_t i = 0; is_nullcline && i < mark->count; i++) { /* x' = x (2 - y), y' = y (x - 1) */
             const double x = mark->points[2 * i], y = mark->points[2 * i + 1];
@@ -221,7 +224,10 @@ static void test_portrait(void **state)
     assert_int_equal(saddles, 1);
     assert_int_equal(centres, 1);
     assert_int_equal(names, 2);
-    assert_in_range(arrows, 290, 300);
+    assert_in_range(arrows, 290, 300); /* one less at an equilibrium */
+    assert_in_range(fewer, 75, 80);
+    assert_in_range(few, 17, 20);
+    assert_string_equal(drawn.picture->caption, "◐ saddle  ◌ centre");
     struct gm_portrait portrait;
     assert_true(drawn.lanes[0]->scene->portrait(drawn.lanes[0], &portrait));
     assert_int_equal(portrait.count, 2);

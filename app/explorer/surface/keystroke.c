@@ -7,27 +7,27 @@
 #include <limits.h>
 #include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/basics.h"
 
-/* The words of scripts, the labels of hints, and the keys. */
+/* The words of scripts and, below them, the other labels of hints. */
 static const struct {
-    const char *name, *label;
+    const char *name;
     int key;
-} named[] = {{"ENTER", "enter", '\n'}, {"ESC", "esc", GM_KEY_ESCAPE}, {"TAB", "tab", '\t'},
-             {"SPACE", "space", ' '},  {"UP", "↑", KEY_UP},           {"DOWN", "↓", KEY_DOWN},
-             {"LEFT", "←", KEY_LEFT},  {"RIGHT", "→", KEY_RIGHT},     {"BACKSPACE", "⌫", KEY_BACKSPACE},
-             {"PGUP", "", KEY_PPAGE},  {"PGDN", "", KEY_NPAGE},       {"HOME", "", KEY_HOME},
-             {"END", "", KEY_END},     {"F1", "", KEY_F(1)},          {"", "ctrl-U", 'U' - '@'}};
+} named[] = {{"ENTER", '\n'},     {"ESC", GM_KEY_ESCAPE}, {"TAB", '\t'},
+             {"SPACE", ' '},      {"UP", KEY_UP},         {"DOWN", KEY_DOWN},
+             {"LEFT", KEY_LEFT},  {"RIGHT", KEY_RIGHT},   {"BACKSPACE", KEY_BACKSPACE},
+             {"PGUP", KEY_PPAGE}, {"PGDN", KEY_NPAGE},    {"HOME", KEY_HOME},
+             {"END", KEY_END},    {"F1", KEY_F(1)},       {"CTRL-U", 'U' - '@'},
+             {"↑", KEY_UP},       {"↓", KEY_DOWN},        {"←", KEY_LEFT},
+             {"→", KEY_RIGHT},    {"⌫", KEY_BACKSPACE}};
 
 int gm_key_named(const char *word, size_t length)
 {
-    for (size_t i = 0; i < GM_COUNT(named); i++) {
-        const char *const names[] = {named[i].name, named[i].label};
-        for (size_t k = 0; k < GM_COUNT(names); k++) {
-            if (length > 0 && strlen(names[k]) == length && memcmp(word, names[k], length) == 0) {
-                return named[i].key;
-            }
+    for (size_t i = 0; length > 0 && i < GM_COUNT(named); i++) {
+        if (strlen(named[i].name) == length && strncasecmp(word, named[i].name, length) == 0) {
+            return named[i].key;
         }
     }
     return length == 1 ? word[0] : 0;
@@ -35,7 +35,7 @@ int gm_key_named(const char *word, size_t length)
 
 const char *gm_key_name(size_t index)
 {
-    return index < GM_COUNT(named) && named[index].name[0] ? named[index].name : NULL;
+    return index < GM_COUNT(named) && (unsigned char)named[index].name[0] < 0x80 ? named[index].name : NULL;
 }
 
 bool gm_typed_key(char *typed, int key)

@@ -118,19 +118,6 @@ void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, do
     }
 }
 
-int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role)
-{
-    int taken = 0;
-    for (const char *at = text; at && *at; taken++) {
-        char line[256];
-        const size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        gm_sheet_text(sheet, column, row + taken, line, role, false);
-        at += length + (at[length] == '\n');
-    }
-    return taken;
-}
-
 static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int available)
 {
     char line[512];
@@ -163,6 +150,9 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
     while (*text && available > 0 && taken < rows) {
         char line[512];
         size_t fits = 0;
+        if (taken + 1 == rows && available > 1 && is_wide(sheet, text, strlen(text), available)) {
+            available--; /* for the ellipsis */
+        }
         for (size_t i = 1; i < sizeof line; i++) {
             bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
             if (blank) {
@@ -187,8 +177,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
             text++;
         }
         if (*text && taken == rows) { /* some words did not fit */
-            const int end = gm_sheet_width(sheet, line);
-            gm_sheet_text(sheet, column + (end < available ? end : available - 1), row + taken - 1,
+            gm_sheet_text(sheet, column + gm_sheet_width(sheet, line), row + taken - 1,
                           sheet->face->blocks == GM_ASCII ? "." : "…", role, false);
         }
     }
@@ -212,22 +201,23 @@ static bool read_hint(const char **at, char keys[HINT], char word[HINT])
 
 int gm_sheet_hints(const struct gm_sheet *sheet, int from, const char *hints)
 {
+    const int gap = sheet->width < GM_SCREEN_COLUMNS ? 2 : 3;
     char keys[HINT], word[HINT];
     int widths = 0, count = 0;
     for (const char *at = hints; read_hint(&at, keys, word); count++) {
-        const int width = gm_sheet_width(sheet, keys) + 1 + gm_sheet_width(sheet, word) + 3;
+        const int width = gm_sheet_width(sheet, keys) + 1 + gm_sheet_width(sheet, word) + gap;
         if (from + widths + width > sheet->width) {
             break;
         }
         widths += width;
     }
-    const int begin = sheet->width - widths + 2;
+    const int begin = sheet->width - widths + gap - 1;
     for (int column = begin; count > 0 && read_hint(&hints, keys, word); count--) {
         const int first = column, code = gm_key_named(keys, strcspn(keys, " "));
         column += gm_sheet_text(sheet, column, 0, keys, GM_INK, true) + 1;
-        column += gm_sheet_text(sheet, column, 0, word, GM_SECONDARY, false) + 3;
+        column += gm_sheet_text(sheet, column, 0, word, GM_SECONDARY, false) + gap;
         if (code) {
-            gm_sheet_hit(sheet, first, 0, column - first - 2,
+            gm_sheet_hit(sheet, first, 0, column - first - gap + 1,
                          (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)code});
         }
     }
@@ -362,8 +352,7 @@ struct gm_sheet gm_screen_foot(const struct gm_sheet *whole)
 void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
 {
     const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
-    const int wanted = gm_sheet_wrapped(&nothing, 0, 0, whole->height, text, GM_INK),
-              most = whole->height / 3, rows = wanted < most ? wanted : most,
+    const int rows = gm_sheet_wrapped(&nothing, 0, 0, whole->height / 3, text, GM_INK),
               first = whole->height - 1 - rows;
     for (int row = first; row < first + rows; row++) {
         for (int column = 0; column < whole->width; column++) {

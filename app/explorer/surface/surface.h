@@ -80,7 +80,7 @@ struct gm_face {
 
 enum { GM_KEY_ESCAPE = 27, GM_KEY_REDRAW = 'L' - '@' };
 
-/* Returns the key of a name in a script, such as ENTER, of a label in a hint, or of a letter; else 0. */
+/* Returns the key of a name in a script, such as ENTER in any case, of a label in a hint, or of a letter; else 0. */
 int gm_key_named(const char *word, size_t length);
 /* Returns the name number `index` in a script, or NULL. */
 const char *gm_key_name(size_t index);
@@ -142,9 +142,7 @@ int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
 void gm_sheet_number(double value, char *text, size_t size);
 /* Draws a bar with a mark at `position`, 0 to 1, emphasised if `chosen`. */
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen);
-/* Writes a text of several lines unchanged; NULL is empty. Returns its rows. */
-int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role);
-/* Breaks a text at blanks, and long words at commas or anywhere, into at most `rows` rows from (column,
+/* Breaks a text of one or several lines at blanks, and long words at commas or anywhere, into at most `rows` rows from (column,
    row) on. A text that does not fit ends with an ellipsis. Returns the rows used. */
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role);

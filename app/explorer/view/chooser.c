@@ -85,13 +85,23 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     for (int i = 0; i < count; i++) {
         at = found[i] == face->choice ? i : at;
     }
-    int below = face->choice ? gm_schemes_formula_rows(face->choice) + 1 : 0;
-    int rows = sheet->height > 16 + below ? sheet->height - 3 - below : sheet->height - 2;
+    /* the formula has the rows that the list leaves, and those beyond a list of LIST rows */
+    enum { LIST = 15, LEAST = 3 };
+    const int most = sheet->height - 2 - (count < LIST ? count : LIST);
+    int below = face->choice ? 1 + gm_schemes_formula_rows(sheet, face->choice) : 0;
+    below = most < LEAST ? 0 : below < most ? below : most;
+    const int rows = sheet->height - 2 - below;
     int first = at >= rows ? at - rows + 1 : 0;
     char text[GM_TYPED + 16];
     gm_schemes_heading(sheet, row++, face->choosing == GM_CHOOSE_FORK ? "FORK WITH" : "SWITCH TO");
     snprintf(text, sizeof text, face->typed[0] ? "search: %s_" : "type to search%s", face->typed);
     gm_sheet_text(sheet, 4, row++, text, face->typed[0] ? GM_INK : GM_SECONDARY, false);
+    if (count == 0) {
+        char message[GM_MESSAGE];
+        gm_scheme_refuse_among(shot->schemes, shot->scheme_count, face->typed,
+                               "backspace takes a letter back", message);
+        row += gm_sheet_wrapped(sheet, 4, row, rows, message, GM_INK);
+    }
     for (int i = first; i < count && i < first + rows; i++, row++) {
         bool chosen = found[i] == face->choice;
         enum gm_role role = chosen ? GM_INK : GM_SECONDARY;
@@ -112,7 +122,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
             gm_schemes_row(sheet, 4, row, shot, found[i], role, chosen);
         }
     }
-    if (face->choice && sheet->height - row >= below) {
+    if (below > 0) {
         gm_schemes_formula(sheet, row + 1, face->choice);
     }
 }

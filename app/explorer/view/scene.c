@@ -78,8 +78,8 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
 {
     const struct gm_parameter *row = parameter->row;
     char low[32], high[32];
-    gm_sheet_number(row->lowest, low, sizeof low);
-    gm_sheet_number(row->highest, high, sizeof high);
+    gm_number_format(row->lowest, low, sizeof low);
+    gm_number_format(row->highest, high, sizeof high);
     bool ranged = row->type == GM_REAL || row->type == GM_INTEGER;
     snprintf(text, size, "%s%s%s: %s%s%s%s%s; %s", row->key, valued ? " = " : "",
              valued ? parameter->value : "", row->help, ranged ? ", " : "", ranged ? low : "",
@@ -91,6 +91,23 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
 static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
 {
     return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
+}
+
+/* Writes the sentences of a text that fit into two rows above the last one, or if not even one fits, its words. */
+static void few_sentences(const struct gm_sheet *whole, const char *all, char *text, size_t size)
+{
+    const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
+    size_t sentences = 0, words = 0;
+    for (size_t i = strcspn(all, " "); i > words; i += all[i] ? 1 + strcspn(all + i + 1, " ") : 0) {
+        const bool ends = all[i - 1] == '.' || !all[i];
+        snprintf(text, size, "%.*s%s", (int)i, all, ends ? "" : "…");
+        if (gm_sheet_wrapped(&nothing, 0, 0, 3, text, GM_INK) > 2) {
+            break;
+        }
+        words = i;
+        sentences = ends ? i : sentences;
+    }
+    snprintf(text, size, "%.*s%s", (int)(sentences ? sentences : words), all, sentences ? "" : "…");
 }
 
 void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size)
@@ -122,8 +139,9 @@ static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, 
 }
 
 /* Writes the text at the left of the status line. */
-static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
+static void say(const struct gm_sheet *whole, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
+    const struct gm_face *face = whole->face;
     text[0] = '\0';
     const char *alias = gm_chooser_alias(face), *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
@@ -145,7 +163,7 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
     } else if (face->explaining && parameter) {
         explain(parameter, !side, text, size);
     } else if (is_watched(face, shot)) {
-        snprintf(text, size, "%s", shot->scene->watch);
+        few_sentences(whole, shot->scene->watch, text, size);
     } else if (!shot->paused && shot->pace < standstill) {
         snprintf(text, size, "%.1g steps per second: press %s to shorten dt", shot->pace,
                  parameter && strcmp(parameter->row->key, "dt") == 0 ? "←" : "↑ until dt is chosen, then ←");
@@ -165,7 +183,7 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
         status_speed(shot, text, sizeof text);
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
-    say(face, shot, side > 0, text, sizeof text);
+    say(whole, shot, side > 0, text, sizeof text);
     key_hints(shot, keys, sizeof keys);
     bool asks = face->prompt != GM_PROMPT_NONE;
     bool news = asks || shot->running_ahead || (shot->message[0] && shot->message_number != face->read);

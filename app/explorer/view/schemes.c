@@ -105,18 +105,14 @@ void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const str
 
 /* ---- the formula ---- */
 
-int gm_schemes_formula_rows(const struct gm_scheme *scheme)
+int gm_schemes_formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme)
 {
-    int rows = 1; /* the reference */
-    for (const char *at = scheme->formula; at && *at; rows++) {
-        at += strcspn(at, "\n");
-        at += *at == '\n';
-    }
-    return rows;
+    const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
+    return gm_sheet_wrapped(&nothing, 0, 0, 100, scheme->formula, GM_INK) + 1;
 }
 
 void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme)
 {
-    row += gm_sheet_lines(sheet, 0, row, scheme->formula, GM_INK);
+    row += gm_sheet_wrapped(sheet, 0, row, sheet->height - row - 1, scheme->formula, GM_INK);
     gm_sheet_cut(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
 }

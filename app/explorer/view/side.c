@@ -263,7 +263,7 @@ static void draw_heading(const struct gm_sheet *sheet, int row, const char *text
     gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
 }
 
-enum { VALUE_LETTERS = 9 };
+enum { VALUE_LETTERS = 9, RANGE_LETTERS = 6 };
 
 /* Writes the value as typed, or with fewer digits to make room for a slider. */
 static void value_text(const struct gm_shot_parameter *parameter, char *text, size_t size)
@@ -284,6 +284,16 @@ static int value_column(const struct gm_shot *shot)
         longest = length > longest ? length : longest;
     }
     return 2 + least(longest, 16) + 1;
+}
+
+/* Draws an end of a range in RANGE_LETTERS columns, if all its digits have room: a rounded end may be refused. */
+static void range_end(const struct gm_sheet *sheet, int column, int row, double value, bool right)
+{
+    char text[64];
+    const int width = (int)strlen(gm_number_format(value, text, sizeof text));
+    if (width <= RANGE_LETTERS) {
+        gm_sheet_text(sheet, column + (right ? RANGE_LETTERS - width : 0), row, text, GM_SECONDARY, false);
+    }
 }
 
 static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm_shot_parameter *parameter,
@@ -313,12 +323,10 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
     }
     int end = sheet->width;
     if (sheet->width - bar >= 24) {
-        gm_sheet_number(parameter->row->lowest, text, sizeof text);
-        gm_sheet_right(sheet, bar + 6, row, text, GM_SECONDARY, false);
-        bar += 7;
-        gm_sheet_number(parameter->row->highest, text, sizeof text);
-        gm_sheet_text(sheet, end - 5, row, text, GM_SECONDARY, false);
-        end -= 6;
+        range_end(sheet, bar, row, parameter->row->lowest, true);
+        range_end(sheet, end - RANGE_LETTERS, row, parameter->row->highest, false);
+        bar += RANGE_LETTERS + 1;
+        end -= RANGE_LETTERS + 1;
     }
     gm_sheet_slider(sheet, bar, end, row, parameter->position, chosen);
     gm_sheet_hit(sheet, bar, row, end - bar, (struct gm_hit){.kind = GM_HIT_SLIDER, .index = index});
@@ -529,7 +537,7 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     row = draw_parameters(sheet, row + plan.gap, shot, &plan);
     row = draw_observables(sheet, row + plan.gap, shot, &plan);
     const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
-    if (side == GM_SIDE_PARAMETERS || sheet->height - row < gm_schemes_formula_rows(lane->scheme) + 2) {
+    if (side == GM_SIDE_PARAMETERS || sheet->height - row < 5) { /* a blank row, a heading, and three rows */
         return;
     }
     draw_heading(sheet, row + 1, "FORMULA");

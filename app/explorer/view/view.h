@@ -46,8 +46,9 @@ int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_sche
 void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_shot *shot,
                     const struct gm_scheme *scheme, enum gm_role role, bool bold);
 
-/* Return the rows of the formula with its reference, and draw them. */
-int gm_schemes_formula_rows(const struct gm_scheme *scheme);
+/* Return the rows of the formula with its reference, and draw them down to the sheet's end; a formula that does not
+   fit ends with an ellipsis. */
+int gm_schemes_formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme);
 void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme);
 
 /* The start screen: the entries found, group by group. */

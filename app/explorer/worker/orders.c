@@ -15,12 +15,13 @@ static bool is_of_scheme(const struct gm_parameter *row)
 
 /* ---- undoing ---- */
 
-/* Stores the order that undoes a change of the selected lane; the oldest one gives way. A dragged slider
-   makes one change. */
+/* the lane of a change that every lane has */
+static const double all_lanes = -1;
+
+/* Stores the order that undoes a change; the oldest one gives way. A dragged slider makes one change. */
 static void note_undo(struct gm_play *play, struct gm_order order)
 {
     const struct gm_order *last = play->undo_count > 0 ? &play->undos[play->undo_count - 1] : NULL;
-    order.value = (double)play->selected;
     if (last && order.amount && last->amount && last->row == order.row && last->value == order.value) {
         return;
     }
@@ -36,7 +37,7 @@ static bool undo(struct gm_play *play, char *message)
         return gm_refuse(message, "There is nothing to undo.");
     }
     const struct gm_order *order = &play->undos[--play->undo_count];
-    const size_t lane = (size_t)order->value;
+    const size_t lane = order->value == all_lanes ? play->selected : (size_t)order->value;
     const bool scheme = order->kind == GM_ORDER_SWITCH;
     char sentence[GM_MESSAGE];
     if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
@@ -50,7 +51,7 @@ static bool undo(struct gm_play *play, char *message)
     return true;
 }
 
-/* Forgets the changes of a lane that was removed. */
+/* Forgets the changes that a removed lane had alone. */
 static void forget_undos(struct gm_play *play, size_t lane)
 {
     size_t count = 0;
@@ -87,7 +88,11 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
         play->undos[play->undo_count - 1].amount = 0; /* an earlier drag has ended */
     }
-    struct gm_order back = {.kind = GM_ORDER_TYPE, .amount = order->kind == GM_ORDER_SLIDE, .row = row};
+    const bool alone = gm_session_differs(&play->session, row, is_of_scheme(row));
+    struct gm_order back = {.kind = GM_ORDER_TYPE,
+                            .amount = order->kind == GM_ORDER_SLIDE,
+                            .value = alone ? (double)play->selected : all_lanes,
+                            .row = row};
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
                         message)) {
@@ -105,7 +110,8 @@ static bool switch_scheme(struct gm_play *play, const struct gm_scheme *scheme, 
         return false;
     }
     if (before != scheme) {
-        note_undo(play, (struct gm_order){.kind = GM_ORDER_SWITCH, .scheme = before});
+        note_undo(play, (struct gm_order){
+                            .kind = GM_ORDER_SWITCH, .value = (double)play->selected, .scheme = before});
     }
     return true;
 }

@@ -74,7 +74,7 @@ struct gm_play {
     double ahead_from, ahead_to, ahead_told;
     bool restart; /* a restart is due */
     double restarted;
-    struct gm_order undos[GM_UNDOS]; /* the orders that undo the last changes; `value` is the lane */
+    struct gm_order undos[GM_UNDOS]; /* what undoes the last changes; `value` is the lane, below 0: all */
     size_t undo_count;
     double stepped;             /* seconds of steps since the last look for an engine */
     double rate;                /* measured model time per second of stepping; 0: not measured */

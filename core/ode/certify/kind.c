@@ -44,7 +44,7 @@ static unsigned facets(const struct gm_problem *problem)
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
-           (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) |
+           (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) |
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
 
@@ -76,6 +76,9 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_ACTION, "a Lagrangian, or a Hamiltonian T(p) + V(q) with a quadratic T, without constraints",
      "Lagrangian systems, and Hamiltonian ones of quadratic kinetic energy T(p)"},
     {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
+    {GM_NEEDS_MAGNETIC,
+     "a magnetic field: v' = g(x, t) + W(x, t) v with W antisymmetric, in 2 or 3 dimensions",
+     "motions in a magnetic field"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
     {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0",
      "motions in a negative potential V(q)"},
@@ -86,9 +89,10 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_MONITOR, "a monitor, the density of steps", "systems with a monitor, the density of steps"},
     {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not split into T(p) + V(q)",
      "Hamiltonian systems that do not separate"},
-    {GM_NEEDS_NYSTROM, "a quadratic kinetic energy T(p)",
-     "separable Hamiltonian systems of quadratic kinetic energy"},
-    {GM_NEEDS_SPLIT, "a Hamiltonian H = T(p) + V(q)", "separable Hamiltonian systems"},
+    {GM_NEEDS_NYSTROM, "a quadratic kinetic energy T(p), or x'' = g(x, t)",
+     "separable Hamiltonian systems of quadratic kinetic energy, and x'' = g(x, t)"},
+    {GM_NEEDS_SPLIT, "a Hamiltonian H = T(p) + V(q), or x'' = g(x, t)",
+     "separable Hamiltonian systems, and x'' = g(x, t)"},
     {GM_NEEDS_HAMILTONIAN, "a Hamiltonian", "Hamiltonian systems"},
     {GM_NEEDS_ENERGY, "an energy of the whole state", "systems with an energy"},
     {GM_NEEDS_QUADRATIC, "a quadratic field", "quadratic vector fields"},

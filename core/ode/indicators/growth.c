@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/ode/indicators/tangent.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/ode.h"
 
 enum { RECORDS = 128, BLOCK = 128 /* steps */ };
@@ -25,6 +26,10 @@ struct gm_growth {
     struct gm_tangent *tangent;
     double *v;
     bool failed;
+    double *frame;  /* n vectors, orthonormal in their n first numbers, then a Jacobian; NULL: no volume */
+    void *snapshot; /* the run before a step, which is repeated for each vector */
+    struct gm_run *half; /* makes steps of half the length */
+    double log_volume, divergence;
     struct sums sums;
     /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
@@ -86,6 +91,9 @@ void gm_growth_close(struct gm_growth *growth)
         return;
     }
     free(growth->v);
+    free(growth->frame);
+    free(growth->snapshot);
+    gm_run_close(growth->half);
     gm_tangent_close(growth->tangent);
     gm_run_close(growth->run);
     free(growth);
@@ -117,10 +125,90 @@ static void add(struct gm_growth *growth, double step, double length)
     sums->average += sums->time > 0 ? 2 * sums->moment / sums->time * step : 0;
 }
 
+/* ---- volume ---- */
+
+bool gm_growth_follow_volume(struct gm_growth *growth)
+{
+    const struct gm_run *run = growth->run;
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    growth->frame = calloc(n * (size + n), sizeof *growth->frame);
+    growth->snapshot = malloc(gm_run_snapshot_size(run));
+    growth->half =
+        gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
+    for (size_t i = 0; growth->frame && i < n; i++) {
+        growth->frame[i * size + i] = 1;
+        growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, growth->frame + i * size);
+    }
+    return growth->frame && growth->snapshot && growth->half;
+}
+
+/* Makes the vectors orthonormal, one after the other. Returns the logarithm of the volume that they spanned. */
+static double orthonormalise(const struct gm_growth *growth)
+{
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    double logarithm = 0;
+    for (double *v = growth->frame; v < growth->frame + n * size; v += size) {
+        double square = 0;
+        for (const double *u = growth->frame; u < v; u += size) {
+            double along = 0;
+            for (size_t c = 0; c < n; c++) {
+                along += u[c] * v[c];
+            }
+            for (size_t c = 0; c < size; c++) {
+                v[c] -= along * u[c];
+            }
+        }
+        for (size_t c = 0; c < n; c++) {
+            square += v[c] * v[c];
+        }
+        for (size_t c = 0; c < size; c++) {
+            v[c] /= sqrt(square);
+        }
+        logarithm += log(square) / 2;
+    }
+    return logarithm;
+}
+
+static double divergence_at(const struct gm_growth *growth, const struct gm_run *run)
+{
+    const size_t n = growth->problem.n;
+    double *jacobian = growth->frame + n * gm_tangent_size(growth->tangent), sum = 0;
+    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), jacobian);
+    for (size_t c = 0; c < n; c++) {
+        sum += jacobian[c * n + c];
+    }
+    return known ? sum : NAN;
+}
+
+/* Makes a step of the run, from the same state for each vector. */
+static bool step_volume(struct gm_growth *growth)
+{
+    struct gm_run *run = growth->run;
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    const double t = run->t, before = divergence_at(growth, run);
+    gm_run_set_state(growth->half, gm_run_state(run), NULL);
+    const double middle =
+        gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
+    gm_run_save(run, growth->snapshot);
+    bool good = true;
+    for (size_t i = 0; good && i < n; i++) {
+        good = (i == 0 || gm_run_load(run, growth->snapshot)) &&
+               gm_tangent_step(growth->tangent, growth->frame + i * size);
+    }
+    growth->log_volume += orthonormalise(growth);
+    growth->divergence += (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run));
+    return good;
+}
+
+/* ---- advancing ---- */
+
 bool gm_growth_to(struct gm_growth *growth, int64_t steps)
 {
     struct gm_stretch made[BLOCK];
     const struct gm_run *run = growth->run;
+    while (growth->frame && !growth->failed && run->steps < steps) {
+        growth->failed = !step_volume(growth);
+    }
     while (!growth->failed && run->steps < steps) {
         const int64_t before = run->steps, left = steps - before;
         const size_t block = left < BLOCK ? (size_t)left : BLOCK;
@@ -156,5 +244,7 @@ struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
         .megno = megno,
         .exponent_change = exponent - half->growth / half->time,
         .megno_change = megno - half->average / half->time,
+        .log_volume = growth->log_volume,
+        .divergence = growth->divergence,
     };
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The separation of neighbouring orbits: the largest Lyapunov exponent and MEGNO of a scheme's solution of a
-   problem, from the derivatives of the scheme's steps (tangent.h). */
+   problem, and the volume between them, from the derivatives of the scheme's steps (tangent.h). */
 #ifndef GM_CORE_ODE_INDICATORS_GROWTH_H
 #define GM_CORE_ODE_INDICATORS_GROWTH_H
 
@@ -14,11 +14,18 @@ struct gm_growth;
        megno      (1/t) int_0^t Y(s) ds,   Y(t) = (2/t) int_0^t s d'(s)/d(s) ds
    MEGNO is 2 on a regular orbit (0 if its neighbours do not separate, as for an oscillator), and grows as t
    times half of the exponent on a chaotic one. P.M. Cincotta, C.M. Giordano & C. Simo, Physica D
-   182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338. */
+   182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338.
+   If the volume is followed instead:
+       log_volume   ln |det D y_t/D y_0| of the scheme's map
+       divergence   the integral of div f along its solution, NaN without a Jacobian
+   The determinant is a product over the steps, each of the lengths that make the moved vectors orthonormal again; the
+   integral is by Simpson's rule with the state after half a step of the scheme. G. Benettin, L. Galgani, A. Giorgilli &
+   J.-M. Strelcyn, Meccanica 15 (1980) 9. */
 struct gm_growth_values {
     double exponent, megno;
     double exponent_change,
         megno_change; /* the change since half of the steps, or since the last record before that */
+    double log_volume, divergence;
 };
 
 /* Starts at the state y0 (n, one member, without its passive block) at t0. The vector starts in a fixed
@@ -27,6 +34,9 @@ struct gm_growth_values {
 struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
                                  const struct gm_settings *settings, double t0, double dt, const double *y0);
 void gm_growth_close(struct gm_growth *growth);
+
+/* Follows the volume instead of the indicators, from the start on. Returns false when out of memory. */
+bool gm_growth_follow_volume(struct gm_growth *growth);
 
 /* Advances to `steps` steps in all; never back. Returns false if the orbit or a neighbour stops being finite
    before. */

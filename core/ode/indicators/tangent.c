@@ -38,9 +38,9 @@ struct gm_tangent {
     double *jacobians;     /* n * n per stage of a block */
     double *scratch;       /* scratch of Newton's method */
     double *kicked, *kick; /* n each: the last stage's state and k, if it was a kick */
-    double *before, *plus, *minus, *slope; /* n + memory each */
-    bool together;                         /* the stages have reproduced the scheme to the last bit so far */
-    void *snapshot;                        /* the run's state before these steps, restored if not */
+    double *before, *plus, *minus, *slope, *far_slope; /* n + memory each */
+    bool together;  /* the stages have reproduced the scheme to the last bit so far */
+    void *snapshot; /* the run's state before these steps, restored if not */
 };
 
 const char *gm_tangent_word(const struct gm_scheme *scheme)
@@ -176,6 +176,7 @@ static void open_all(struct gm_arena *arena, void *data)
     tangent->plus = doubles(tangent, size);
     tangent->minus = doubles(tangent, size);
     tangent->slope = doubles(tangent, size);
+    tangent->far_slope = doubles(tangent, size);
     tangent->snapshot = gm_arena_take(arena, 1, gm_run_snapshot_size(run));
     if (opening->known) {
         open_stages(tangent, &opening->coefficients);
@@ -263,22 +264,38 @@ static bool move(const struct gm_tangent *tangent, const double *v, double facto
 /* A function of `before` + factor v; false on failure. */
 typedef bool moved(const struct gm_tangent *tangent, const double *v, double factor, double *to);
 
-/* v[i] := the derivative along v of entry i of the function, from `first` on. */
+/* slope := (f(y + factor v) - f(y - factor v)) / (2 factor) */
+static bool difference(const struct gm_tangent *tangent, const double *v, double factor, moved *become,
+                       double *slope)
+{
+    const bool good =
+        become(tangent, v, factor, tangent->plus) && become(tangent, v, -factor, tangent->minus);
+    for (size_t i = 0; good && i < gm_tangent_size(tangent); i++) {
+        slope[i] = (tangent->plus[i] - tangent->minus[i]) / (2 * factor);
+    }
+    return good;
+}
+
+/* v[i] := the derivative along v of entry i of the function, from `first` on. Differences that are too far apart are
+   taken closer: the components may be large against what the function changes over, such as angles of many turns. */
 static bool extrapolate(const struct gm_tangent *tangent, double *v, size_t first, moved *become)
 {
-    const double near = distance(tangent, v) / 2, far = 2 * near;
-    const size_t size = gm_tangent_size(tangent);
-    if (!become(tangent, v, near, tangent->plus) || !become(tangent, v, -near, tangent->minus)) {
-        return false;
+    const double close = 1e-6, nearest = 1e-4;
+    const double widest = distance(tangent, v);
+    double apart = INFINITY, size = 0;
+    for (double far = widest; apart > close * size && far > nearest * widest; far /= 4) {
+        apart = size = 0;
+        if (!difference(tangent, v, far / 2, become, tangent->slope) ||
+            !difference(tangent, v, far, become, tangent->far_slope)) {
+            return false;
+        }
+        for (size_t i = first; i < gm_tangent_size(tangent); i++) {
+            apart = fmax(apart, fabs(tangent->far_slope[i] - tangent->slope[i]));
+            size = fmax(size, fabs(tangent->slope[i]));
+        }
     }
-    for (size_t i = 0; i < size; i++) {
-        tangent->slope[i] = 4. / 3 * (tangent->plus[i] - tangent->minus[i]) / (2 * near);
-    }
-    if (!become(tangent, v, far, tangent->plus) || !become(tangent, v, -far, tangent->minus)) {
-        return false;
-    }
-    for (size_t i = first; i < size; i++) {
-        v[i] = tangent->slope[i] - (tangent->plus[i] - tangent->minus[i]) / (2 * far) / 3;
+    for (size_t i = first; i < gm_tangent_size(tangent); i++) {
+        v[i] = 4. / 3 * tangent->slope[i] - tangent->far_slope[i] / 3;
     }
     return true;
 }

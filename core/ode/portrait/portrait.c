@@ -21,7 +21,7 @@ enum {
     BISECTIONS = 10
 };
 
-/* Bounds relative to the window, to the usual size of f, and to the largest entry of the Jacobian. */
+/* Bounds relative to the window, to the usual size of f, and to entries or eigenvalues of the Jacobian. */
 static const double alike = 1e-6, converged = 1e-7, round_off = 1e-15, residual = 1e-10, singular = 1e-13,
                     degenerate = 1e-9, traceless = 1e-8;
 /* The values beside a zero fall below this part of those at the ends of its edge. */
@@ -126,7 +126,7 @@ struct search {
     const struct gm_problem *problem;
     struct gm_portrait *portrait;
     double size[2];  /* of the window */
-    double scale[2]; /* the median of the size of each component of f */
+    double scale[2]; /* the median of the size of each component of f; 1 if that is 0 */
 };
 
 static int compare_sizes(const void *a, const void *b)
@@ -147,29 +147,43 @@ static void find_scale(struct search *search)
             count += isfinite(sizes[count]);
         }
         qsort(sizes, count, sizeof *sizes, compare_sizes);
-        search->scale[c] = count > 0 ? sizes[count / 2] : 0;
+        search->scale[c] = count > 0 && sizes[count / 2] > 0 ? sizes[count / 2] : 1;
     }
 }
 
-/* Writes Newton's step -J^+ f: with the pseudoinverse J' / |J|^2 if J has rank 1. */
-static void find_step(const double *jacobian, const double *f, double *step)
+/* Writes Newton's step -J^+ f in units of the window, with J and f in units of the window and of the usual f: with the
+   pseudoinverse J' / |J|^2 if J has rank 1. */
+static void find_step(const struct search *search, const double *jacobian, const double *f, double *step)
 {
-    const double a = jacobian[0], b = jacobian[1], c = jacobian[2], d = jacobian[3], det = a * d - b * c,
-                 square = a * a + b * b + c * c + d * d;
-    if (fabs(det) > singular * square) {
-        step[0] = (b * f[1] - d * f[0]) / det;
-        step[1] = (c * f[0] - a * f[1]) / det;
-    } else {
-        step[0] = -(a * f[0] + c * f[1]) / square;
-        step[1] = -(b * f[0] + d * f[1]) / square;
+    double j[4], u[2];
+    for (size_t k = 0; k < 4; k++) {
+        j[k] = jacobian[k] * search->size[k % 2] / search->scale[k / 2];
+        u[k / 2] = f[k / 2] / search->scale[k / 2];
     }
+    const double det = j[0] * j[3] - j[1] * j[2],
+                 square = j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3];
+    if (fabs(det) > singular * square) {
+        step[0] = (j[1] * u[1] - j[3] * u[0]) / det;
+        step[1] = (j[2] * u[0] - j[0] * u[1]) / det;
+    } else {
+        step[0] = -(j[0] * u[0] + j[2] * u[1]) / square;
+        step[1] = -(j[1] * u[0] + j[3] * u[1]) / square;
+    }
+}
+
+/* Returns the factor of a step that is `ratio` of the one before. At a multiple zero this ratio is constant, and
+   the remaining steps are a geometric series, which is summed (Aitken). */
+static double stretch(double ratio, double ratio_before)
+{
+    static const double alike_ratios = 0.01, quick = 0.3, slow = 0.95;
+    return fabs(ratio - ratio_before) < alike_ratios && ratio > quick && ratio < slow ? 1 / (1 - ratio) : 1;
 }
 
 /* Moves a point to an equilibrium, with the Jacobian there. Returns false if it finds none in the window. */
 static bool solve(const struct search *search, double *at, double *jacobian)
 {
     const struct gm_window *window = &search->portrait->window;
-    double f[2], step[2], length = INFINITY;
+    double f[2], step[2], length = INFINITY, ratio = 0;
     for (int i = 0; i < MOST_STEPS && length > round_off; i++) {
         gm_field(search->problem, at, f, 1);
         if (!gm_jacobian(search->problem, at, jacobian)) {
@@ -179,15 +193,18 @@ static bool solve(const struct search *search, double *at, double *jacobian)
             length = 0;
             break;
         }
-        find_step(jacobian, f, step);
+        find_step(search, jacobian, f, step);
         const double before = length;
-        length = fmax(fabs(step[0]) / search->size[0], fabs(step[1]) / search->size[1]);
+        length = fmax(fabs(step[0]), fabs(step[1]));
         if (!isfinite(length) || (length < converged && length >= before)) { /* the rest is round-off */
             length = before;
             break;
         }
+        const double ratio_before = ratio;
+        ratio = length / before;
+        const double factor = stretch(ratio, ratio_before);
         for (size_t k = 0; k < 2; k++) {
-            at[k] += step[k];
+            at[k] += factor * step[k] * search->size[k];
             if (at[k] < window->low[k] - search->size[k] || at[k] > window->high[k] + search->size[k]) {
                 return false;
             }
@@ -203,11 +220,18 @@ static bool solve(const struct search *search, double *at, double *jacobian)
     return found;
 }
 
-/* Writes the eigenvalues and the kind that they make. */
-static void classify(struct gm_equilibrium *equilibrium)
+/* Writes the eigenvalues and the kind that they make. Entries and eigenvalues that are round-off are 0. */
+static void classify(const struct search *search, struct gm_equilibrium *equilibrium)
 {
-    const double *j = equilibrium->jacobian, trace = j[0] + j[3], det = j[0] * j[3] - j[1] * j[2],
-                 largest = fmax(fmax(fabs(j[0]), fabs(j[1])), fmax(fabs(j[2]), fabs(j[3])));
+    double *j = equilibrium->jacobian, largest = 0; /* in units of the window and of the usual f */
+    for (size_t k = 0; k < 4; k++) {
+        const double usual = search->scale[k / 2] / search->size[k % 2];
+        j[k] = fabs(j[k]) <= round_off * usual ? 0 : j[k];
+        largest = fmax(largest, fabs(j[k]) / usual);
+    }
+    const double trace = j[0] + j[3], det = j[0] * j[3] - j[1] * j[2],
+                 unit = search->scale[0] / search->size[0] * search->scale[1] / search->size[1],
+                 rate = fmax(fmax(fabs(j[0]), fabs(j[3])), sqrt(fabs(det)));
     /* (trace / 2)^2 - det without cancellation */
     const double root = (j[0] - j[3]) * (j[0] - j[3]) / 4 + j[1] * j[2];
     double(*values)[2] = equilibrium->eigenvalues;
@@ -221,11 +245,15 @@ static void classify(struct gm_equilibrium *equilibrium)
         values[0][0] = fmax(large, small);
         values[1][0] = fmin(large, small);
     }
-    if (fabs(det) <= degenerate * largest * largest) {
+    if (fabs(det) <= degenerate * largest * largest * unit) {
         equilibrium->kind = GM_DEGENERATE;
+        for (size_t k = 0; k < 4; k++) {
+            double *part = &values[k / 2][k % 2];
+            *part = fabs(*part) <= round_off * rate ? 0 : *part;
+        }
     } else if (det < 0) {
         equilibrium->kind = GM_SADDLE;
-    } else if (fabs(trace) <= traceless * largest) {
+    } else if (fabs(trace) <= traceless * rate) {
         equilibrium->kind = GM_CENTRE;
     } else if (root >= 0) {
         equilibrium->kind = trace < 0 ? GM_STABLE_NODE : GM_UNSTABLE_NODE;
@@ -285,7 +313,7 @@ static void add_from(const struct search *search, double x, double y)
     if (place < portrait->count && compare(search, portrait->equilibria[place].at, found.at) == 0) {
         return;
     }
-    classify(&found);
+    classify(search, &found);
     if (found.kind == GM_DEGENERATE && is_on_curve(search, &found)) {
         portrait->missing = "equilibria fill a curve, which is not listed";
         return;
@@ -320,11 +348,15 @@ bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *pro
     if (!fill_fields(portrait, problem)) {
         return false;
     }
-    bool is_finite = false;
-    for (size_t k = 0; k < CORNERS && !is_finite; k++) {
-        is_finite = isfinite(portrait->fields[0][k]) && isfinite(portrait->fields[1][k]);
+    bool is_finite = false, moves = false;
+    for (size_t k = 0; k < CORNERS && !moves; k++) {
+        const double f[] = {portrait->fields[0][k], portrait->fields[1][k]};
+        is_finite = is_finite || (isfinite(f[0]) && isfinite(f[1]));
+        moves = isfinite(f[0]) && isfinite(f[1]) && (f[0] != 0 || f[1] != 0);
     }
-    portrait->missing = is_finite ? NULL : "the field is nowhere finite in the window";
+    portrait->missing = !is_finite ? "the field is nowhere finite in the window"
+                        : !moves   ? "the field is 0 in the whole window"
+                                   : NULL;
     find_scale(&search);
     mark_poles(portrait, problem);
     size_t cells = 0;
@@ -334,7 +366,7 @@ bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *pro
             add_from_cell(&search, cell, COLUMNS, ROWS);
         }
     }
-    for (size_t cell = 0; cell < (size_t)START_COLUMNS * START_ROWS && is_finite; cell++) {
+    for (size_t cell = 0; cell < (size_t)START_COLUMNS * START_ROWS && moves; cell++) {
         add_from_cell(&search, cell, START_COLUMNS, START_ROWS);
     }
     return true;

@@ -190,8 +190,9 @@ bool gm_user_model_has_action(const struct gm_user_model *model)
 
 bool gm_user_model_splits(const struct gm_user_model *model, const double *values)
 {
-    return model->system->kind <= GM_LAGRANGIAN && !gm_user_model_is_forced(model) &&
-           model->constraints.count == 0 && gm_user_model_holds(model, values, GM_FACT_SEPARABLE);
+    return !gm_user_model_is_forced(model) && model->constraints.count == 0 &&
+           (gm_user_model_holds(model, values, GM_FACT_SEPARABLE) ||
+            gm_user_model_holds(model, values, GM_FACT_SECOND_ORDER));
 }
 
 const char *gm_user_model_refuses_kernels(const struct gm_user_model *model)

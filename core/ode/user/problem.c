@@ -29,6 +29,8 @@ struct own {
     struct gm_split split;
     struct gm_hamiltonian hamiltonian;
     struct gm_volume volume;
+    struct gm_magnetic magnetic;
+    struct gm_tape drift, turning; /* functions of places and of the time */
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
     struct gm_lagrangian one_degree;
@@ -196,6 +198,16 @@ static void prepare(const struct gm_problem *problem, unsigned needs)
     }
 }
 
+static void drift(const struct gm_problem *problem, const double *y, double *values)
+{
+    gm_tape_values(&own_of(problem)->drift, y, values, 1);
+}
+
+static void turning(const struct gm_problem *problem, const double *y, double *values)
+{
+    gm_tape_values(&own_of(problem)->turning, y, values, 1);
+}
+
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return own_of(problem)->frequencies[i];
@@ -304,6 +316,23 @@ static void open_mechanical(struct own *self, struct gm_problem *problem)
         self->one_degree.potential = potential;
         self->ode.lagrangian = &self->one_degree;
     }
+}
+
+/* Opens the facet of motions in a magnetic field. */
+static void open_magnetic(struct own *self)
+{
+    const struct gm_user_model *model = self->model;
+    const size_t half = model->system->n / 2;
+    const gm_node_id *nodes = model->findings[GM_FACT_MAGNETIC].nodes;
+    if (!gm_user_model_holds(model, self->values, GM_FACT_MAGNETIC)) {
+        return;
+    }
+    self->magnetic = (struct gm_magnetic){
+        .canonical = model->system->kind == GM_CANONICAL, .drift = drift, .forces = turning};
+    find_constants(self, nodes + (2 + half) * half, 1, &self->magnetic.c);
+    open_tape(self, &self->drift, nodes, half, model->components);
+    open_tape(self, &self->turning, nodes + half, half + half * half, model->components);
+    self->ode.magnetic = &self->magnetic;
 }
 
 /* Opens the facet of variational schemes. */
@@ -526,6 +555,12 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->loops.velocity = !self->ode.split ? NULL : lagrangian ? lagrangian_velocity : velocity;
         self->loops.force = !self->ode.split ? NULL : lagrangian ? lagrangian_force : force;
     }
+    if (gm_user_model_holds(model, values, GM_FACT_SECOND_ORDER)) {
+        self->split = (struct gm_split){.nystrom = true, .unit_mass = true, .no_potential = true};
+        self->ode.split = &self->split;
+        self->loops.velocity = velocity;
+        self->loops.force = force;
+    }
     if (!constrained && gm_user_model_holds(model, values, GM_FACT_VOLUME)) {
         self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
         self->ode.volume = &self->volume;
@@ -533,6 +568,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     self->interpreted = self->loops;
     open_tapes(self);
     open_mechanical(self, problem);
+    open_magnetic(self);
     open_action(self);
     open_monitor(self);
     open_poisson(self, problem);

@@ -20,8 +20,10 @@ bool gm_has_action(const struct gm_problem *problem)
     if (problem->n > GM_NEWTON_LARGEST || problem->passive > 0) {
         return false;
     }
-    return (ode->action && ode->action->motion) || ((ode->action || (ode->split && ode->split->nystrom)) &&
-                                                    loops_of(problem) && loops_of(problem)->jacobian);
+    const struct gm_split *split = ode->split;
+    const bool natural = ode->action || (split && split->nystrom && !split->no_potential);
+    return (ode->action && ode->action->motion) ||
+           (natural && loops_of(problem) && loops_of(problem)->jacobian);
 }
 
 size_t gm_action_constraints(const struct gm_problem *problem)

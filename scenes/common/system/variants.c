@@ -271,6 +271,34 @@ static bool unite_shows(struct gm_system_scene *first)
     return first->all_shows != NULL;
 }
 
+static bool has_scheme(const struct gm_system_scene *system_scene, const char *scheme)
+{
+    size_t k = 0;
+    while (system_scene->schemes[k] && strcmp(system_scene->schemes[k], scheme) != 0) {
+        k++;
+    }
+    return system_scene->schemes[k] != NULL;
+}
+
+/* Keeps the schemes that fit all systems of a file that names none, if any does. */
+static void keep_common_schemes(struct gm_system_scene *first)
+{
+    const char *kept[GM_COUNT(first->schemes)] = {NULL};
+    size_t count = 0;
+    for (size_t k = 0; first->schemes[k]; k++) {
+        const struct gm_system_scene *other = first->next;
+        while (other && has_scheme(other, first->schemes[k])) {
+            other = other->next;
+        }
+        if (!other) {
+            kept[count++] = first->schemes[k];
+        }
+    }
+    if (count > 0 && !first->system.texts[GM_WORD_SCHEMES]) {
+        memcpy(first->schemes, kept, sizeof kept);
+    }
+}
+
 bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
 {
     const struct gm_written_choices *choices = &first->system.choices;
@@ -293,6 +321,7 @@ bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_openi
             }
         }
     }
+    keep_common_schemes(first);
     struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
                             .common_count = first->common_count,
                             .observables = calloc(observables, sizeof *tables.observables)};

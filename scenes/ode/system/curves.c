@@ -11,7 +11,7 @@
 #include "scenes/common/symbol.h"
 
 enum { MOST_LISTED = 12 };
-static const char all[] = "all";
+static const char all[] = "all", energy[] = "energy";
 
 /* ---- names ---- */
 
@@ -40,7 +40,7 @@ static size_t name_count(const struct gm_system_scene *system_scene)
     return system->n + velocity_count(system) + 1 + system->item_count;
 }
 
-/* Returns name i of the system; "" if a line of the file has none. */
+/* Returns name i of the system; "" if a line of the file has none, or a name before it. */
 static const char *name_at(size_t i, const void *data)
 {
     const struct gm_system_scene *system_scene = data;
@@ -50,8 +50,9 @@ static const char *name_at(size_t i, const void *data)
         return system->variables[i < n ? i : system->velocities + i - n].name;
     }
     const struct gm_system_item *item = i > n + velocities ? &system->items[i - n - velocities - 1] : NULL;
-    const bool is_named = !item || (gm_system_is_observed(item) && item->name);
-    const char *name = item ? item->name : "energy";
+    const bool is_named =
+        !item || (gm_system_is_observed(item) && item->name && strcmp(item->name, energy) != 0);
+    const char *name = item ? item->name : energy;
     return is_named && formula_of(system_scene, name) ? name : "";
 }
 
@@ -75,9 +76,9 @@ static bool find_curve(const struct gm_system_scene *system_scene, const char *t
     return false;
 }
 
-/* Refuses a text after t:, with the name that was probably meant, and the first names; false. */
-static bool refuse_name(const struct gm_system_scene *system_scene, const char *text, size_t length,
-                        char *sentence)
+/* Refuses a name in all of the text after t:, with the one that was probably meant, and the first names; false. */
+static bool refuse_name(const struct gm_system_scene *system_scene, const char *whole, const char *text,
+                        size_t length, char *sentence)
 {
     char name[64], names[GM_MESSAGE / 2] = "";
     size_t used = 0, listed = 0;
@@ -91,7 +92,8 @@ static bool refuse_name(const struct gm_system_scene *system_scene, const char *
         }
     }
     const char *near = length > 0 ? gm_nearest(name, name_count(system_scene), name_at, system_scene) : NULL;
-    return length == 0 ? gm_refuse(sentence, "show=t: needs a name; the names are %s", names)
+    return length == 0 ? gm_refuse(sentence, "show=t:%.60s needs a name%s; the names are %s", whole,
+                                   *whole ? " before and after each +" : "", names)
                        : gm_refuse(sentence, "show=t:%s: there is no \"%s\"%s%s; the names are %s", name,
                                    name, near ? "; did you mean " : "", near ? near : "", names);
 }
@@ -121,13 +123,20 @@ static size_t find_curves(const struct gm_system_scene *system_scene, const char
                   GM_MOST_OVER_TIME);
         return 0;
     }
+    const char *at = text;
     for (size_t i = 0; i < count; i++) {
-        const size_t length = strcspn(text, "+");
-        if (!find_curve(system_scene, text, length, &curves[i])) {
-            refuse_name(system_scene, text, length, sentence);
+        const size_t length = strcspn(at, "+");
+        if (!find_curve(system_scene, at, length, &curves[i])) {
+            refuse_name(system_scene, text, at, length, sentence);
             return 0;
         }
-        text += length + 1;
+        for (size_t k = 0; k < i; k++) {
+            if (curves[k].number == curves[i].number) {
+                gm_refuse(sentence, "show=t:%.60s has %.60s twice", text, curves[i].name);
+                return 0;
+            }
+        }
+        at += length + 1;
     }
     return count;
 }
@@ -144,11 +153,17 @@ bool gm_system_can_show(const struct gm_system_lane *lane, char *sentence)
            has_curves(lane->owner, lane->show, sentence);
 }
 
+static const char *choice_at(size_t i, const void *choices)
+{
+    return ((const char *const *)choices)[i];
+}
+
 bool gm_system_admits_show(const struct gm_parameter *row, const char *text, char *sentence)
 {
     const size_t length = strlen(GM_SHOW_OVER_TIME);
-    for (size_t i = 0; row->choices[i]; i++) {
-        if (strcmp(row->choices[i], text) == 0) {
+    size_t count = 0;
+    for (; row->choices[count]; count++) {
+        if (strcmp(row->choices[count], text) == 0) {
             return true;
         }
     }
@@ -159,9 +174,15 @@ bool gm_system_admits_show(const struct gm_parameter *row, const char *text, cha
         }
         return system_scene || has_curves(row->admitting, text, sentence);
     }
-    char words[GM_MESSAGE / 2];
-    return gm_refuse(sentence, "%s=%.60s is none of: %s, t:NAME", row->key, text,
-                     gm_parameter_choices(row, words, sizeof words));
+    char words[GM_MESSAGE / 2], front[GM_TEXT_SIZE];
+    const char *near = gm_nearest(text, count, choice_at, row->choices), *colon = strchr(text, ':');
+    if (!near && colon) { /* the second component is unknown */
+        snprintf(front, sizeof front, "%.*s", (int)(colon + 1 - text), text);
+        near = gm_nearest(front, count, choice_at, row->choices);
+    }
+    return gm_refuse(sentence, "%s=%.60s is none of: %s, t:NAME%s%s", row->key, text,
+                     gm_parameter_choices(row, words, sizeof words), near ? "; did you mean " : "",
+                     near ? near : "");
 }
 
 const struct gm_sight *gm_system_curves(struct gm_picture *picture, const struct gm_lane *lane)

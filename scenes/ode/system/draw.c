@@ -686,7 +686,7 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     picture->caption =
         gm_system_shown_text(picture, lanes, count, GM_WORD_CAPTION, system_scene->scene.watch);
     if (gm_system_has_portrait(lane, gm_system_sight(lane))) {
-        picture->caption = "Disc: stable. Ring: unstable. Half disc: saddle. Dotted ring: centre.";
+        picture->caption = ""; /* the portrait adds its legend */
     }
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);

@@ -4,12 +4,10 @@
 #include "scenes/ode/system/observed.h"
 #include "scenes/common/system/hook.h"
 
-#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/linear/curve.h"
 #include "core/model/scope.h"
 #include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/families.h"
@@ -18,6 +16,7 @@
 #include "core/schemes.h"
 #include "scenes/common/rows.h"
 #include "scenes/common/system/pieces.h"
+#include "scenes/ode/system/ring.h"
 
 /* ---- formulas during the run ---- */
 
@@ -118,63 +117,6 @@ static double solution_error(const struct gm_view *view)
     }
     free(exact);
     return error;
-}
-
-/* Without tangents, fewer points are an ellipse, however far they are from the edge. */
-enum { LEAST_EDGE = 5 };
-
-static size_t edge_points(const struct gm_view *view)
-{
-    const size_t points = view->problem->m - 1;
-    const bool enough = points >= LEAST_EDGE || gm_system_scene_of(view)->system.tangents >= 2;
-    return ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC && enough ? points : 0;
-}
-
-static const char *why_no_area(const struct gm_view *view)
-{
-    return edge_points(view) > 0 ? GM_UNRESOLVED_EDGE : "with members= of at least 6 in a disc alone";
-}
-
-/* The edge's derivatives: the tangent map that each member carries, of those of the start's edge. */
-static void put_derivatives(const struct gm_view *view, double complex *edge)
-{
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const size_t m = view->problem->m, points = m - 1, *disc = system_scene->disc;
-    const double *x = view->start + disc[0] * m, *y = view->start + disc[1] * m;
-    for (size_t i = 0; i < points; i++) {
-        double slope[2];
-        for (size_t k = 0; k < 2; k++) {
-            const double *const along[] = {gm_system_tangent(view, disc[k], disc[0]),
-                                           gm_system_tangent(view, disc[k], disc[1])};
-            slope[k] = along[0][i] * (y[points] - y[i]) + along[1][i] * (x[i] - x[points]);
-        }
-        edge[i] = slope[0] + I * slope[1];
-    }
-}
-
-/* Returns the signed area within the members, from the centre so that little cancels. Without tangents the
-   derivatives are of the trigonometric polynomial through the members. */
-static double area(const struct gm_view *view)
-{
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const size_t points = edge_points(view), m = view->problem->m;
-    const double *x = view->state + system_scene->disc[0] * m, *y = view->state + system_scene->disc[1] * m;
-    if (points == 0) {
-        return NAN;
-    }
-    double complex *edge = malloc(2 * points * sizeof *edge); /* the edge, then its derivatives */
-    for (size_t i = 0; edge && i < points; i++) {
-        edge[i] = edge[points + i] = x[i] - x[points] + I * (y[i] - y[points]);
-    }
-    bool found = edge != NULL;
-    if (found && system_scene->system.tangents >= 2) {
-        put_derivatives(view, edge + points);
-    } else if (found) {
-        found = gm_curve_differentiate(edge + points, points);
-    }
-    const double value = found ? gm_curve_area(edge, edge + points, points) : NAN;
-    free(edge);
-    return value;
 }
 
 /* Returns the mean area of the first two tangents, the sum over coordinates with their momenta. */
@@ -508,13 +450,15 @@ static bool add_area(struct gm_system_scene *system_scene)
     const struct gm_user_system *system = &system_scene->system;
     return gm_system_motion(system) != 2 ||
            (add_observable(system_scene,
-                           (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                               .why = why_no_area, .of_members = true),
+                           (struct gm_observable)GM_OBSERVABLE("area", gm_ring_area,
+                                                               "area of the disc of members",
+                                                               .why = gm_ring_why, .of_members = true),
                            GM_NO_NODE, GM_NO_NODE) &&
             (system->kind > GM_LAGRANGIAN || is_forced(system) ||
              add_observable(system_scene,
-                            (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", area, "A", "area error",
-                                                                     .why = why_no_area, .of_members = true),
+                            (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", gm_ring_area, "A",
+                                                                     "area error", .why = gm_ring_why,
+                                                                     .of_members = true),
                             GM_NO_NODE, GM_NO_NODE)));
 }
 

@@ -5,12 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/ode/system/levels.h"
 
-enum { ARROW_COLUMNS = 20, ARROW_ROWS = 15 };
 static const char chosen[] = "auto"; /* the window that the picture chooses */
 
 /* ---- parameters ---- */
@@ -20,6 +20,9 @@ bool gm_system_is_plane(const struct gm_system_scene *system_scene, char *senten
     const struct gm_user_system *system = &system_scene->system;
     if (system_scene->model.constraints.count > 0) {
         return gm_refuse(sentence, "portrait needs a plane: this system has constraints");
+    }
+    if (system->tangents > 0) {
+        return gm_refuse(sentence, "portrait needs a plane: this system carries tangents of its motion");
     }
     if (system->n != 2) {
         return gm_refuse(sentence, "portrait needs a plane: this system has %zu component%s", system->n,
@@ -109,24 +112,31 @@ bool gm_system_portrait(const struct gm_lane *lane, struct gm_portrait *portrait
 
 /* ---- drawing ---- */
 
+/* A net of arrows, for panels whose shorter side has at least that many dots, and fewer than those of the next. */
+enum { ARROWS = 20 * 15 };
+static const struct net {
+    size_t columns, rows;
+    double least, most;
+} nets[] = {{5, 4, 0, 48}, {10, 8, 48, 144}, {20, 15, 144, 0}};
+
 /* Draws arrows of one length on the panel, whose axes' lengths are taken as alike. */
 static void draw_directions(struct gm_picture *picture, struct gm_panel *panel,
-                            const struct gm_problem *problem)
+                            const struct gm_problem *problem, const struct net *net)
 {
-    enum { ARROWS = ARROW_COLUMNS * ARROW_ROWS };
     double places[2 * ARROWS], field[2 * ARROWS];
-    const double cell[] = {(panel->x.high - panel->x.low) / ARROW_COLUMNS,
-                           (panel->y.high - panel->y.low) / ARROW_ROWS};
+    const size_t count = net->columns * net->rows;
+    const double cell[] = {(panel->x.high - panel->x.low) / (double)net->columns,
+                           (panel->y.high - panel->y.low) / (double)net->rows};
     /* one length on the screen: in units of the axes, or of cells if these are about square */
     const double least = fmin(cell[0], cell[1]);
     const double unit[] = {panel->equal ? least : cell[0], panel->equal ? least : cell[1]};
-    for (size_t k = 0; k < ARROWS; k++) {
-        places[k] = panel->x.low + cell[0] * ((double)(k % ARROW_COLUMNS) + 0.5);
-        places[ARROWS + k] = panel->y.low + cell[1] * ((double)(k / ARROW_COLUMNS) + 0.5);
+    for (size_t k = 0; k < count; k++) {
+        places[k] = panel->x.low + cell[0] * ((double)(k % net->columns) + 0.5);
+        places[count + k] = panel->y.low + cell[1] * ((double)(k / net->columns) + 0.5);
     }
-    gm_field(problem, places, field, ARROWS);
-    for (size_t k = 0; k < ARROWS; k++) {
-        const double u = field[k] / unit[0], v = field[ARROWS + k] / unit[1], length = hypot(u, v);
+    gm_field(problem, places, field, count);
+    for (size_t k = 0; k < count; k++) {
+        const double u = field[k] / unit[0], v = field[count + k] / unit[1], length = hypot(u, v);
         if (!(length > 0) || !isfinite(length)) {
             continue;
         }
@@ -136,9 +146,12 @@ static void draw_directions(struct gm_picture *picture, struct gm_panel *panel,
         for (size_t i = 0; i < 5; i++) {
             const double ahead = corners[i][0], aside = corners[i][1];
             line[2 * i] = places[k] + unit[0] * (ahead * along[0] - aside * along[1]);
-            line[2 * i + 1] = places[ARROWS + k] + unit[1] * (ahead * along[1] + aside * along[0]);
+            line[2 * i + 1] = places[count + k] + unit[1] * (ahead * along[1] + aside * along[0]);
         }
-        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.45, 1, GM_SOLID}, line, 5, false);
+        struct gm_mark *mark =
+            gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.45, 1, GM_SOLID}, line, 5, false);
+        mark->least = net->least;
+        mark->most = net->most;
     }
 }
 
@@ -181,18 +194,27 @@ static void draw_nullcline(struct gm_picture *picture, struct gm_panel *panel, c
     }
 }
 
+/* Draws the equilibria, and adds the kinds that are new to the caption. */
 static void draw_equilibria(struct gm_picture *picture, struct gm_panel *panel,
                             const struct gm_portrait *portrait)
 {
-    static const enum gm_glyph glyphs[] = {
-        [GM_SADDLE] = GM_HALF_DISC,   [GM_STABLE_NODE] = GM_DISC,    [GM_STABLE_FOCUS] = GM_DISC,
-        [GM_UNSTABLE_NODE] = GM_RING, [GM_UNSTABLE_FOCUS] = GM_RING, [GM_CENTRE] = GM_DOTTED_RING,
-        [GM_DEGENERATE] = GM_CROSS,
+    static const struct {
+        enum gm_glyph glyph;
+        const char *name;
+    } signs[] = {
+        [GM_SADDLE] = {GM_HALF_DISC, "◐ saddle"},      [GM_STABLE_NODE] = {GM_DISC, "● stable"},
+        [GM_STABLE_FOCUS] = {GM_DISC, "● stable"},     [GM_UNSTABLE_NODE] = {GM_RING, "○ unstable"},
+        [GM_UNSTABLE_FOCUS] = {GM_RING, "○ unstable"}, [GM_CENTRE] = {GM_DOTTED_RING, "◌ centre"},
+        [GM_DEGENERATE] = {GM_CROSS, "× degenerate"},
     };
     for (size_t i = 0; i < portrait->count; i++) {
         const struct gm_style style = {GM_INK, 1, 11, GM_SOLID};
-        struct gm_mark *mark = gm_mark_points(picture, panel, style, portrait->equilibria[i].at, 1);
-        mark->glyph = glyphs[portrait->equilibria[i].kind];
+        const enum gm_equilibrium_kind kind = portrait->equilibria[i].kind;
+        gm_mark_points(picture, panel, style, portrait->equilibria[i].at, 1)->glyph = signs[kind].glyph;
+        if (!strstr(picture->caption, signs[kind].name)) {
+            picture->caption = gm_picture_text(picture, "%s%s%s", picture->caption,
+                                               picture->caption[0] ? "  " : "", signs[kind].name);
+        }
     }
 }
 
@@ -201,7 +223,9 @@ void gm_system_draw_portrait(struct gm_picture *picture, struct gm_panel *panel,
     struct gm_portrait portrait;
     const struct gm_window window = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
     if (gm_portrait_open(&portrait, &lane->problem, &window)) {
-        draw_directions(picture, panel, &lane->problem);
+        for (size_t i = 0; i < GM_COUNT(nets); i++) {
+            draw_directions(picture, panel, &lane->problem, &nets[i]);
+        }
         draw_nullcline(picture, panel, lane, &portrait, 0);
         draw_nullcline(picture, panel, lane, &portrait, 1);
         draw_equilibria(picture, panel, &portrait);
