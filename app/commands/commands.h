@@ -29,7 +29,7 @@ enum gm_command {
 
 /* The --options of a command line; an option that is not given is 0, NULL or the stated default. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear;
+    int json, state, maximum, strict, longer, quick, markdown, latex, source, listing, yes, clear, invariants;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *measure, *region, *judge, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
@@ -40,7 +40,7 @@ struct gm_options {
     const char *name;      /* the name of a chart's files, set only by `again`; NULL: the command's */
     const char *table, *retry, *join; /* options of sweep */
     struct gm_pace pace;              /* frames; also --every of run, --fps of tour and --shard of sweep */
-    long jobs;
+    long jobs, degree;
     double interval;               /* NAN: not given */
     struct gm_appearance look;     /* 1280 x 720, light */
     double page[2];                /* the page's size in mm, if it was given; else 0 */

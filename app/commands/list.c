@@ -476,10 +476,17 @@ int gm_command_list(const struct gm_options *options)
     struct gm_file file;
     const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
     const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
-    const bool equations = options->latex || options->arguments.count > 1 || !gm_scene_find(first);
+    const bool equations =
+        options->latex || options->invariants || options->arguments.count > 1 || !gm_scene_find(first);
     const bool is_system = *first && equations && find_file(GM_FILE_SYSTEM, first, &file);
+    if (options->degree && !options->invariants) {
+        return gm_give_up(GM_EXIT_USAGE, "--degree is that of --invariants, which is missing");
+    }
     if ((is_system || typed) && !options->markdown && !options->source) {
         return gm_list_system(options, typed ? NULL : &file);
+    }
+    if (options->invariants) {
+        return gm_give_up(GM_EXIT_USAGE, "--invariants are those of a system: list kepler --invariants");
     }
     if (options->latex) {
         return gm_give_up(GM_EXIT_USAGE,

@@ -12,6 +12,7 @@
 #include "app/words/words.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/memory.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
 
@@ -46,6 +47,8 @@ const struct gm_option gm_option_rows[] = {
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
+    {"--invariants", FLAG, GM_LIST, AT(invariants), "", "find the invariants of a system, and prove them"},
+    {"--degree", WHOLE, GM_LIST, AT(degree), "D", "their largest degree, 1 to 8 (4)"},
     {"--source", FLAG, GM_LIST, AT(source), "",
      "the text of a system's, a room's, a scheme's or a tour's file"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
@@ -155,7 +158,8 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
                  : isinf(low) ? "is not a number"
                               : "is not a number above 0",
                  low, high);
-        return refuse(message, row->name, value, what);
+        return gm_memory_was_short() ? gm_refuse(message, "not enough memory")
+                                     : refuse(message, row->name, value, what);
     }
     const long integer = whole ? (long)number : 0;
     memcpy(place, whole ? (const void *)&integer : &number, sizeof number);
@@ -448,6 +452,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
          "the first makes one picture",
          {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
         {"--json", "they are two formats", {"--markdown", "--latex"}},
+        {"--invariants", "each is a list of its own", {"--markdown", "--latex", "--source", "--long"}},
         {"--latex", "they are two formats", {"--markdown"}},
         {"--list", "the first only lists steps", {"--movie", "--out"}},
         {"--join", "the first makes no run", {"--table", "--shard", "--retry"}},

@@ -23,7 +23,9 @@
 #include "core/mesh/user/potential.h"
 #include "core/model/equations.h"
 #include "core/model/facts.h"
+#include "core/model/invariants.h"
 #include "core/model/recognition.h"
+#include "core/model/symmetries.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
@@ -181,14 +183,6 @@ static const char *kept_name(const struct report *report, const struct gm_system
     return item->name[0] ? item->name : gm_arena_print(report->arena, "momentum%d", number);
 }
 
-/* The item's formula; GM_NO_NODE for a symmetry without a momentum map. */
-static gm_node_id kept_node(const struct gm_user_system *system, const struct gm_system_item *item)
-{
-    return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
-           : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
-                                           : GM_NO_NODE;
-}
-
 static void print_texts(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
@@ -291,7 +285,7 @@ static void print_kept(const struct report *report)
         }
         printf("%s", any ? "" : "\ninvariants\n");
         any = true;
-        const gm_node_id node = kept_node(system, item);
+        const gm_node_id node = gm_system_conserved(system, item);
         const char *by = item->word == GM_WORD_CASIMIR    ? "a Casimir, "
                          : item->word == GM_WORD_SYMMETRY ? "by symmetry, "
                                                           : "";
@@ -758,10 +752,129 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
     gm_row_put(row, "file %s, source %s", file ? file->path : NULL, file ? source : NULL);
 }
 
+/* A formula without names of parts, as it was typed or tidied. */
+static const char *written_out(struct report *report, gm_node_id node)
+{
+    struct gm_formula *graph = &report->system.graph;
+    struct gm_naming naming = gm_system_naming(&report->system);
+    naming.part = NULL;
+    if (graph->places[node] == GM_NO_PLACE) {
+        node = gm_formula_tidied(graph, node, &naming);
+    }
+    char *text = node == GM_NO_NODE ? NULL : gm_formula_text(graph, node, &naming);
+    gm_arena_need(report->arena, text || !gm_memory_was_short());
+    return text ? gm_arena_keep(report->arena, text, free) : "(a long formula)";
+}
+
+static const char *found_name(const struct report *report, const struct gm_found_invariant *invariant)
+{
+    return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
+}
+
+struct found {
+    struct gm_found_invariants invariants;
+    struct gm_symmetry *symmetries;
+    size_t symmetry_count;
+};
+
+/* "x = -y, y = x": the components that are not 0 */
+static const char *symmetry_formula(struct report *report, const struct gm_symmetry *symmetry)
+{
+    const char *text = "";
+    for (size_t i = 0; i < report->system.n; i++) {
+        if (!gm_is_constant(&report->system.graph, symmetry->field[i], 0)) {
+            text = gm_arena_print(report->arena, "%s%s%s = %s", text, text[0] ? ", " : "",
+                                  report->system.variables[i].name, written_out(report, symmetry->field[i]));
+        }
+    }
+    return text;
+}
+
+static void print_found(struct report *report, const struct found *found)
+{
+    const struct gm_found_invariants *invariants = &found->invariants;
+    printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
+           invariants->count, invariants->independent);
+    if (invariants->lowered) {
+        printf("degree %zu has more than %d candidates\n", invariants->degree + 1, GM_MOST_CANDIDATES);
+    }
+    for (size_t i = 0; i < invariants->count; i++) {
+        const struct gm_found_invariant *invariant = &invariants->list[i];
+        const char *name = found_name(report, invariant);
+        gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu)", name ? name : "",
+                                        name ? " = " : "", written_out(report, invariant->node),
+                                        invariant->degree),
+                         printf("  "), 2);
+    }
+    if (invariants->unwritten > 0) {
+        printf("  and %zu whose coefficients are not short fractions\n", invariants->unwritten);
+    }
+    if (report->system.n > GM_MOST_WITH_SYMMETRIES) {
+        printf("affine symmetries are found for up to %d components\n", GM_MOST_WITH_SYMMETRIES);
+        return;
+    }
+    printf("affine symmetries, fields that send motions into motions: %zu\n", found->symmetry_count);
+    for (size_t i = 0; i < found->symmetry_count; i++) {
+        const char *formula = symmetry_formula(report, &found->symmetries[i]);
+        gm_print_wrapped(
+            gm_arena_print(report->arena, "%s (scaling %g)", formula, found->symmetries[i].scaling),
+            printf("  "), 4);
+    }
+}
+
+static void put_found(struct report *report, const struct found *found)
+{
+    const struct gm_found_invariants *invariants = &found->invariants;
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_put(&row, "degree %i, candidates %i", (int)invariants->degree, (int)invariants->candidates);
+    struct gm_row list = gm_row_open(&row, "invariants_found", ']');
+    for (size_t i = 0; i < invariants->count; i++) {
+        const struct gm_found_invariant *invariant = &invariants->list[i];
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
+                   (int)invariant->degree, "exact", found_name(report, invariant));
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
+    gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)invariants->unwritten,
+               (int)invariants->independent);
+    list = gm_row_open(&row, "symmetries_found", ']');
+    for (size_t i = 0; i < found->symmetry_count; i++) {
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "formula %s, scaling %.17g", symmetry_formula(report, &found->symmetries[i]),
+                   found->symmetries[i].scaling);
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
+    printf("}\n");
+}
+
+static int list_invariants(const struct gm_options *options, struct report *report)
+{
+    const size_t usual = 4, degree = options->degree ? (size_t)options->degree : usual;
+    if (degree > GM_LARGEST_DEGREE) {
+        return gm_give_up(GM_EXIT_USAGE, "--degree %zu is not a whole number from 1 to %d", degree,
+                          GM_LARGEST_DEGREE);
+    }
+    struct found found;
+    gm_invariants_find(&report->system, options->arena, degree, &found.invariants);
+    if (found.invariants.lacks) {
+        return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s",
+                          found.invariants.lacks);
+    }
+    found.symmetry_count = gm_symmetries_find(&report->system, options->arena, &found.symmetries);
+    gm_arena_need(options->arena, !gm_memory_was_short());
+    (options->json ? put_found : print_found)(report, &found);
+    return gm_finish(GM_EXIT_OK);
+}
+
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
     check_scene(options, !file);
+    if (options->invariants) {
+        return list_invariants(options, report);
+    }
     const double *start = start_of(report);
     const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
     /* a check without memory does not count as unchecked */

@@ -7,11 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef uint64_t residue;
-__extension__ typedef unsigned __int128 wide;
-
-static const residue PRIME = (UINT64_C(1) << 61) - 1; /* 3 modulo 4: roots are powers */
-
 enum {
     PROOFS = 3,
     PROOFS_BY_SIGN = 30,
@@ -30,128 +25,88 @@ static uint64_t mix(uint64_t x)
     return x ^ (x >> 31);
 }
 
-static residue times(residue a, residue b)
+static bool is_square(gm_residue a)
 {
-    const wide product = (wide)a * b;
-    const residue sum = (residue)(product & PRIME) + (residue)(product >> 61);
-    return sum >= PRIME ? sum - PRIME : sum;
-}
-
-static residue plus(residue a, residue b)
-{
-    return a + b >= PRIME ? a + b - PRIME : a + b;
-}
-
-static residue minus(residue a)
-{
-    return a ? PRIME - a : 0;
-}
-
-static residue power(residue a, uint64_t n)
-{
-    residue result = 1;
-    for (; n; n /= 2, a = times(a, a)) {
-        result = n % 2 ? times(result, a) : result;
-    }
-    return result;
-}
-
-static residue inverse(residue a)
-{
-    return power(a, PRIME - 2);
-}
-
-/* residue of m 2^e: 2^61 = 1 */
-static residue of_double(double value)
-{
-    int exponent = 0;
-    const double whole = ldexp(frexp(fabs(value), &exponent), 53);
-    exponent = ((exponent - 53) % 61 + 61) % 61;
-    const residue result = times((residue)whole % PRIME, (residue)1 << exponent);
-    return value < 0 ? minus(result) : result;
-}
-
-static bool is_square(residue a)
-{
-    return power(a, (PRIME - 1) / 2) <= 1;
+    return gm_residue_power(a, (GM_PRIME - 1) / 2) <= 1;
 }
 
 /* A pseudorandom number for f(a, b), free of relations. */
-static residue unrelated(uint64_t seed, unsigned operation, residue a, residue b)
+static gm_residue unrelated(uint64_t seed, unsigned operation, gm_residue a, gm_residue b)
 {
-    return mix(mix(mix(seed ^ operation) ^ a) ^ b) % PRIME;
+    return mix(mix(mix(seed ^ operation) ^ a) ^ b) % GM_PRIME;
 }
 
 /* f(-x) follows from f(x): the sign of a, and a number of |a| as the parameter of the operation. */
-static bool is_turned(residue a)
+static bool is_turned(gm_residue a)
 {
-    return a > PRIME / 2;
+    return a > GM_PRIME / 2;
 }
 
-static residue parameter(uint64_t seed, unsigned operation, residue a)
+static gm_residue parameter(uint64_t seed, unsigned operation, gm_residue a)
 {
-    return unrelated(seed, operation, is_turned(a) ? minus(a) : a, 0);
+    return unrelated(seed, operation, is_turned(a) ? gm_residue_minus(a) : a, 0);
 }
 
-static residue exponential(uint64_t seed, residue a)
+static gm_residue exponential(uint64_t seed, gm_residue a)
 {
-    const residue t = parameter(seed, GM_OPERATION_EXP, a);
-    return a == 0 ? 1 : is_turned(a) ? inverse(t) : t;
+    const gm_residue t = parameter(seed, GM_OPERATION_EXP, a);
+    return a == 0 ? 1 : is_turned(a) ? gm_residue_inverse(t) : t;
 }
 
 /* A point of the circle: cos, or sin, times scale = 1 + t^2. */
-static residue on_circle(uint64_t seed, residue a, bool is_sine, residue *scale)
+static gm_residue on_circle(uint64_t seed, gm_residue a, bool is_sine, gm_residue *scale)
 {
-    const residue t = parameter(seed, GM_OPERATION_SIN, a), square = times(t, t);
-    *scale = a == 0 ? 1 : plus(1, square);
+    const gm_residue t = parameter(seed, GM_OPERATION_SIN, a), square = gm_residue_times(t, t);
+    *scale = a == 0 ? 1 : gm_residue_plus(1, square);
     if (is_sine) {
-        return a == 0 ? 0 : times(2, is_turned(a) ? minus(t) : t);
+        return a == 0 ? 0 : gm_residue_times(2, is_turned(a) ? gm_residue_minus(t) : t);
     }
-    return a == 0 ? 1 : plus(1, minus(square));
+    return a == 0 ? 1 : gm_residue_plus(1, gm_residue_minus(square));
 }
 
 /* sinh or cosh, from the exponential */
-static residue hyperbolic(residue up, bool is_sine)
+static gm_residue hyperbolic(gm_residue up, bool is_sine)
 {
-    const residue down = inverse(up);
-    return times(inverse(2), plus(up, is_sine ? minus(down) : down));
+    const gm_residue down = gm_residue_inverse(up);
+    return gm_residue_times(gm_residue_inverse(2),
+                            gm_residue_plus(up, is_sine ? gm_residue_minus(down) : down));
 }
 
-static bool is_below(uint64_t seed, residue a, residue b)
+static bool is_below(uint64_t seed, gm_residue a, gm_residue b)
 {
     return a != b && (a < b) == (unrelated(seed, GM_OPERATION_BELOW, a < b ? a : b, a < b ? b : a) & 1);
 }
 
 /* The value of a node; false if it has none at this point. */
-static bool value_of(const struct gm_node *node, residue a, residue b, double exponent, uint64_t seed,
-                     residue *value)
+static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, double exponent, uint64_t seed,
+                     gm_residue *value)
 {
-    residue scale;
+    gm_residue scale;
     bool exists = true;
     switch (node->operation) {
     case GM_OPERATION_ADD:
-        *value = plus(a, b);
+        *value = gm_residue_plus(a, b);
         break;
     case GM_OPERATION_SUBTRACT:
-        *value = plus(a, minus(b));
+        *value = gm_residue_plus(a, gm_residue_minus(b));
         break;
     case GM_OPERATION_MULTIPLY:
-        *value = times(a, b);
+        *value = gm_residue_times(a, b);
         break;
     case GM_OPERATION_DIVIDE:
         exists = b != 0;
-        *value = times(a, inverse(b));
+        *value = gm_residue_times(a, gm_residue_inverse(b));
         break;
     case GM_OPERATION_NEGATE:
-        *value = minus(a);
+        *value = gm_residue_minus(a);
         break;
     case GM_OPERATION_WHOLE_POWER:
         exists = exponent >= 0 || a != 0;
-        *value = power(exponent < 0 ? inverse(a) : a, (uint64_t)fabs(exponent));
+        *value = gm_residue_power(exponent < 0 ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
         break;
     case GM_OPERATION_SQRT:
-        *value = power(a, (PRIME + 1) / 4);
-        exists = times(*value, *value) == a;
+        *value = gm_residue_power(a, (GM_PRIME + 1) / 4);
+        exists = gm_residue_times(*value, *value) == a;
         break;
     case GM_OPERATION_EXP:
         *value = exponential(seed, a);
@@ -163,22 +118,23 @@ static bool value_of(const struct gm_node *node, residue a, residue b, double ex
         *value = hyperbolic(exponential(seed, a), false);
         break;
     case GM_OPERATION_TANH:
-        *value =
-            times(hyperbolic(exponential(seed, a), true), inverse(hyperbolic(exponential(seed, a), false)));
+        *value = gm_residue_times(hyperbolic(exponential(seed, a), true),
+                                  gm_residue_inverse(hyperbolic(exponential(seed, a), false)));
         break;
     case GM_OPERATION_SIN:
         *value = on_circle(seed, a, true, &scale);
-        *value = times(*value, inverse(scale));
+        *value = gm_residue_times(*value, gm_residue_inverse(scale));
         break;
     case GM_OPERATION_COS:
         *value = on_circle(seed, a, false, &scale);
-        *value = times(*value, inverse(scale));
+        *value = gm_residue_times(*value, gm_residue_inverse(scale));
         break;
     case GM_OPERATION_TAN:
-        *value = times(on_circle(seed, a, true, &scale), inverse(on_circle(seed, a, false, &scale)));
+        *value = gm_residue_times(on_circle(seed, a, true, &scale),
+                                  gm_residue_inverse(on_circle(seed, a, false, &scale)));
         break;
     case GM_OPERATION_ABS:
-        *value = is_square(a) ? a : minus(a);
+        *value = is_square(a) ? a : gm_residue_minus(a);
         break;
     case GM_OPERATION_MIN:
         *value = is_below(seed, a, b) ? a : b;
@@ -195,25 +151,39 @@ static bool value_of(const struct gm_node *node, residue a, residue b, double ex
     return exists;
 }
 
-/* True if the node is 0 at a random point; *exists is false if it has no value there. */
-static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                          uint64_t seed, residue *values, bool *exists)
+/* Sets the values at the next point. False: they do not exist there. */
+static bool take_point(struct gm_random_values *random)
 {
-    *exists = true;
-    for (size_t k = 0; k < count && *exists; k++) {
-        const gm_node_id i = parts[k];
-        const struct gm_node *node = &graph->nodes[i];
+    const uint64_t seed = mix(random->number++);
+    gm_residue *values = random->values;
+    bool exists = true;
+    for (size_t k = 0; k < random->count && exists; k++) {
+        const gm_node_id i = random->parts[k];
+        const struct gm_node *node = &random->graph->nodes[i];
         if (node->operation == GM_CONSTANT) {
-            *exists = isfinite(node->value);
-            values[i] = *exists ? of_double(node->value) : 0;
+            exists = isfinite(node->value);
+            values[i] = exists ? gm_residue_of(node->value) : 0;
         } else if (node->operation == GM_VARIABLE) {
-            values[i] = unrelated(seed, GM_VARIABLE, node->a, 0);
+            const bool is_fixed = node->a < random->variables && !isnan(random->fixed[node->a]);
+            values[i] =
+                is_fixed ? gm_residue_of(random->fixed[node->a]) : unrelated(seed, GM_VARIABLE, node->a, 0);
         } else {
             const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
-            *exists = value_of(node, values[node->a], values[b], graph->nodes[b].value, seed, &values[i]);
+            exists =
+                value_of(node, values[node->a], values[b], random->graph->nodes[b].value, seed, &values[i]);
         }
     }
-    return *exists && values[parts[count - 1]] == 0;
+    return exists;
+}
+
+const gm_residue *gm_random_values_next(struct gm_random_values *values)
+{
+    for (int tries = 0; tries < TRIES; tries++) {
+        if (take_point(values)) {
+            return values->values;
+        }
+    }
+    return NULL;
 }
 
 /* True if a part has one of two values, as a sign or a root, so that a further point is half a proof at
@@ -274,7 +244,7 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
         return graph->nodes[node].value == 0 ? GM_ZERO_PROVED : GM_NOT_ZERO;
     }
     union {
-        residue exact;
+        gm_residue exact;
         struct sized sized;
     } *memory = malloc((node + (size_t)1) * sizeof *memory);
     size_t count = 0;
@@ -285,11 +255,13 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
         const uint64_t most = WORK / count, tries = most > TRIES         ? TRIES
                                                     : most > LEAST_TRIES ? most
                                                                          : LEAST_TRIES;
+        struct gm_random_values random = {
+            .graph = graph, .parts = parts, .count = count, .values = &memory->exact};
         int proofs = 0, tests = 0;
         for (uint64_t i = 0; i < tries && proofs >= 0 && proofs < enough; i++) {
-            bool exists;
-            const bool is_zero = is_zero_there(graph, parts, count, mix(i), &memory->exact, &exists);
-            proofs = !exists ? proofs : is_zero ? proofs + 1 : -1;
+            if (take_point(&random)) {
+                proofs = random.values[node] == 0 ? proofs + 1 : -1;
+            }
         }
         for (uint64_t i = 0; i < tries && tests >= 0 && tests < TESTS && proofs < enough; i++) {
             const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);

@@ -4,6 +4,7 @@
 #define GM_CORE_EXPRESSION_IDENTITY_H
 
 #include "core/expression/graph.h"
+#include "core/expression/residue.h"
 
 enum gm_identity {
     GM_NOT_ZERO,
@@ -12,12 +13,25 @@ enum gm_identity {
     GM_UNTESTED     /* not finite at any tested point, or out of memory */
 };
 
-/* The proof uses the field of the 2^61 - 1 residues: + - * / and whole powers are exact, roots are roots, and
-   sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
+/* The proof uses the field of the 2^61 - 1 residues (gm_residue_of): + - * / and whole powers are exact, roots are
+   roots, and sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
    0; the probability of an error is below 1e-15 times the degree. Signs and roots have two values and take
    more points. If the proof fails, doubles at 20 random points must be 0 to 1e-12 of the sum of magnitudes.
    Variables are random; in the second test variable i < variables is fixed[i], unless that is NaN. */
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
+
+/* Values of some nodes at random points of that field, one point after the other. */
+struct gm_random_values {
+    const struct gm_formula *graph;
+    const double *fixed; /* variable i < variables is fixed[i], unless that is NaN */
+    size_t variables;
+    uint64_t number;         /* of the next point */
+    const gm_node_id *parts; /* [count] ascending nodes, which include all their operands */
+    size_t count;
+    gm_residue *values; /* [node], set for parts alone */
+};
+/* The values at the next point where they exist, values[node]; NULL: they exist at none of a thousand. */
+const gm_residue *gm_random_values_next(struct gm_random_values *values);
 
 #endif

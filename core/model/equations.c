@@ -180,16 +180,20 @@ static gm_node_id rate_of(struct gm_user_system *system, gm_node_id node)
     return rate;
 }
 
-enum gm_identity gm_equations_vanishes(const struct gm_user_system *system, gm_node_id node)
+double *gm_equations_fixed(const struct gm_user_system *system)
 {
     double *fixed = malloc(system->variable_count * sizeof *fixed);
-    enum gm_identity identity = GM_UNTESTED;
-    if (fixed) {
-        for (size_t i = 0; i < system->variable_count; i++) {
-            fixed[i] = system->variables[i].value;
-        }
-        identity = gm_identity_of(&system->graph, node, fixed, system->variable_count);
+    for (size_t i = 0; fixed && i < system->variable_count; i++) {
+        fixed[i] = system->variables[i].value;
     }
+    return fixed;
+}
+
+enum gm_identity gm_equations_vanishes(const struct gm_user_system *system, gm_node_id node)
+{
+    double *fixed = gm_equations_fixed(system);
+    const enum gm_identity identity =
+        fixed ? gm_identity_of(&system->graph, node, fixed, system->variable_count) : GM_UNTESTED;
     free(fixed);
     return identity;
 }

@@ -35,6 +35,8 @@ gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node
 double *gm_equations_values(const struct gm_user_system *system, const double *variables);
 /* Replaces the momenta of a Lagrangian in nodes by dL/dv. False when out of memory. */
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count);
+/* The values of parameters; NaN for other variables. The caller frees; NULL when out of memory. */
+double *gm_equations_fixed(const struct gm_user_system *system);
 /* Tests if a node is 0 for all states: for all parameters, or else for the system's own. */
 enum gm_identity gm_equations_vanishes(const struct gm_user_system *system, gm_node_id node);
 

@@ -201,6 +201,16 @@ static inline bool gm_system_is_observed(const struct gm_system_item *item)
            item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
 }
 
+/* The quantity that an item declares to be constant, a momentum map for a symmetry; GM_NO_NODE: it declares none. */
+static inline gm_node_id gm_system_conserved(const struct gm_user_system *system,
+                                             const struct gm_system_item *item)
+{
+    if (item->word == GM_WORD_SYMMETRY) {
+        return system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2] : GM_NO_NODE;
+    }
+    return item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR ? item->nodes[0] : GM_NO_NODE;
+}
+
 /* The option of an item, or NULL. */
 const struct gm_system_option *gm_system_option(const struct gm_system_item *item,
                                                 enum gm_system_option_word word);

@@ -67,6 +67,8 @@ COMMANDS = [
     ("list systems --json", {}),
     ("list rooms --long", {}),
     ("list toda --source", {}),
+    ("list kepler --invariants --degree 2", {}),
+    ("list rigid-body --invariants --degree 2 --json", {}),
     ("list office --json", {}),
     ("list room --json", {}),
     ("list schemes --markdown", {}),

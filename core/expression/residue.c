@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/expression/residue.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+gm_residue gm_residue_power(gm_residue a, uint64_t n)
+{
+    gm_residue result = 1;
+    for (; n; n /= 2, a = gm_residue_times(a, a)) {
+        result = n % 2 ? gm_residue_times(result, a) : result;
+    }
+    return result;
+}
+
+gm_residue gm_residue_inverse(gm_residue a)
+{
+    return gm_residue_power(a, GM_PRIME - 2);
+}
+
+gm_residue gm_residue_of(double value)
+{
+    const double largest = 0x1p36, size = fabs(value);
+    gm_residue result = 0;
+    double rest = size, p[2] = {1, floor(size)}, q[2] = {0, 1}; /* the last two continued fractions */
+    while (p[1] * q[1] < largest && fabs(p[1] / q[1] - size) > 0x1p-52 * size) {
+        rest = 1 / (rest - floor(rest));
+        const double next[] = {floor(rest) * p[1] + p[0], floor(rest) * q[1] + q[0]};
+        p[0] = p[1];
+        q[0] = q[1];
+        p[1] = next[0];
+        q[1] = next[1];
+    }
+    if (p[1] * q[1] < largest) {
+        result = gm_residue_times((gm_residue)p[1], gm_residue_inverse((gm_residue)q[1]));
+    } else { /* m 2^e, and 2^61 = 1 */
+        int exponent = 0;
+        const double whole = ldexp(frexp(size, &exponent), 53);
+        exponent = ((exponent - 53) % 61 + 61) % 61;
+        result = gm_residue_times((gm_residue)whole % GM_PRIME, (gm_residue)1 << exponent);
+    }
+    return value < 0 ? gm_residue_minus(result) : result;
+}
+
+static int64_t divisor(int64_t a, int64_t b)
+{
+    while (b) {
+        const int64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return llabs(a);
+}
+
+/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^25: a = remainder / factor. Of random
+   residues one in two thousand is such a fraction. */
+static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator)
+{
+    const int64_t bound = (int64_t)1 << 25;
+    int64_t remainders[] = {(int64_t)GM_PRIME, (int64_t)a}, factors[] = {0, 1};
+    while (remainders[1] >= bound) {
+        const int64_t quotient = remainders[0] / remainders[1],
+                      remainder = remainders[0] - quotient * remainders[1],
+                      factor = factors[0] - quotient * factors[1];
+        remainders[0] = remainders[1];
+        factors[0] = factors[1];
+        remainders[1] = remainder;
+        factors[1] = factor;
+    }
+    *numerator = factors[1] < 0 ? -remainders[1] : remainders[1];
+    *denominator = llabs(factors[1]);
+    return *denominator < bound;
+}
+
+bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole)
+{
+    const int64_t largest = (int64_t)1 << 53;
+    int64_t common = 1, numerator, denominator, shared = 0;
+    gm_residue first = 0;
+    for (size_t i = 0; i < count && !first; i++) {
+        first = residues[i] ? gm_residue_inverse(residues[i]) : 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!find_fraction(gm_residue_times(first, residues[i]), &numerator, &denominator)) {
+            return false;
+        }
+        const int64_t more = denominator / divisor(common, denominator);
+        if (common > largest / more) {
+            return false;
+        }
+        common *= more;
+    }
+    for (size_t i = 0; i < count; i++) {
+        find_fraction(gm_residue_times(first, residues[i]), &numerator, &denominator);
+        if (llabs(numerator) > largest / (common / denominator)) {
+            return false;
+        }
+        numerator *= common / denominator;
+        shared = divisor(shared, numerator);
+        whole[i] = (double)numerator;
+    }
+    for (size_t i = 0; i < count && shared; i++) {
+        whole[i] /= (double)shared;
+    }
+    return true;
+}

@@ -1,0 +1,509 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An invariant is a combination of products of given degree, the candidates m_i, along which the motion does nothing:
+
+       sum_i c_i (f . grad) m_i = 0   at every point.
+
+   At as many random points as there are candidates, and thirty more, these are linear equations for c. They are solved
+   modulo a prime, so that there is no rounding: the rank is exact. A part of a formula that is not a polynomial, such as
+   1/r, is one more variable, whose rate is derived. A. Goriely, Integrability and Nonintegrability of Dynamical Systems
+   (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
+#include "core/model/invariants.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/model/elimination.h"
+#include "core/model/equations.h"
+
+enum { SPARE_POINTS = 30 };
+static const uint64_t FRESH = UINT64_C(1) << 40; /* the first point of a proof */
+
+/* A product of variables: the product `parent` times one more variable. Product 0 is 1. */
+struct candidate {
+    size_t parent, factor, degree;
+};
+
+/* An invariant that the system has a name for. */
+struct named {
+    const struct gm_system_item *item; /* NULL: H */
+    gm_node_id node;
+    gm_residue *values; /* [points] */
+};
+
+struct generator {
+    size_t degree;
+    const gm_residue *values;              /* [samples] */
+    const struct named *named;             /* or */
+    const struct gm_null_vector *combined; /* of kept candidates */
+};
+
+struct search {
+    struct gm_user_system *system;
+    struct gm_arena *arena;
+    size_t degree, n;
+    gm_node_id *variables, *slopes; /* components and parts, and their rates */
+    size_t variable_count;
+    struct candidate *candidates;
+    size_t count, points;
+    gm_residue **values, **slope_values; /* [points][count] */
+    size_t *kept, kept_count;            /* candidates that are independent as functions, but for 1 */
+    struct gm_null_vector *basis;        /* of all invariants, by rising degree */
+    size_t basis_count, samples;         /* points at which invariants differ */
+    struct named *named;
+    size_t named_count;
+    struct generator *generators;
+    size_t generator_count;
+};
+
+static void add_variable(struct search *search, gm_node_id node)
+{
+    for (size_t v = 0; v < search->variable_count; v++) {
+        if (search->variables[v] == node) {
+            return;
+        }
+    }
+    search->variables[search->variable_count++] = node;
+}
+
+/* Adds a function; sin goes with cos, sinh with cosh. */
+static void add_function(struct search *search, gm_node_id node)
+{
+    static const enum gm_operation pairs[][2] = {{GM_OPERATION_SIN, GM_OPERATION_COS},
+                                                 {GM_OPERATION_SINH, GM_OPERATION_COSH}};
+    struct gm_formula *graph = &search->system->graph;
+    const struct gm_node function = graph->nodes[node];
+    add_variable(search, node);
+    for (size_t i = 0; i < 4; i++) {
+        if (pairs[i / 2][i % 2] == function.operation) {
+            add_variable(search, gm_simplified(graph, pairs[i / 2][1 - i % 2], function.a, function.a));
+        }
+    }
+}
+
+/* The components, then the parts of H, or else of the rates, that are not polynomials: functions, and 1/b of a
+   quotient a/b. */
+static void find_variables(struct search *search)
+{
+    enum { FACTOR = 1, DIVISOR = 2 };
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const bool rates = system->kind == GM_RATES;
+    const gm_node_id *roots = rates ? system->rates : &system->energy;
+    size_t count = 0, root_count = rates ? system->n : 1;
+    gm_node_id *parts =
+        gm_arena_keep(search->arena, gm_formula_parts_of(graph, roots, root_count, &count), free);
+    unsigned *use = gm_arena_take(search->arena, graph->count, sizeof *use);
+    bool *components = gm_arena_take(search->arena, search->n, sizeof *components);
+    memset(components, true, search->n * sizeof *components);
+    const bool *moving =
+        gm_arena_keep(search->arena, gm_formula_dependent(graph, components, search->n), free);
+    search->variables = gm_arena_take(search->arena, search->n + 3 * count, sizeof *search->variables);
+    for (size_t i = 0; i < search->n; i++) {
+        add_variable(search, gm_formula_variable(graph, i));
+    }
+    for (size_t i = 0; i < root_count; i++) {
+        use[roots[i]] = FACTOR;
+    }
+    for (size_t k = count; k-- > 0 && !graph->failed;) {
+        const struct gm_node node = graph->nodes[parts[k]];
+        const unsigned here = use[parts[k]], turned = here / 2 + here % 2 * 2;
+        bool whole = true; /* a quotient has 1/node as a variable, not 1/factor */
+        switch (here && moving[parts[k]] ? node.operation : GM_CONSTANT) {
+        case GM_CONSTANT:
+            whole = false;
+            break;
+        case GM_VARIABLE:
+            break;
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            use[node.a] |= FACTOR;
+            use[node.b] |= FACTOR;
+            break;
+        case GM_OPERATION_MULTIPLY:
+        case GM_OPERATION_DIVIDE:
+            use[node.a] |= here;
+            use[node.b] |= node.operation == GM_OPERATION_DIVIDE ? turned : here;
+            whole = false;
+            break;
+        case GM_OPERATION_NEGATE:
+            use[node.a] |= here;
+            whole = false;
+            break;
+        case GM_OPERATION_WHOLE_POWER:
+            use[node.a] |= graph->nodes[node.b].value < 0 ? turned : here;
+            whole = false;
+            break;
+        default:
+            add_function(search, parts[k]);
+        }
+        if (whole && here & DIVISOR) {
+            add_variable(search,
+                         gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1), parts[k]));
+        }
+    }
+}
+
+/* The number of products of at most `degree` of the variables, but for 1. */
+static size_t count_candidates(size_t variables, size_t degree)
+{
+    size_t count = 1;
+    for (size_t d = 1; d <= degree && count <= 2 * GM_MOST_CANDIDATES; d++) {
+        count = count * (variables + d) / d;
+    }
+    return count - 1;
+}
+
+/* All products, by rising degree. */
+static void list_candidates(struct search *search)
+{
+    search->candidates =
+        gm_arena_take(search->arena, count_candidates(search->variable_count, search->degree) + 1,
+                      sizeof *search->candidates);
+    search->candidates[search->count++] = (struct candidate){0};
+    for (size_t degree = 1, first = 0; degree <= search->degree; degree++) {
+        const size_t end = search->count;
+        for (size_t parent = first; parent < end; parent++) {
+            for (size_t v = search->candidates[parent].factor; v < search->variable_count; v++) {
+                search->candidates[search->count++] = (struct candidate){parent, v, degree};
+            }
+        }
+        first = end;
+    }
+}
+
+/* Values at random points: of candidates, their slopes along the motion, and declared invariants. False: they do not
+   exist. */
+static bool take_values(struct search *search)
+{
+    struct gm_arena *arena = search->arena;
+    const size_t variables = search->variable_count, node_count = 2 * variables + search->named_count;
+    gm_node_id *nodes = gm_arena_take(arena, node_count, sizeof *nodes);
+    memcpy(nodes, search->variables, variables * sizeof *nodes);
+    memcpy(nodes + variables, search->slopes, variables * sizeof *nodes);
+    search->points = search->count + SPARE_POINTS;
+    for (size_t i = 0; i < search->named_count; i++) {
+        nodes[2 * variables + i] = search->named[i].node;
+        search->named[i].values = gm_arena_take(arena, search->points, sizeof(gm_residue));
+    }
+    struct gm_random_values random = gm_random_values_of(search->system, search->arena, nodes, node_count, 0);
+    search->values = gm_arena_take(arena, search->points, sizeof *search->values);
+    search->slope_values = gm_arena_take(arena, search->points, sizeof *search->slope_values);
+    for (size_t p = 0; p < search->points; p++) {
+        const gm_residue *at = gm_random_values_next(&random);
+        if (!at) {
+            return false;
+        }
+        gm_residue *value = gm_arena_take(arena, search->count, sizeof *value),
+                   *slope = gm_arena_take(arena, search->count, sizeof *slope);
+        value[0] = 1;
+        for (size_t i = 1; i < search->count; i++) {
+            const struct candidate *of = &search->candidates[i];
+            const gm_residue factor = at[search->variables[of->factor]];
+            value[i] = gm_residue_times(value[of->parent], factor);
+            slope[i] = gm_residue_fused(value[of->parent], at[search->slopes[of->factor]],
+                                        gm_residue_times(slope[of->parent], factor));
+        }
+        for (size_t i = 0; i < search->named_count; i++) {
+            search->named[i].values[p] = at[search->named[i].node];
+        }
+        search->values[p] = value;
+        search->slope_values[p] = slope;
+    }
+    return true;
+}
+
+/* Takes out candidates that as functions are combinations of earlier ones: r^2 = x^2 + y^2. */
+static void keep_independent(struct search *search)
+{
+    struct gm_echelon functions = gm_echelon_open(search->arena, search->count);
+    gm_residue *row = gm_arena_take(search->arena, search->count, sizeof *row);
+    const bool related = search->variable_count > search->n;
+    for (size_t p = 0; p < search->points && related; p++) {
+        memcpy(row, search->values[p], search->count * sizeof *row);
+        gm_echelon_add(&functions, row);
+    }
+    search->kept = gm_arena_take(search->arena, search->count, sizeof *search->kept);
+    for (size_t i = 1; i < search->count; i++) {
+        if (!related || functions.rows[i]) {
+            search->kept[search->kept_count++] = i;
+        }
+    }
+}
+
+/* Solves the equations for the coefficients. */
+static void solve(struct search *search)
+{
+    struct gm_echelon equations = gm_echelon_open(search->arena, search->kept_count);
+    gm_residue *row = gm_arena_take(search->arena, search->kept_count + 1, sizeof *row);
+    for (size_t p = 0; p < search->points; p++) {
+        for (size_t i = 0; i < search->kept_count; i++) {
+            row[i] = search->slope_values[p][search->kept[i]];
+        }
+        gm_echelon_add(&equations, row);
+    }
+    search->basis = gm_echelon_null_space(&equations, &search->basis_count);
+    search->samples = search->basis_count + 1 + SPARE_POINTS;
+}
+
+static size_t degree_of(const struct search *search, const struct gm_null_vector *vector)
+{
+    return search->candidates[search->kept[vector->last]].degree;
+}
+
+/* The values of an invariant at the samples. */
+static gm_residue *values_of(const struct search *search, const struct gm_null_vector *vector)
+{
+    gm_residue *values = gm_arena_take(search->arena, search->samples, sizeof *values);
+    for (size_t p = 0; p < search->samples; p++) {
+        for (size_t i = 0; i <= vector->last; i++) {
+            if (vector->entries[i]) {
+                values[p] =
+                    gm_residue_fused(vector->entries[i], search->values[p][search->kept[i]], values[p]);
+            }
+        }
+    }
+    return values;
+}
+
+/* Adds a copy of a row; `scratch` has room for one. */
+static bool add_copy(struct gm_echelon *echelon, const gm_residue *row, gm_residue *scratch)
+{
+    memcpy(scratch, row, echelon->columns * sizeof *scratch);
+    return gm_echelon_add(echelon, scratch);
+}
+
+/* Adds all products of a degree of generators from number `first` on, times products[degree]. */
+static void add_products(const struct search *search, struct gm_echelon *functions, size_t first,
+                         size_t degree, gm_residue **products)
+{
+    for (size_t g = first; g < search->generator_count; g++) {
+        const struct generator *generator = &search->generators[g];
+        if (generator->degree > degree) {
+            continue;
+        }
+        const size_t rest = degree - generator->degree;
+        for (size_t p = 0; p < search->samples; p++) {
+            products[rest][p] = gm_residue_times(products[degree][p], generator->values[p]);
+        }
+        if (rest > 0) {
+            add_products(search, functions, g, rest, products);
+        } else {
+            gm_echelon_add(functions, products[0]);
+        }
+    }
+}
+
+static int by_terms(const void *a, const void *b)
+{
+    const struct gm_null_vector *x = a, *y = b;
+    return x->terms != y->terms ? (x->terms > y->terms) - (x->terms < y->terms)
+                                : (x->last > y->last) - (x->last < y->last);
+}
+
+/* Generators degree by degree: first what the system has a name for, then what has the fewest terms, unless it is a
+   polynomial in earlier ones. */
+static void find_generators(struct search *search)
+{
+    struct gm_arena *arena = search->arena;
+    struct gm_echelon all = gm_echelon_open(arena, search->samples), /* invariants up to a degree */
+        reached = all;                                               /* polynomials in generators */
+    reached.rows = gm_arena_take(arena, search->samples + 1, sizeof *reached.rows);
+    gm_residue *products[GM_LARGEST_DEGREE + 1],
+        *scratch = gm_arena_take(arena, search->samples, sizeof *scratch),
+        *ones = gm_arena_take(arena, search->samples, sizeof *ones);
+    for (size_t d = 0; d <= search->degree; d++) {
+        products[d] = gm_arena_take(arena, search->samples, sizeof *products[d]);
+    }
+    for (size_t p = 0; p < search->samples; p++) {
+        ones[p] = 1;
+    }
+    add_copy(&all, ones, scratch);
+    add_copy(&reached, ones, scratch);
+    bool *used = gm_arena_take(arena, search->named_count + 1, sizeof *used);
+    search->generators = gm_arena_take(arena, search->basis_count + 1, sizeof *search->generators);
+    for (size_t degree = 1, first = 0, end = 0; degree <= search->degree; degree++, first = end) {
+        for (; end < search->basis_count && degree_of(search, &search->basis[end]) == degree; end++) {
+            add_copy(&all, values_of(search, &search->basis[end]), scratch);
+        }
+        memcpy(products[degree], ones, search->samples * sizeof *ones);
+        add_products(search, &reached, 0, degree, products);
+        for (size_t i = 0; i < search->named_count; i++) {
+            const gm_residue *values = search->named[i].values;
+            memcpy(scratch, values, search->samples * sizeof *scratch);
+            if (!used[i] && gm_echelon_reduce(&all, scratch) == search->samples) {
+                used[i] = true;
+                if (add_copy(&reached, values, scratch)) {
+                    search->generators[search->generator_count++] =
+                        (struct generator){.degree = degree, .values = values, .named = &search->named[i]};
+                }
+            }
+        }
+        qsort(search->basis + first, end - first, sizeof *search->basis, by_terms);
+        for (size_t i = first; i < end; i++) {
+            const gm_residue *values = values_of(search, &search->basis[i]);
+            if (add_copy(&reached, values, scratch)) {
+                search->generators[search->generator_count++] =
+                    (struct generator){.degree = degree, .values = values, .combined = &search->basis[i]};
+            }
+        }
+    }
+}
+
+/* A combination of candidates as a formula; GM_NO_NODE if its coefficients are not short fractions. */
+static gm_node_id formula_of(const struct search *search, const struct gm_null_vector *vector)
+{
+    struct gm_formula *graph = &search->system->graph;
+    double *coefficients = gm_arena_take(search->arena, search->kept_count, sizeof *coefficients);
+    gm_node_id sum = gm_formula_constant(graph, 0);
+    if (!gm_residues_whole(vector->entries, search->kept_count, coefficients)) {
+        return GM_NO_NODE;
+    }
+    for (size_t i = 0; i < search->kept_count; i++) {
+        if (coefficients[i] == 0) {
+            continue;
+        }
+        gm_node_id product = gm_formula_constant(graph, 1);
+        size_t factors[GM_LARGEST_DEGREE], count = 0; /* the last first */
+        for (size_t c = search->kept[i]; c > 0; c = search->candidates[c].parent) {
+            factors[count++] = search->candidates[c].factor;
+        }
+        while (count-- > 0) {
+            product = gm_product(graph, product, search->variables[factors[count]]);
+        }
+        product = gm_product(graph, gm_formula_constant(graph, coefficients[i]), product);
+        sum = gm_sum(graph, sum, product);
+    }
+    return sum;
+}
+
+/* The rank of `count` gradients at a random point. */
+static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t count)
+{
+    const size_t n = search->n;
+    struct gm_random_values random =
+        gm_random_values_of(search->system, search->arena, gradients, count * n, 0);
+    struct gm_echelon rows = gm_echelon_open(search->arena, n);
+    gm_residue *row = gm_arena_take(search->arena, n, sizeof *row);
+    size_t rank = 0;
+    const gm_residue *at = gm_random_values_next(&random);
+    for (size_t g = 0; g < count && at; g++) {
+        for (size_t i = 0; i < n; i++) {
+            row[i] = at[gradients[g * n + i]];
+        }
+        rank += gm_echelon_add(&rows, row);
+    }
+    return rank;
+}
+
+/* True if a node is 0 at fresh points of the field; and in doubles, where coefficients are what is printed. */
+static bool is_zero(struct search *search, gm_node_id node)
+{
+    struct gm_random_values random = gm_random_values_of(search->system, search->arena, &node, 1, FRESH);
+    bool zero = true;
+    for (int p = 0; p < SPARE_POINTS && zero; p++) {
+        const gm_residue *at = gm_random_values_next(&random);
+        zero = at && at[node] == 0;
+    }
+    const enum gm_identity found = zero ? gm_equations_vanishes(search->system, node) : GM_NOT_ZERO;
+    return found == GM_ZERO_PROVED || found == GM_ZERO_TESTED;
+}
+
+/* Writes and proves the generators. Those without a gradient are constants: exp(x - y) exp(y - x). */
+static void write_generators(struct search *search, struct gm_found_invariants *found)
+{
+    struct gm_formula *graph = &search->system->graph;
+    const size_t n = search->n;
+    gm_node_id *gradients = gm_arena_take(search->arena, search->generator_count * n + 1, sizeof *gradients);
+    found->list = gm_arena_take(search->arena, search->generator_count + 1, sizeof *found->list);
+    for (size_t g = 0; g < search->generator_count; g++) {
+        const struct generator *generator = &search->generators[g];
+        const struct named *named = generator->named;
+        const gm_node_id node = named ? named->node : formula_of(search, generator->combined);
+        gm_node_id *gradient = gradients + found->count * n;
+        if (node == GM_NO_NODE ||
+            !is_zero(search, gm_derivative_along(graph, node, search->system->rates, n))) {
+            found->unwritten++;
+            continue;
+        }
+        gm_arena_need(search->arena, gm_gradient(graph, node, NULL, n, gradient));
+        if (rank_of(search, gradient, 1) == 1) {
+            found->list[found->count++] = (struct gm_found_invariant){
+                named ? named->item : NULL, named && !named->item, node, generator->degree};
+        }
+    }
+    found->independent = rank_of(search, gradients, found->count);
+}
+
+/* H, and the invariants that were declared. */
+static void find_named(struct search *search)
+{
+    const struct gm_user_system *system = search->system;
+    search->named = gm_arena_take(search->arena, system->item_count + 1, sizeof *search->named);
+    if (system->kind != GM_RATES) {
+        search->named[search->named_count++].node = system->energy;
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        const gm_node_id node = gm_system_conserved(system, item);
+        if (node != GM_NO_NODE) {
+            search->named[search->named_count++] = (struct named){.item = item, .node = node};
+        }
+    }
+}
+
+/* The reason against a search, or NULL. */
+static const char *find_lack(const struct search *search)
+{
+    struct gm_user_system *system = search->system;
+    bool *all = gm_arena_take(search->arena, system->n, sizeof *all), kinked = false;
+    memset(all, true, system->n * sizeof *all);
+    if (gm_system_is_field(system)) {
+        return "it is a field";
+    }
+    if (system->kind == GM_LAGRANGIAN) {
+        return "a Lagrangian has no formulas of its rates; its H has";
+    }
+    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
+        return "it has constraints";
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        kinked |= gm_formula_kink(&system->graph, system->rates[i], all, system->n) != GM_NO_NODE;
+    }
+    return system->timed ? "its rates depend on the time" : kinked ? "it has min, max, abs or mod" : NULL;
+}
+
+void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
+                        struct gm_found_invariants *found)
+{
+    struct search search = {.system = system, .arena = arena, .n = system->n, .degree = degree};
+    *found = (struct gm_found_invariants){.lacks = find_lack(&search)};
+    if (found->lacks) {
+        return;
+    }
+    const size_t n = system->n;
+    find_variables(&search);
+    while (search.degree > 0 && count_candidates(search.variable_count, search.degree) > GM_MOST_CANDIDATES) {
+        search.degree--;
+    }
+    if (search.degree == 0) {
+        found->lacks = "it has more than 3000 components and parts";
+        return;
+    }
+    search.slopes = gm_arena_take(arena, search.variable_count, sizeof *search.slopes);
+    for (size_t v = 0; v < search.variable_count; v++) {
+        search.slopes[v] = gm_derivative_along(&system->graph, search.variables[v], system->rates, n);
+    }
+    find_named(&search);
+    list_candidates(&search);
+    if (!take_values(&search)) {
+        found->lacks = "it has too many roots";
+        return;
+    }
+    keep_independent(&search);
+    solve(&search);
+    find_generators(&search);
+    write_generators(&search, found);
+    found->degree = search.degree;
+    found->lowered = search.degree < degree;
+    found->candidates = search.count - 1;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Invariants that the equations of a system have, found and proved. */
+#ifndef GM_CORE_MODEL_INVARIANTS_H
+#define GM_CORE_MODEL_INVARIANTS_H
+
+#include "core/model/system.h"
+
+enum { GM_MOST_CANDIDATES = 3000, GM_LARGEST_DEGREE = 8 };
+
+struct gm_found_invariant {
+    const struct gm_system_item *item; /* the declared one; NULL: H, or found */
+    bool energy;                       /* H */
+    gm_node_id node;                   /* in the system's graph; what was found has whole coefficients */
+    size_t degree;                     /* in the components and in parts that are not polynomials */
+};
+
+/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. */
+struct gm_found_invariants {
+    size_t degree;     /* largest degree that was searched */
+    bool lowered;      /* a larger one was wanted; it has more than GM_MOST_CANDIDATES */
+    size_t candidates; /* products of components and parts */
+    struct gm_found_invariant *list;
+    size_t count, independent;
+    size_t unwritten;  /* further invariants: their coefficients are not short fractions */
+    const char *lacks; /* the reason why nothing was searched, in words; NULL: it was */
+};
+
+/* Finds the polynomial invariants up to a degree, for the system's values of parameters. Inside a body of the arena,
+   which is left when out of memory. The graph grows. */
+void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
+                        struct gm_found_invariants *found);
+
+#endif

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Invariants and affine symmetries that `list SYSTEM --invariants` finds: as many as the literature has, and each of
+them is checked here, with rates of its own and derivatives by complex steps.
+usage: invariants.py GEOMINT"""
+import cmath
+import json
+import re
+import subprocess
+import sys
+
+GEOMINT = sys.argv[1]
+STEP = 1e-30
+
+henon_heiles = "(p1^2 + p2^2)/2 + (q1^2 + q2^2)/2 + C*q1^2*q2 + D*q2^3/3"
+kepler = "(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2) - perturbation/(q1^2 + q2^2)"
+toda = "(p1^2 + p2^2 + p3^2)/2 + exp(q1 - q2) + exp(q2 - q3) + exp(q3 - q1)"
+top = {"Lx": "-mgl*y", "Ly": "mgl*x", "Lz": "0", "x": "Ly*z - Lz*y", "y": "Lz*x - Lx*z", "z": "Lx*y - Ly*x"}
+body = {"y1": "y2*y3*(1/I3 - 1/I2)", "y2": "y3*y1*(1/I1 - 1/I3)", "y3": "y1*y2*(1/I2 - 1/I1)"}
+axes = {"I1": 2, "I2": 1, "I3": 2 / 3}
+# name; H or rates; parameters; degree of the search; degrees of the generators; independent ones; symmetries.
+# A name of a bundled system is listed as it is, others are typed.
+TABLE = [
+    ("rigid-body", body, axes, 4, [2, 2], 2, 1),
+    ("rigid-body, typed", body, {"I1": 0.37, "I2": 1.13, "I3": 2.7}, 4, [2, 2], 2, 1),
+    ("henon-heiles", henon_heiles, {"C": 1, "D": -1}, 4, [3], 1, 0),
+    ("C = 1, D = 6", henon_heiles, {"C": 1, "D": 6}, 4, [3, 4], 2, 0),
+    ("C = D = 1", henon_heiles, {"C": 1, "D": 1}, 4, [3, 3], 2, 0),
+    ("C = 1, D = 5.9", henon_heiles, {"C": 1, "D": 5.9}, 4, [3], 1, 0),
+    ("oscillators 1:2", "(p1^2 + q1^2)/2 + (p2^2 + 4*q2^2)/2", {}, 3, [2, 2, 3, 3], 3, 4),
+    ("nearly 1:2", "(p1^2 + q1^2)/2 + (p2^2 + w*q2^2)/2", {"w": 4.0001}, 3, [2, 2], 2, 4),
+    ("cyclic", {"x": "x*(y - z)", "y": "y*(z - x)", "z": "z*(x - y)"}, {}, 4, [1, 3], 2, 1),
+    ("lorenz", {"x": "10*(y - x)", "y": "x*(28 - z) - y", "z": "x*y - 8/3*z"}, {}, 4, [], 0, 0),
+    ("van der Pol", {"x": "y", "y": "(1 - x^2)*y - x"}, {}, 5, [], 0, 0),
+    ("kepler", kepler, {"perturbation": 0}, 3, [2, 2, 3, 3], 3, 2),
+    ("kepler", kepler, {"perturbation": 0}, 4, [2, 2, 3, 3], 3, 2),
+    ("perturbed Kepler", kepler, {"perturbation": 0.01}, 4, [2, 2], 2, 1),
+    ("pendulum", "p1^2/2 - cos(q1)", {}, 4, [2], 1, 0),
+    ("cosh", "p1^2/2 + cosh(q1)", {}, 4, [2], 1, 0),
+    ("relativistic", "sqrt(1 + p1^2) + q1^2/2", {}, 4, [2], 1, 0),
+    ("Gauss's hill", "(p1^2 + p2^2)/2 + exp(-q1^2 - q2^2)", {}, 4, [2, 2], 2, 1),
+    ("toda", toda, {}, 3, [1, 2, 3], 3, 3),
+    ("toda", toda, {}, 4, [1, 2, 3], 3, 3),
+    ("heavy-top", top, {"mgl": 1, "I1": 1}, 4, [1, 2, 2, 2], 4, 2),
+    ("epidemic", {"s": "-s*i", "i": "s*i - i/2", "r": "i/2"}, {}, 4, [1], 1, None),
+    ("hunters", {"x": "x*(2 - y)", "y": "y*(x - 1)"}, {}, 4, [], 0, 0),
+    ("lotka-volterra", {"x": "x*(a - b*y)", "y": "y*(d*x - c)"}, {"a": 2, "b": 1, "c": 1, "d": 1}, 4, [1], 1, 0),
+]
+BUNDLED = {"rigid-body", "henon-heiles", "lorenz", "kepler", "heavy-top", "lotka-volterra"}
+
+failures = []
+
+
+def fail(text):
+    failures.append(text)
+    print(text)
+
+
+def run(*words):
+    return subprocess.run([GEOMINT, "list", *words], capture_output=True, text=True, check=False)
+
+
+def value(formula, names, y, parameters):
+    scope = {name: getattr(cmath, name) for name in ("sqrt", "exp", "log", "sin", "cos", "sinh", "cosh")}
+    scope.update(parameters)
+    scope.update(zip(names, y))
+    return eval(formula.replace("^", "**"), {"__builtins__": {}}, scope)
+
+
+def slope(function, y, direction):
+    """The derivative of a function along a direction, at a real point."""
+    return function([a + 1j * STEP * b for a, b in zip(y, direction)]).imag / STEP
+
+
+def names_and_rates(system, parameters):
+    """The components, and the rates as a function of a real point."""
+    if isinstance(system, dict):
+        return list(system), lambda y: [complex(value(f, system, y, parameters)).real for f in system.values()]
+    half = len(set(re.findall(r"q\d", system)))
+    names = [f"q{i + 1}" for i in range(half)] + [f"p{i + 1}" for i in range(half)]
+
+    def rates(y):
+        gradient = []
+        for i in range(2 * half):
+            unit = [float(k == i) for k in range(2 * half)]
+            gradient.append(slope(lambda x: value(system, names, x, parameters), y, unit))
+        return gradient[half:] + [-g for g in gradient[:half]]
+
+    return names, rates
+
+
+def words_of(name, system, parameters, names):
+    if name in BUNDLED:
+        return [name]
+    formulas = [f"rate={n} = {f}" for n, f in system.items()] if isinstance(system, dict) else ["H=" + system]
+    return ["system", *formulas, *[f"{k}={v}" for k, v in parameters.items()], *[f"{n}=.5" for n in names]]
+
+
+def check_symmetry(symmetry, names, rates, points):
+    """f'(y) Y - Y'(y) f = c f along the field Y, by differences of fourth order."""
+    parts = dict(part.split(" = ", 1) for part in re.split(r", (?=\w+ = )", symmetry["formula"]))
+
+    def field(y):
+        return [complex(value(parts.get(n, "0"), names, y, {})).real for n in names]
+
+    def along(function, y, direction, h=1e-3):
+        ends = [function([a + k * h * b for a, b in zip(y, direction)]) for k in (-2, -1, 1, 2)]
+        return [(a - 8 * b + 8 * c - d) / (12 * h) for a, b, c, d in zip(*ends)]
+
+    worst = 0
+    for y in points:
+        f = rates(y)
+        bracket = [a - b for a, b in zip(along(rates, y, field(y)), along(field, y, f))]
+        size = 1 + max(map(abs, f))
+        worst = max(worst, max(abs(b - symmetry["scaling"] * r) / size for b, r in zip(bracket, f)))
+    return worst < 1e-6
+
+
+for name, system, parameters, degree, degrees, independent, symmetries in TABLE:
+    names, rates = names_and_rates(system, parameters)
+    out = run(*words_of(name, system, parameters, names), "--invariants", "--degree", str(degree), "--json")
+    if out.returncode:
+        fail(f"{name}: {out.stderr}")
+        continue
+    found = json.loads(out.stdout)
+    invariants = found["invariants_found"]
+    got = [sorted(i["degree"] for i in invariants), found["invariants_independent"], found["degree"]]
+    if got != [degrees, independent, degree] or found["invariants_unwritten"]:
+        fail(f"{name}: {got}, not {[degrees, independent, degree]}")
+    if symmetries is not None and len(found["symmetries_found"]) != symmetries:
+        fail(f"{name}: {len(found['symmetries_found'])} symmetries, not {symmetries}")
+    points = [[0.3 + ((37 * (i + 1) * (k + 3)) % 101) / 80 for k in range(len(names))] for i in range(5)]
+
+    def is_constant(formula):
+        return all(
+            abs(slope(lambda x: complex(value(formula, names, x, parameters)), y, rates(y))) < 1e-12 * (1 + max(map(abs, y))) ** 6
+            for y in points
+        )
+
+    for invariant in invariants:
+        formula = invariant["formula"]
+        if invariant["proof"] != "exact" or not is_constant(formula):
+            fail(f"{name}: {formula} is not constant")
+        if is_constant(f"{formula} + 1e-6*({names[0]}*{names[-1]} + {names[0]}^3)"):
+            fail(f"{name}: a wrong formula passes the check")
+    for symmetry in found["symmetries_found"]:
+        if not check_symmetry(symmetry, names, rates, points):
+            fail(f"{name}: {symmetry['formula']} is no symmetry")
+
+named = [i["name"] for i in json.loads(run("kepler", "--invariants", "--json").stdout)["invariants_found"]]
+if named != ["H", "angular_momentum", None, None]:
+    fail(f"names of kepler: {named}")
+lowered = json.loads(run("toda", "--invariants", "--json").stdout)
+if lowered["degree"] != 3 or "degree 4 has more than 3000 candidates" not in run("toda", "--invariants").stdout:
+    fail("toda, five particles: the degree is not lowered, or not said to be")
+irrational = run("system", "H=(p1^2+w^2*q1^2)/2+(p2^2+4*w^2*q2^2)/2", "w=sqrt(2)", "q1=1", "q2=1", "p1=1", "p2=1",
+                 "--degree", "3", "--invariants")
+if "and 3 whose coefficients are not short fractions" not in irrational.stdout:
+    fail(f"irrational coefficients: {irrational.stdout}{irrational.stderr}")
+for words, sentence in [
+    (["kepler", "--invariants", "--degree", "9"], "--degree 9 is not a whole number from 1 to 8"),
+    (["kepler", "--degree", "3"], "--degree is that of --invariants, which is missing"),
+    (["rk4", "--invariants"], "--invariants are those of a system: list kepler --invariants"),
+    (["wave", "--invariants"], "not searched: it is a field"),
+    (["chain", "--invariants"], "not searched: it has constraints"),
+    (["duffing", "--invariants"], "not searched: its rates depend on the time"),
+    (["bowl", "--invariants"], "not searched: a Lagrangian has no formulas of its rates; its H has"),
+    (["system", "H=p^2/2+abs(q)", "q=1", "p=0", "--invariants"], "not searched: it has min, max, abs or mod"),
+    (["kepler", "--invariants", "--latex"], "each is a list of its own"),
+]:
+    out = run(*words)
+    if out.returncode != 1 or sentence not in out.stderr or out.stdout:
+        fail(f"{' '.join(words)}: {out.returncode}, {out.stderr}")
+
+print(f"{len(TABLE)} systems")
+sys.exit(1 if failures else 0)
