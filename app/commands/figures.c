@@ -37,7 +37,7 @@ struct series {
     struct gm_figure *user; /* user-defined systems, one per word */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes;             /* shared with the workers */
-    size_t most, count, next, made, printed; /* at most so many jobs and outcomes */
+    size_t most, count, next, made, printed; /* `most`: the length of both lists */
     struct worker workers[MOST_WORKERS];
     size_t worker_count;
     double started, page_written;
