@@ -126,10 +126,14 @@ static const struct gm_scheme *find_brought(const char *name, const struct gm_pr
 static const struct gm_scheme *find_row(const char *name, int (*compare)(const char *a, const char *b),
                                         const struct gm_problem *problem)
 {
-    const struct gm_scheme *scheme;
-    for (size_t i = 0; (scheme = gm_scheme_at(i)); i++) {
-        if (compare(scheme->name, name) == 0 && (!problem || gm_scheme_fits(scheme, problem))) {
-            return scheme;
+    for (size_t i = 0; i < KINDS; i++) {
+        for (const struct gm_family *const *family = kinds[i]->families; *family; family++) {
+            for (size_t k = 0; k < (*family)->count; k++) {
+                const struct gm_scheme *scheme = &(*family)->schemes[k];
+                if (compare(scheme->name, name) == 0 && (!problem || gm_scheme_fits(scheme, problem))) {
+                    return scheme;
+                }
+            }
         }
     }
     return NULL;

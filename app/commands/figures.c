@@ -36,8 +36,8 @@ struct series {
     struct gm_figure_output output;
     struct gm_figure *user; /* user-defined systems, one per word */
     struct gm_figure_job *jobs;
-    struct gm_outcome *outcomes; /* shared with the workers */
-    size_t count, next, made, printed;
+    struct gm_outcome *outcomes;             /* shared with the workers */
+    size_t most, count, next, made, printed; /* `most`: the length of both lists */
     struct worker workers[MOST_WORKERS];
     size_t worker_count;
     double started, page_written;
@@ -129,7 +129,7 @@ static void plan_user_figures(struct series *series, const struct gm_arguments *
 static void unmap_outcomes(void *data)
 {
     struct series *series = data;
-    munmap(series->outcomes, all_figures(series->options) * sizeof *series->outcomes);
+    munmap(series->outcomes, series->most * sizeof *series->outcomes);
 }
 
 static struct series *open_series(const struct gm_options *options)
@@ -138,6 +138,7 @@ static struct series *open_series(const struct gm_options *options)
     struct series *series = gm_arena_take(options->arena, 1, sizeof *series);
     *series = (struct series){
         .options = options,
+        .most = most,
         .output = {.folder = options->out ? options->out : ".",
                    .look = options->look,
                    .format = options->format,
@@ -157,7 +158,9 @@ static struct series *open_series(const struct gm_options *options)
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
         for (size_t f = 0; f < scene->figure_count; f++) {
-            if (wanted(options, scene->figures[f].name)) {
+            /* a file that was refused memory before may be read by now */
+            if (wanted(options, scene->figures[f].name) &&
+                series->count + (size_t)options->arguments.count < most) {
                 gm_figure_plan(&series->jobs[series->count++], scene, &scene->figures[f], options->quick);
             }
         }

@@ -404,8 +404,12 @@ static void print_schemes(const struct report *report)
         print_names(report, NULL);
     }
     if (report->system.kind == GM_FIELD) {
-        printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
-               gm_user_mesh_order(&report->wave));
+        if (report->wave.known) {
+            printf("\nand on a moving mesh, with exact means of V\n");
+        } else {
+            printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
+                   gm_user_mesh_order(&report->wave));
+        }
         print_names(report, &gm_kind_mesh);
     }
 }

@@ -64,8 +64,9 @@ enum gm_mesh_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPER
 void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
                    double bend);
 
-/* A field and its rate of change in time: value, slope and rate at x. */
-typedef void gm_mesh_profile(const void *context, double x, double *value, double *slope, double *rate);
+/* A field and its rate of change in time: values, slopes and rates at `count` places x. */
+typedef void gm_mesh_profile(const void *context, const double *x, size_t count, double *value, double *slope,
+                             double *rate);
 
 /* The facets of a problem on a moving mesh. */
 struct gm_moving_mesh {

@@ -107,8 +107,8 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
 static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                  const void *context)
 {
-    for (size_t k = 1; profile && k <= mesh->points; k++) {
-        profile(context, stage->x[k], &stage->y[k], &stage->u[k], &stage->v[k]);
+    if (profile) {
+        profile(context, stage->x + 1, mesh->points, stage->y + 1, stage->u + 1, stage->v + 1);
     }
     return gm_elements_measure(stage, mesh);
 }

@@ -122,9 +122,7 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
     bool good = true;
     if (kind == GM_MESH_UNIFORM || (mesh->alpha == 0 && mesh->curvature == 0)) {
         even(mesh, bench.stage.x);
-        for (size_t k = 1; k <= points; k++) {
-            profile(context, bench.stage.x[k], &bench.stage.y[k], &bench.stage.u[k], &bench.stage.v[k]);
-        }
+        profile(context, bench.stage.x + 1, points, bench.stage.y + 1, bench.stage.u + 1, bench.stage.v + 1);
     } else {
         good = refine(&bench, mesh, profile, context) &&
                gm_nodes_set_in_motion(&bench.stage, &bench.matrix, bench.change);
@@ -145,9 +143,8 @@ struct field {
     double *x, *y, *slope, *rate;
 };
 
-static void field_at(const void *context, double x, double *value, double *slope, double *rate)
+static void field_at(const struct field *field, double x, double *value, double *slope, double *rate)
 {
-    const struct field *field = context;
     size_t low = 0, high = field->count - 1;
     while (high - low > 1) {
         const size_t middle = (low + high) / 2;
@@ -163,6 +160,14 @@ static void field_at(const void *context, double x, double *value, double *slope
     *value = field->y[low] + s * s * (3 - 2 * s) * rise + s * r * (r * leave - s * arrive);
     *slope = (6 * s * r * rise + r * (1 - 3 * s) * leave + s * (3 * s - 2) * arrive) / d;
     *rate = r * field->rate[low] + s * field->rate[high];
+}
+
+static void fields_at(const void *context, const double *x, size_t count, double *value, double *slope,
+                      double *rate)
+{
+    for (size_t i = 0; i < count; i++) {
+        field_at(context, x[i], &value[i], &slope[i], &rate[i]);
+    }
 }
 
 static void slopes(const struct gm_elements *stage, double *slope)
@@ -212,7 +217,7 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
         for (size_t k = 0; k < points + 2; k++) {
             field.rate[k] = stage.u[k] - field.slope[k] * stage.v[k];
         }
-        good = gm_mesh_start(mesh, kind, field_at, &field, out);
+        good = gm_mesh_start(mesh, kind, fields_at, &field, out);
     }
     free(memory);
     gm_elements_close(&stage);

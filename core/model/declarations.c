@@ -607,7 +607,12 @@ bool gm_declared_relations(struct gm_reading *reading)
         gm_node_id node;
         if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end &&
             gm_reading_bound(reading, entry->value, &entry->bound, entry->element, &node)) {
-            system->variables[system->parameters + entry->number].start = node;
+            struct gm_system_variable *variable = &system->variables[system->parameters + entry->number];
+            variable->start = node;
+            /* half the length of the line is a key unless it follows from others */
+            variable->derived |= system->parameters + entry->number == system->velocities - 2 &&
+                                 gm_system_is_field(system) &&
+                                 system->graph.nodes[node].operation != GM_CONSTANT;
         }
     }
     return !reading->fault.failed;

@@ -985,7 +985,7 @@ static bool is_smooth(struct gm_user_system *system, const char *what, struct gm
                                           gm_operation_rows[system->graph.nodes[kink].operation].name));
 }
 
-/* Checks the variables in starts, exact solutions and densities of a field. */
+/* Checks the variables in starts, exact solutions, densities and numbers of a field. */
 static bool check_line(struct gm_user_system *system, size_t densities, struct gm_fault *fault)
 {
     const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
@@ -1005,6 +1005,17 @@ static bool check_line(struct gm_user_system *system, size_t densities, struct g
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             item->check = GM_UNTESTED;
             good = holds_only(system, item->nodes[0], in_density, n + densities, "a density", fault);
+        }
+        const char *const what = item->word == GM_WORD_ENDS ? "ends:" : "alpha:";
+        const bool constant = item->word == GM_WORD_ENDS || item->word == GM_WORD_ALPHA;
+        for (size_t k = 0; constant && k < item->count && good; k++) {
+            good = holds_only(system, item->nodes[k], NULL, 0, what, fault);
+        }
+        for (size_t k = 0; constant && k < item->option_count && good; k++) {
+            good = holds_only(system, item->options[k].node, NULL, 0, what, fault);
+        }
+        if (constant && !good) {
+            fault->offset = item->place; /* other lines may contain the variable too */
         }
     }
     return good && !system->graph.failed;

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/model/equations.h"
+
 /* The degree of a formula as a polynomial in variable 0; INFINITY if it is not written as one, or when out of
    memory. */
 static double degree_of(const struct gm_formula *graph, gm_node_id formula)
@@ -49,6 +51,32 @@ static double degree_of(const struct gm_formula *graph, gm_node_id formula)
     return degree;
 }
 
+static bool is_other_variable(struct gm_formula *graph, gm_node_id part, const void *unused)
+{
+    (void)unused;
+    return graph->nodes[part].operation == GM_VARIABLE && graph->nodes[part].a != 0;
+}
+
+/* Recognises a potential in u alone: another value of a parameter would make another one. */
+static enum gm_known_potential recognise(struct gm_user_system *system)
+{
+    struct gm_formula *graph = &system->graph;
+    const gm_node_id u = gm_formula_variable(graph, 0), one = gm_formula_constant(graph, 1),
+                     well = gm_difference(graph, gm_product(graph, u, u), one);
+    const gm_node_id known[] = {
+        [GM_POTENTIAL_SINE_GORDON] = gm_difference(graph, one, gm_simplified(graph, GM_OPERATION_COS, u, u)),
+        [GM_POTENTIAL_PHI4] =
+            gm_product(graph, gm_formula_constant(graph, 0.25), gm_product(graph, well, well))};
+    for (size_t i = GM_POTENTIAL_OWN + 1; i < sizeof known / sizeof *known && !graph->failed; i++) {
+        const gm_node_id rest = gm_difference(graph, system->energy, known[i]);
+        const enum gm_identity identity = graph->failed ? GM_UNTESTED : gm_equations_vanishes(system, rest);
+        if (identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED) {
+            return (enum gm_known_potential)i;
+        }
+    }
+    return GM_POTENTIAL_OWN;
+}
+
 /* With u at the start, f = V'(u), f' = V'', f'' = V''':
        u_tt   = u_xx - f
        u_ttt  = (u_t)_xx - f' u_t
@@ -87,11 +115,17 @@ bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *syste
         last = wave->by_u[k] = gm_system_derivative(system, last, 0);
     }
     wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->by_u[0]);
+    if (gm_formula_first(&system->graph, system->energy, is_other_variable, NULL) == GM_NO_NODE) {
+        wave->known = recognise(system);
+    }
+    const struct gm_system_item *known = gm_system_item_of(system, GM_WORD_EXACT_WHILE, 0);
+    wave->exact_while = known ? known->nodes[0] : GM_NO_NODE;
     wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
     if (!system->graph.failed) {
         derive_start(wave, system);
     }
     return !system->graph.failed && gm_system_place(system, wave->start, GM_TYPED_START) &&
            gm_system_place(system, &wave->start_slope, 1) &&
-           (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1));
+           (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1)) &&
+           (wave->exact_while == GM_NO_NODE || gm_system_place(system, &wave->exact_while, 1));
 }

@@ -812,12 +812,23 @@ static bool read_formula(struct gm_reading *reading, const struct gm_system_line
     return item && add_formula(reading, item, line->value);
 }
 
-static bool read_colours(struct gm_reading *reading, const struct gm_system_line *line)
+/* The values at both ends, of the colours or of the line. */
+static bool read_pair(struct gm_reading *reading, const struct gm_system_line *line)
 {
     struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    const char *word = gm_system_words[line->word].word;
     return item && add_formulas(reading, item, line->value) &&
            (item->count == 2 || gm_fail_first(&reading->fault, line->value.begin,
-                                              "two values are at the ends of the colours: colours: -1, 1"));
+                                              "%s: are two values, as in %s: -1, 1", word, word));
+}
+
+/* The weight of the slope in the density of a moving mesh. */
+static bool read_weight(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    struct gm_span rest = line->value, value;
+    gm_span_take(reading->text, &rest, ";", &value);
+    return item && add_formula(reading, item, value) && gm_options_read(reading, item, rest);
 }
 
 /* Names were read before. */

@@ -9,6 +9,7 @@
 #include "core/field/problems/burgers.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/heat.h"
+#include "scenes/common/system/pieces.h"
 #include "scenes/field/frames.h"
 #include "scenes/field/kind.h"
 #include "scenes/field/observed.h"
@@ -18,7 +19,7 @@ enum { MOST_NODES = 10000000 };
 /* Returns the grid from one end of the line to the other. */
 static struct gm_grid1 between_ends(const struct gm_system_lane *lane)
 {
-    const double half_length = gm_field_half_length(lane);
+    const double half_length = gm_system_half_length(lane);
     return (struct gm_grid1){.points = (size_t)lane->grid.points,
                              .dx = 2 * half_length / (double)(lane->grid.points - 1),
                              .first = -half_length};
@@ -241,7 +242,7 @@ static bool is_bounded(const struct gm_system_lane *lane, const struct gm_proble
     const struct gm_heat *of = gm_heat_of(problem);
     const double lambda = fabs(of->framed.lambda), most = 300;
     const double power = lambda / (4 * of->diffusivity) *
-                         (2 * gm_field_half_length(lane) + 3 * lambda * fmin(lane->timing.until, 1e6));
+                         (2 * gm_system_half_length(lane) + 3 * lambda * fmin(lane->timing.until, 1e6));
     return power <= most ||
            gm_refuse(
                sentence,

@@ -67,8 +67,9 @@ struct gm_user_field {
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     struct gm_user_equation equation;
-    bool elsewhere; /* schemes are asked for that are not for the usual kind of such a field */
-    bool solved;    /* an exact solution is known */
+    bool elsewhere;         /* schemes are asked for that are not for the usual kind of such a field */
+    bool written_elsewhere; /* the file's own schemes are not */
+    bool solved;            /* an exact solution is known */
     double resolutions[3], errors[3];
     double low, high; /* the range of u at the start */
 };
@@ -96,17 +97,6 @@ static inline const struct gm_user_line *gm_field_line(const struct gm_view *vie
     return view->problem->parameters;
 }
 
-/* Returns half the length of a lane's line. */
-static inline double gm_field_half_length(const struct gm_system_lane *lane)
-{
-    const struct gm_system_scene *owner = lane->owner;
-    size_t row = GM_SYSTEM_ROWS;
-    while (owner->variables[row] != owner->system.velocities - GM_RING_PARAMETERS) {
-        row++;
-    }
-    return lane->values[row - GM_SYSTEM_ROWS];
-}
-
 /* Returns the ring, or the grid between walls. */
 struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane);
 
@@ -120,7 +110,9 @@ struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane);
 
 /* Observables (observables.c). */
 
-/* Returns true if the exact solution holds at the view's time, as it does at the start. */
+/* Returns true if the exact solution holds at the view's time by the file's line exact-while. */
+bool gm_field_holds(const struct gm_view *view);
+/* The same, and at the start, which is exact on a ring. */
 bool gm_field_is_known(const struct gm_view *view);
 /* Returns the exact value of the first field; NaN if it is not known. */
 double gm_field_exact(const struct gm_view *view, double x);

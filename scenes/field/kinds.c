@@ -6,6 +6,7 @@
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/user/potential.h"
+#include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
 #include "scenes/field/observed.h"
 #include "scenes/mesh/observed.h"
@@ -62,14 +63,19 @@ static double crest(const struct gm_view *view)
     return gm_grid1_node(grid, top) + (bend < 0 ? grid->dx * (left - right) / (2 * bend) : 0);
 }
 
-struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane)
+/* The left end of the line, which the file may say. */
+static double left_of(const struct gm_system_lane *lane)
 {
     const struct gm_system_item *item = gm_system_item_of(&lane->owner->system, GM_WORD_HALF_LENGTH, 0);
+    const double usual = -gm_system_half_length(lane);
+    return item ? gm_system_option_number(item, GM_OPTION_LEFT, usual) : usual;
+}
+
+struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane)
+{
     struct gm_grid1 grid =
-        (lane->grid.walls ? between_walls : ring)(gm_field_half_length(lane), lane->grid.points);
-    if (item && gm_system_option(item, GM_OPTION_LEFT) && !lane->grid.walls) {
-        grid.first = gm_system_option_number(item, GM_OPTION_LEFT, 0);
-    }
+        (lane->grid.walls ? between_walls : ring)(gm_system_half_length(lane), lane->grid.points);
+    grid.first = lane->grid.walls ? grid.first : left_of(lane);
     return grid;
 }
 
@@ -122,8 +128,11 @@ const struct gm_field_kind gm_field_waves = {
 
 static bool open_mesh(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
 {
-    const struct gm_user_mesh mesh = {gm_field_half_length(lane), lane->grid.points, lane->grid.alpha,
-                                      (enum gm_mesh_density)lane->grid.density};
+    const struct gm_user_mesh mesh = {.first = left_of(lane),
+                                      .length = 2 * gm_system_half_length(lane),
+                                      .points = lane->grid.points,
+                                      .alpha = lane->grid.alpha,
+                                      .density = (enum gm_mesh_density)lane->grid.density};
     return gm_user_mesh_open(problem, &gm_user_field_of(lane)->wave, values, &mesh);
 }
 
@@ -168,7 +177,7 @@ static const struct gm_parameter mesh_rows[] = {
         .live = true),
     GM_REAL_ROW(
         GM_FIELD_LANE, grid.alpha, "alpha", "auto", 0, 1e6,
-        "weight of the field's slope in the mesh density; auto: 3/2 over the largest slope at the start, or π/10 of the "
+        "weight of the field's slope in the mesh density; auto: the file's, or else 3/2 over the largest slope at the start, or π/10 of the "
         "length over what u goes up and down there, whichever is less",
         .automatic = true),
     GM_CHOICE_ROW(

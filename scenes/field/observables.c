@@ -21,15 +21,20 @@ double gm_field_constant(const struct gm_view *view, size_t component)
                : 0;
 }
 
-bool gm_field_is_known(const struct gm_view *view)
+bool gm_field_holds(const struct gm_view *view)
 {
     const struct gm_system_scene *of_file = &gm_viewed_field(view)->of_file;
     const struct gm_system_item *item = gm_system_item_of(&of_file->system, GM_WORD_EXACT_WHILE, 0);
     double value = 1;
-    if (item && view->t != view->t0) {
+    if (item) {
         gm_system_values(&of_file->of_items[item - of_file->system.items], view, 0, &value);
     }
     return value > 0;
+}
+
+bool gm_field_is_known(const struct gm_view *view)
+{
+    return view->t == view->t0 || gm_field_holds(view);
 }
 
 double gm_field_solution_error(const struct gm_view *view)

@@ -69,21 +69,29 @@ static double shown_of(const struct gm_user_system *system)
     return item ? gm_system_option_number(item, GM_OPTION_SHOWN, 1) : 1;
 }
 
+/* Writes the ends of the colours that the file gives; false if it gives none. */
+static bool colours_of(const struct gm_user_field *field, const struct gm_view *view, double ends[2])
+{
+    const struct gm_system_scene *of_file = &field->of_file;
+    const struct gm_system_item *colours = gm_system_item_of(&of_file->system, GM_WORD_COLOURS, 0);
+    if (colours) {
+        gm_system_values(&of_file->of_items[colours - of_file->system.items], view, 0, ends);
+    }
+    return colours != NULL;
+}
+
 void gm_field_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_system_lane *lane = lanes[0]->parameters;
     const struct gm_user_field *field = gm_user_field_of(lane);
     const struct gm_system_scene *of_file = &field->of_file;
-    const struct gm_system_item *colours = gm_system_item_of(&of_file->system, GM_WORD_COLOURS, 0);
     const struct gm_view first = gm_lane_view(lanes[0]);
     double ends[2] = {field->low, field->high};
     if (field->kind->draw_frame && lane->grid.show == field->kind->frame_shown) {
         field->kind->draw_frame(lanes, count, picture);
         return;
     }
-    if (colours) {
-        gm_system_values(&of_file->of_items[colours - of_file->system.items], &first, 0, ends);
-    }
+    const bool colours = colours_of(field, &first, ends);
     /* of colours that the file names only symmetric ones are those of signs */
     const bool crosses = field->kind->by_matrices || ends[0] <= (colours ? -1 : -0.2) * ends[1];
     const double most = fmax(fabs(ends[0]), fabs(ends[1])), margin = colours ? 0 : 0.1 * (ends[1] - ends[0]);
@@ -96,7 +104,7 @@ void gm_field_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
         .high = crosses ? most + margin : ends[1] + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
         .show = lane->grid.show,
-        .reach = gm_field_half_length(lane) * shown_of(&of_file->system),
+        .reach = gm_system_half_length(lane) * shown_of(&of_file->system),
     };
     const char *beyond = "";
     bool boosted = false;
@@ -134,20 +142,35 @@ void gm_field_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
 
 void gm_field_draw_mesh(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
+    static const char *const titles[] = {[GM_MESH_ALL] = "%s",
+                                         [GM_MESH_FIELD] = "%s",
+                                         [GM_MESH_PATHS] = "%s: the paths",
+                                         [GM_MESH_ENERGY] = "%s: the energy",
+                                         [GM_MESH_CONVERGENCE] = "%s: what moving the mesh gains"};
     const struct gm_user_field *field = gm_user_field_of(lanes[0]->parameters);
-    const size_t nodes = gm_user_mesh_order(&field->wave);
+    const enum gm_mesh_view show =
+        (enum gm_mesh_view)((const struct gm_system_lane *)lanes[0]->parameters)->grid.show;
+    const struct gm_view first = gm_lane_view(lanes[0]);
+    const char *subtitle = gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, ""),
+               *means = field->wave.known ? "exact means of V"
+                                          : gm_picture_text(picture, "means of V by %zu of Gauss’s points",
+                                                            gm_user_mesh_order(&field->wave));
+    double ends[2] = {field->low, field->high};
+    const bool given = colours_of(field, &first, ends);
     struct gm_mesh_look look = {
-        .show = (enum gm_mesh_view)((const struct gm_system_lane *)lanes[0]->parameters)->grid.show,
-        .front = gm_picture_text(picture, "means of V by %zu of Gauss’s points", nodes),
+        .show = show,
+        .front = subtitle[0] ? subtitle : means,
         .name = field->of_file.system.variables[0].name,
-        .scale = GM_LINEAR,
-        .low = field->low,
-        .high = field->high,
+        .scale = field->wave.known == GM_POTENTIAL_SINE_GORDON ? GM_PI : GM_LINEAR,
+        .low = ends[0],
+        .high = ends[1],
     };
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && !given; i++) {
         widen(&look.low, &look.high, 5 * highest_of(field), gm_lane_view(lanes[i]).state,
               lanes[i]->problem.n / 4);
     }
-    picture->title = field->of_file.scene.title;
+    const char *title =
+        gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, field->of_file.scene.title);
+    picture->title = gm_picture_text(picture, titles[show], title);
     gm_mesh_draw(lanes, count, picture, &look);
 }

@@ -9,7 +9,8 @@
 #include "scenes/common/system/texts.h"
 #include "scenes/field/kind.h"
 
-enum { SAMPLES = 4096 }; /* points at which a start is examined */
+/* points at which a start is examined on a ring, and cells under a moving mesh */
+enum { SAMPLES = 4096, CELLS = 1024 };
 
 void gm_field_start(const void *parameters, const struct gm_problem *problem, double *y)
 {
@@ -28,12 +29,24 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const struct gm_system_lane *lane = parameters;
     struct gm_mesh mesh;
     moving->describe(problem, &mesh);
-    return gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y) ||
-           gm_refuse(
-               sentence,
-               "no mesh of %ld nodes was found for alpha = %g: the homotopy from the uniform mesh fails; a "
-               "smaller alpha helps",
-               lane->grid.points, lane->grid.alpha);
+    if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
+        return true;
+    }
+    const char *name = lane->owner->system.variables[0].name;
+    double u, slope, rate;
+    moving->start(problem->parameters, &mesh.first, 1, &u, &slope, &rate);
+    if (fabs(u - mesh.left) > 0.01) {
+        /* the jump at the end is narrower than any cell */
+        return gm_refuse(sentence,
+                         "no mesh was found: a line of length %g cuts the start off, where %.60s is %.4g at "
+                         "x = %g and the end holds %.4g",
+                         mesh.length, name, u, mesh.first, mesh.left + 0.);
+    }
+    return gm_refuse(
+        sentence,
+        "no mesh of %ld nodes was found for alpha = %g, where the slope of %.60s is up to %.4g: the "
+        "homotopy from the uniform mesh fails; a smaller alpha helps",
+        lane->grid.points, gm_user_mesh_alpha(problem), name, mesh.steepest);
 }
 
 /* Notes the weight of the slope if the start chose it. */
@@ -46,16 +59,18 @@ double *gm_field_start_on(const struct gm_system_lane *lane, const struct gm_pro
                           struct gm_grid1 *grid)
 {
     const bool moves = gm_user_field_of(lane)->kind == &gm_field_moving_waves;
-    const double half = gm_field_half_length(lane);
-    *grid = moves ? (struct gm_grid1){.points = SAMPLES, .dx = 2 * half / SAMPLES, .first = -half}
-                  : problem->line;
-    grid->points += moves;
-    double *y = malloc((moves ? grid->points : problem->n) * sizeof *y), slope, rate;
-    if (y && !moves) {
-        gm_field_start(lane, problem, y);
+    *grid = problem->line;
+    if (moves) {
+        struct gm_mesh mesh;
+        gm_moving_mesh_of(problem)->describe(problem, &mesh);
+        *grid = (struct gm_grid1){.points = CELLS + 1, .dx = mesh.length / CELLS, .first = mesh.first};
     }
-    for (size_t i = 0; y && moves && i < grid->points; i++) {
-        gm_moving_mesh_of(problem)->start(problem->parameters, gm_grid1_node(grid, i), &y[i], &slope, &rate);
+    const struct gm_user_line *line = problem->parameters; /* first in those of every field */
+    double *y = malloc((moves ? line->start.outputs * grid->points : problem->n) * sizeof *y);
+    if (y && moves) {
+        gm_user_line_start(line, grid, y);
+    } else if (y) {
+        gm_field_start(lane, problem, y);
     }
     return y;
 }
@@ -69,16 +84,27 @@ static bool begins_exactly(const struct gm_view *view, const struct gm_grid1 *gr
     for (size_t i = 0; i < gm_line_components(&field->of_file.system) * grid->points; i++) {
         largest = fmax(largest, fabs(view->state[i]));
     }
+    const struct gm_user_line *line = gm_field_line(view);
+    double places[2 * GM_LINE_ROOM], values[GM_LINE_BLOCK], constants[GM_MOST_OF_MATRICES];
     for (size_t c = 0; c < gm_line_components(&field->of_file.system); c++) {
-        const double constant = gm_field_constant(view, c);
-        for (size_t i = 0; i < gm_grid1_seen(grid); i += apart) {
-            const double x = gm_grid1_node(grid, i), begin = view->state[c * grid->points + i],
-                         exact = gm_user_line_exact(gm_field_line(view), c, x, gm_field_line(view)->begin) +
-                                 constant;
+        constants[c] = gm_field_constant(view, c);
+    }
+    for (size_t first = 0, some; first < gm_grid1_seen(grid); first += some * apart) {
+        for (some = 0; some < GM_LINE_ROOM && first + some * apart < gm_grid1_seen(grid); some++) {
+            places[some] = gm_grid1_node(grid, first + some * apart);
+        }
+        for (size_t i = 0; i < some; i++) {
+            places[some + i] = line->begin;
+        }
+        gm_tape_values(&line->exact, places, values, some);
+        for (size_t i = 0; i < some * gm_line_components(&field->of_file.system); i++) {
+            const size_t c = i / some;
+            const double begin = view->state[c * grid->points + first + i % some * apart],
+                         exact = values[i] + constants[c];
             if (!(fabs(exact - begin) <= 1e-3 * largest)) {
                 return gm_refuse(sentence,
                                  "exact: %.60s would begin at %.6g where x = %.6g, and it starts at %.6g",
-                                 field->of_file.system.variables[c].name, exact, x, begin);
+                                 field->of_file.system.variables[c].name, exact, places[i % some], begin);
             }
         }
     }
@@ -128,12 +154,18 @@ static bool check_start(const struct gm_system_lane *lane, const struct gm_probl
     if (field->kind->closes && !field->kind->closes(problem, sentence, GM_MESSAGE)) {
         return false;
     }
+    if (field->kind->closes && field->kind != &gm_field_waves && !lane->owner->scene.words) {
+        return true; /* the program's own files begin with their exact solutions */
+    }
     double *y = gm_field_start_on(lane, problem, &grid);
-    const struct gm_view view = {.problem = problem, .parameters = lane, .state = y};
+    const double t0 = gm_field_t0(lane);
+    const struct gm_view view = {
+        .problem = problem, .parameters = lane, .state = y, .start = y, .t0 = t0, .t = t0};
     const bool written =
         field->of_file.system.variables[0].start_place > 0; /* else it is the exact solution */
     const bool good = y ? (field->kind->closes || is_finite(field, problem, y, sentence)) &&
-                              (!field->solved || !written || begins_exactly(&view, &grid, sentence)) &&
+                              (!field->solved || !written || !gm_field_holds(&view) ||
+                               begins_exactly(&view, &grid, sentence)) &&
                               (field->kind != &gm_field_waves ||
                                has_levels(problem, field->of_file.system.variables[0].name, y, sentence))
                         : gm_refuse(sentence, "not enough memory");
@@ -156,8 +188,10 @@ bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *se
     bool good = kind->open(problem, lane, values) || gm_refuse(sentence, "not enough memory");
     problem->name = lane->owner->scene.name;
     free(values);
+    /* the program's own files are right: values that are typed may be wrong */
+    const bool trusted = lane == lane->owner->initial && !lane->owner->scene.words;
     good = good && (!kind->admits || kind->admits(lane, problem, sentence)) &&
-           check_start(lane, problem, sentence);
+           (trusted || check_start(lane, problem, sentence));
     if (!good) {
         kind->close(problem);
     }

@@ -17,6 +17,7 @@
 
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/model/scope.h"
 #include "core/schemes.h"
@@ -74,9 +75,11 @@ static void make_rows(struct gm_user_field *field)
     const struct gm_field_kind *kind = field->kind;
     struct gm_arena *arena = field->arena;
     const double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
-    /* a moving mesh needs fewer nodes */
+    /* a moving mesh needs fewer nodes than a ring, for which a file of other schemes gives them */
     const double half_length = values[system->velocities - 2], grid = values[system->velocities - 1],
-                 points = kind == &gm_field_moving_waves ? fmax(1, floor(grid / 4)) : grid;
+                 points = kind == &gm_field_moving_waves && !field->written_elsewhere
+                              ? fmax(1, floor(grid / 4))
+                              : grid;
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
     struct gm_parameter common[MOST_ROWS];
     memcpy(common, kind->rows, kind->row_count * sizeof *common);
@@ -91,9 +94,11 @@ static void make_rows(struct gm_user_field *field)
     }
     gm_arena_need(arena, gm_system_make_rows(of_file, timing, common, kind->row_count, false));
     struct gm_parameter *last = &of_file->rows[of_file->row_count - 1];
-    last->lowest = 0.01;
-    last->highest = 1e5;
-    last->logarithmic = true;
+    if (of_file->variables[of_file->row_count - 1] == system->velocities - GM_RING_PARAMETERS) {
+        last->lowest = 0.01; /* half the length, unless it follows from other keys */
+        last->highest = 1e5;
+        last->logarithmic = true;
+    }
     for (size_t i = GM_SYSTEM_ROWS; i < of_file->row_count; i++) {
         for (size_t k = 0; k < kind->row_count; k++) {
             if (strcmp(common[k].key, of_file->rows[i].key) == 0) {
@@ -136,7 +141,7 @@ static void add_errors(struct gm_user_field *field)
     const struct gm_system_item *known = gm_system_item_of(&field->of_file.system, GM_WORD_EXACT_WHILE, 0);
     for (size_t i = 0; i < field->kind->error_count; i++) {
         struct gm_observable *row = add(field, field->kind->errors[i]);
-        row->missing = known && field->kind != &gm_field_moving_waves ? known->text : row->missing;
+        row->missing = known && !row->missing ? known->text : row->missing;
     }
 }
 
@@ -189,7 +194,11 @@ static void make_observables(struct gm_user_field *field)
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
-    const struct gm_hook *hook = field->kind == &gm_field_waves ? of_file->hook : NULL;
+    const bool moves = field->kind == &gm_field_moving_waves;
+    const struct gm_hook *hook =
+        of_file->hook && (moves || field->kind == &gm_field_waves) && of_file->hook->on_moving_mesh == moves
+            ? of_file->hook
+            : NULL;
     const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
     const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
     for (size_t i = 0; !field->kind->equation && i < row_count; i++) {
@@ -209,12 +218,11 @@ static void make_observables(struct gm_user_field *field)
 
 static void make_schemes(struct gm_user_field *field, const struct gm_problem *problem)
 {
-    size_t count, others;
+    size_t count;
     char sentence[GM_MESSAGE];
     const char *text = field->of_file.system.texts[GM_WORD_SCHEMES];
-    const bool elsewhere = gm_user_field_elsewhere(field->of_file.system.kind, text, &others) > 0;
-    if (!gm_written_schemes(elsewhere == field->elsewhere ? text : NULL, problem, field->of_file.schemes,
-                            GM_MOST_PREFERRED, &count, sentence)) {
+    if (!gm_written_schemes(field->written_elsewhere == field->elsewhere ? text : NULL, problem,
+                            field->of_file.schemes, GM_MOST_PREFERRED, &count, sentence)) {
         gm_arena_refuse(field->arena, "%s", sentence);
     }
     field->of_file.scene.schemes = count > 0 ? field->of_file.schemes : field->kind->schemes;
@@ -230,7 +238,7 @@ static void make_work(struct gm_user_field *field)
     const double points = (double)initial->grid.points;
     struct gm_work *work = &field->of_file.work;
     *work = (struct gm_work){
-        .arguments = "", .coarsest = gm_field_half_length(initial) / points * 2, .halvings = 5};
+        .arguments = "", .coarsest = gm_system_half_length(initial) / points * 2, .halvings = 5};
     if (field->solved) {
         work->measure = "solution_error";
     } else if (field->kind == &gm_field_moving_waves) {
@@ -358,6 +366,7 @@ static void close_problem(void *thing)
 
 static bool derive(struct gm_user_field *field)
 {
+    const unsigned long before = gm_memory_refusals();
     switch (field->of_file.system.kind) {
     case GM_EVOLUTION:
         return field->kind != &gm_field_evolutions ||
@@ -365,7 +374,7 @@ static bool derive(struct gm_user_field *field)
     case GM_MATRICES:
         return gm_user_form_derive(&field->form, &field->of_file.system);
     default:
-        return gm_user_wave_derive(&field->wave, &field->of_file.system);
+        return gm_user_wave_derive(&field->wave, &field->of_file.system) && gm_memory_refusals() == before;
     }
 }
 
@@ -386,6 +395,9 @@ static void make(struct gm_arena *arena, void *data)
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     field->elsewhere = making->elsewhere;
+    size_t others;
+    field->written_elsewhere =
+        gm_user_field_elsewhere(system->kind, system->texts[GM_WORD_SCHEMES], &others) > 0;
     gm_arena_need(arena, gm_user_equation_derive(&field->equation, system));
     size_t known = 0;
     while (known < GM_COUNT(of_equations) && of_equations[known].kind->equation != field->equation.needs) {
@@ -458,7 +470,7 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, making, close_problem);
     make_observables(field);
     make_schemes(field, &making->problem);
-    if (moves || !gm_system_item_of(system, GM_WORD_COLOURS, 0)) {
+    if (!gm_system_item_of(system, GM_WORD_COLOURS, 0)) {
         find_range(field, &making->problem);
     }
     make_work(field);

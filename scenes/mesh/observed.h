@@ -25,7 +25,7 @@ double gm_view_factorisations(const struct gm_view *view);
 
 /* The first rows need an exact solution, the others do not. */
 #define GM_MESH_ERRORS                                                                                       \
-    GM_LOG_OBSERVABLE("solution_error", gm_view_mesh_error, "error  max |φ − exact| at the nodes"),          \
+    GM_LOG_OBSERVABLE("solution_error", gm_view_mesh_error, "error  max |u − exact| at the nodes"),          \
         GM_OBSERVABLE("lead", gm_view_lead, "time ahead of the exact solution",                              \
                       .missing = "no shift in time brings the exact solution near")
 #define GM_MESH_ENERGIES                                                                                     \

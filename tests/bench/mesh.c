@@ -10,10 +10,10 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/bench/timing.h"
+#include "tests/common/mesh_soliton.h"
 
 /* Microseconds a step, the median over the runs; negative if the run failed. */
 static double measure(const char *name, long points, long steps, int runs)

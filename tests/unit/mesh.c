@@ -16,9 +16,9 @@
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
 #include "core/mesh/families/families.h"
-#include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/mesh_soliton.h"
 #include "tests/common/reference.h"
 
 static const struct gm_settings settings = {0};

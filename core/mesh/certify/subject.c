@@ -11,12 +11,41 @@
 
 static const struct gm_settings settings = {0};
 
-bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points)
+/* One sine-Gordon soliton in the middle of a box, 4 arctan(exp(gamma (x - v t))). */
+static const double velocity = 0.5, length = 12;
+
+static double lorentz(void)
 {
-    subject->soliton =
-        (struct gm_soliton){.solitons = 1, .points = points, .velocity = 0.5, .length = 12, .alpha = 1};
-    struct gm_problem problem;
-    gm_soliton_problem(&subject->soliton, &problem);
+    return 1 / sqrt((1 - velocity) * (1 + velocity));
+}
+
+static void profile(const void *unused, const double *x, size_t count, double *value, double *slope,
+                    double *rate)
+{
+    const double gamma = lorentz();
+    (void)unused;
+    for (size_t i = 0; i < count; i++) {
+        const double from_middle = gamma * (x[i] - length / 2);
+        value[i] = 4 * atan(exp(from_middle));
+        slope[i] = 2 * gamma / cosh(from_middle);
+        rate[i] = -velocity * slope[i];
+    }
+}
+
+static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
+{
+    *mesh = (struct gm_mesh){.points = problem->n / 4,
+                             .length = length,
+                             .right = 2 * M_PI,
+                             .potential = &gm_potential_sine_gordon};
+    gm_mesh_weigh(mesh, GM_ARCLENGTH, 1, 2 * lorentz(), 4 * lorentz() * lorentz());
+}
+
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points)
+{
+    static const struct gm_moving_mesh soliton = {.describe = describe, .start = profile};
+    const struct gm_problem problem = {
+        .name = "soliton", .n = 4 * points, .m = 1, .kind = &gm_kind_mesh, .facets = &soliton};
     return gm_mesh_subject_open_on(subject, scheme, &problem);
 }
 

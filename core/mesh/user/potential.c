@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <gsl/gsl_integration.h>
 
@@ -16,7 +17,7 @@
 #include "core/memory.h"
 #include "core/user/line.h"
 
-enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096 };
+enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
 
 struct own {
     struct gm_user_line line; /* first; starts are u, u_t, u_x */
@@ -26,6 +27,8 @@ struct own {
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
     struct gm_tape means /* V, V' */, bend /* V'' */, forces /* V', V'', V''' */;
+    struct gm_tape
+        known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
 
 static const struct own *own_of(const struct gm_potential *potential)
@@ -109,49 +112,95 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
     *mesh = ((const struct own *)problem->parameters)->mesh;
 }
 
-static void start(const void *parameters, double x, double *value, double *slope, double *rate)
+static void start(const void *parameters, const double *x, size_t count, double *value, double *slope,
+                  double *rate)
 {
-    double of[3];
-    gm_tape_values(&((const struct own *)parameters)->line.start, &x, of, 1);
-    *value = of[0];
-    *rate = of[1];
-    *slope = of[2];
+    double of[3 * GM_LINE_ROOM];
+    for (size_t from = 0, some; from < count; from += some) {
+        some = count - from < GM_LINE_ROOM ? count - from : GM_LINE_ROOM;
+        gm_tape_values(&((const struct own *)parameters)->line.start, x + from, of, some);
+        memcpy(value + from, of, some * sizeof *of);
+        memcpy(rate + from, of + some, some * sizeof *of);
+        memcpy(slope + from, of + 2 * some, some * sizeof *of);
+    }
 }
 
 static double exact(const void *parameters, double x, double t)
 {
-    return gm_user_line_exact(parameters, 0, x, t);
+    const struct gm_tape *known = &((const struct own *)parameters)->known;
+    const double place[] = {x, t};
+    double holds = 1;
+    if (known->outputs > 0) {
+        gm_tape_values(known, place, &holds, 1);
+    }
+    return holds > 0 ? gm_user_line_exact(parameters, 0, x, t) : NAN;
 }
 
 static const struct gm_moving_mesh facets = {.describe = describe, .start = start, .exact = exact};
 
-/* The density of the mesh, as steep as the start is. */
-static void weigh(struct own *self, const struct gm_user_mesh *chosen)
+/* The line as a grid of this many cells from end to end. */
+static struct gm_grid1 cells_of(const struct gm_mesh *mesh, size_t count)
 {
-    struct gm_mesh *mesh = &self->mesh;
-    double variation = 0, steepest = 0, strongest = 0, before = mesh->left;
-    for (int i = 0; i <= SAMPLES; i++) {
-        double u, slope, rate, at[3];
-        start(self, mesh->first + mesh->length * i / SAMPLES, &u, &slope, &rate);
-        force(&self->functions, u, at);
-        variation += fabs(u - before);
-        steepest = fmax(steepest, fabs(slope));
-        strongest = fmax(strongest, fabs(at[0]));
-        before = u;
+    return (struct gm_grid1){.points = count + 1, .dx = mesh->length / (double)count, .first = mesh->first};
+}
+
+/* The start: the total variation of u, its largest slope, and the largest force. */
+struct extent {
+    double variation, slope, force;
+};
+
+static struct extent extent_of(const struct own *self)
+{
+    const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
+    struct extent of = {0};
+    double values[GM_LINE_BLOCK], before = self->mesh.left, at[3];
+    for (size_t from = 0, some; from < grid.points; from += some) {
+        some = gm_user_line_block(&self->line, &grid, from, values);
+        for (size_t i = 0; i < some; i++) {
+            self->mesh.potential->force(self->mesh.potential, values[i], at);
+            of.variation += fabs(values[i] - before);
+            of.slope = fmax(of.slope, fabs(values[2 * some + i]));
+            of.force = fmax(of.force, fabs(at[0]));
+            before = values[i];
+        }
     }
-    /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
-       drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
-       rise of 2 pi in a box of 25 */
-    const double usual =
-        variation > 0 && steepest > 0 ? fmin(1.5 / steepest, M_PI / 10 * mesh->length / variation) : 0;
-    self->alpha = isnan(chosen->alpha) ? usual : chosen->alpha;
-    gm_mesh_weigh(mesh, chosen->density, self->alpha, steepest > 0 ? steepest : 1,
-                  strongest > 0 ? steepest * steepest / strongest : 0);
+    return of;
+}
+
+/* Sets the density of the mesh, by the file's line alpha:, or else as steep as the start is. */
+static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const double *values)
+{
+    const struct gm_user_system *system = self->line.system;
+    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
+    const struct gm_system_option *steepest = item ? gm_system_option(item, GM_OPTION_STEEPEST) : NULL,
+                                  *bend = item ? gm_system_option(item, GM_OPTION_BEND) : NULL;
+    double alpha = NAN, slope = NAN, curvature = NAN;
+    if (!steepest || !bend) {
+        const struct extent of = extent_of(self);
+        /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
+           drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
+           rise of 2 pi in a box of 25 */
+        alpha = of.variation > 0 && of.slope > 0
+                    ? fmin(1.5 / of.slope, M_PI / 10 * self->mesh.length / of.variation)
+                    : 0;
+        slope = of.slope > 0 ? of.slope : 1;
+        curvature = of.force > 0 ? of.slope * of.slope / of.force : 0;
+    }
+    if ((item && !gm_user_line_numbers(system, item->nodes, 1, values, &alpha)) ||
+        (steepest && !gm_user_line_numbers(system, &steepest->node, 1, values, &slope)) ||
+        (bend && !gm_user_line_numbers(system, &bend->node, 1, values, &curvature))) {
+        return false;
+    }
+    self->alpha = isnan(chosen->alpha) ? alpha : chosen->alpha;
+    gm_mesh_weigh(&self->mesh, chosen->density, self->alpha, slope, curvature);
+    return true;
 }
 
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen)
 {
+    static const struct gm_potential *const known[] = {
+        [GM_POTENTIAL_SINE_GORDON] = &gm_potential_sine_gordon, [GM_POTENTIAL_PHI4] = &gm_potential_phi4};
     struct own *self = calloc(1, sizeof *self);
     *problem = (struct gm_problem){.name = "wave equation",
                                    .n = 4 * (size_t)chosen->points,
@@ -163,26 +212,33 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
         return false;
     }
     const struct gm_formula *graph = &wave->system->graph;
+    const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
     const gm_node_id means[] = {wave->system->energy, wave->by_u[0]},
                      begin[] = {wave->start[0], wave->start[1], wave->start_slope};
     self->functions = (struct gm_potential){.name = "own", .first = first, .second = second, .force = force};
     self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
-                                  .first = -chosen->half_length,
-                                  .length = 2 * chosen->half_length,
-                                  .potential = &self->functions};
+                                  .first = chosen->first,
+                                  .length = chosen->length,
+                                  .potential = wave->known ? known[wave->known] : &self->functions};
     self->nodes = gm_user_mesh_order(wave);
     if (!gm_memory_guard_gsl(set_rule, self) ||
         !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
         !gm_tape_open(&self->forces, graph, wave->by_u, GM_COUNT(wave->by_u), 1, values) ||
+        (wave->exact_while != GM_NO_NODE &&
+         !gm_tape_open(&self->known, graph, &wave->exact_while, 1, 2, values)) ||
         !gm_user_line_open(&self->line, wave->system, begin, GM_COUNT(begin), &wave->exact, values)) {
         return false;
     }
-    double slope, rate;
-    start(self, self->mesh.first, &self->mesh.left, &slope, &rate);
-    start(self, chosen->half_length, &self->mesh.right, &slope, &rate);
-    weigh(self, chosen);
-    return true;
+    const double places[] = {chosen->first, chosen->first + chosen->length};
+    double ends[2], slopes[2], rates[2];
+    start(self, places, GM_COUNT(places), ends, slopes, rates);
+    if (held && !gm_user_line_numbers(wave->system, held->nodes, GM_COUNT(ends), values, ends)) {
+        return false;
+    }
+    self->mesh.left = ends[0];
+    self->mesh.right = ends[1];
+    return weigh(self, chosen, values);
 }
 
 double gm_user_mesh_alpha(const struct gm_problem *problem)
@@ -194,7 +250,7 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->forces};
+        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->forces, &self->known};
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
@@ -207,25 +263,36 @@ void gm_user_mesh_close(struct gm_problem *problem)
 bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size)
 {
     const struct own *self = problem->parameters;
-    const struct gm_mesh *mesh = &self->mesh;
+    const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
-    double largest = 0, ends[2] = {0};
-    for (int i = 0; i <= SAMPLES; i++) {
-        const double x = mesh->first + mesh->length * i / SAMPLES;
-        double u, slope, rate;
-        start(problem->parameters, x, &u, &slope, &rate);
-        if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
-            snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
-                     !isfinite(u)       ? ""
-                     : !isfinite(slope) ? "_x"
-                                        : "_t",
-                     x);
-            return false;
+    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK];
+    for (size_t from = 0, some; from < grid.points; from += some) {
+        some = gm_user_line_block(&self->line, &grid, from, values);
+        for (size_t i = 0; i < some; i++) {
+            const double u = values[i], rate = values[some + i], slope = values[2 * some + i];
+            if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
+                         !isfinite(u)       ? ""
+                         : !isfinite(slope) ? "_x"
+                                            : "_t",
+                         gm_grid1_node(&grid, from + i));
+                return false;
+            }
+            largest = fmax(largest, fabs(rate));
+            ends[from + i > 0] = rate;
         }
-        largest = fmax(largest, fabs(rate));
-        ends[i > 0] = rate;
     }
-    if (fmax(fabs(ends[0]), fabs(ends[1])) > 1e-3 * largest) {
+    if (!isfinite(self->mesh.left) || !isfinite(self->mesh.right)) {
+        snprintf(sentence, size, "ends: %.60s would be %g at one and %g at the other", name, self->mesh.left,
+                 self->mesh.right);
+        return false;
+    }
+    if (!(self->alpha >= 0 && self->alpha <= 1e6)) {
+        snprintf(sentence, size, "alpha: is %g with these values, and lies between 0 and 1e6", self->alpha);
+        return false;
+    }
+    if (!gm_system_item_of(self->line.system, GM_WORD_ENDS, 0) &&
+        fmax(fabs(ends[0]), fabs(ends[1])) > 1e-3 * largest) {
         snprintf(
             sentence, size,
             "%.60s is held at both ends of a moving mesh, and %.60s_t at the start is %.4g at one and %.4g at "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* u_tt = u_xx - V'(u) with a potential that somebody wrote, between ends that hold u, on a moving mesh. */
+/* u_tt = u_xx - V'(u) with a potential that somebody wrote, between ends that hold u, on a moving mesh. A potential that
+   is recognised (enum gm_known_potential) has exact means over elements. */
 #ifndef GM_CORE_MESH_USER_POTENTIAL_H
 #define GM_CORE_MESH_USER_POTENTIAL_H
 
@@ -7,9 +8,9 @@
 #include "core/model/potential.h"
 
 struct gm_user_mesh {
-    double half_length; /* -half_length <= x <= half_length */
-    long points;        /* nodes between the ends */
-    double alpha;       /* NaN: one that the start allows for */
+    double first, length; /* first <= x <= first + length */
+    long points;          /* nodes between the ends */
+    double alpha;         /* NaN: the file's, or else one that the start allows for */
     enum gm_mesh_density density;
 };
 
@@ -26,8 +27,8 @@ void gm_user_mesh_close(struct gm_problem *problem);
 /* alpha, resolved */
 double gm_user_mesh_alpha(const struct gm_problem *problem);
 
-/* Returns true if the start is finite, and rests at both ends up to a thousandth of its largest rate; else
-   `sentence` is the reason. */
+/* Returns true if the start is finite and, unless a line ends: holds it there, rests at both ends up to a thousandth of
+   its largest rate; else `sentence` is the reason. */
 bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
 
 #endif

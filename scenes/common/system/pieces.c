@@ -40,6 +40,14 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
     return values;
 }
 
+double gm_system_half_length(const struct gm_system_lane *lane)
+{
+    double *values = gm_system_start_values(lane, NULL);
+    const double half = values ? values[lane->owner->system.velocities - GM_RING_PARAMETERS] : NAN;
+    free(values);
+    return half;
+}
+
 const char *gm_system_kept_text(struct gm_system_scene *system_scene, const char *format, ...)
 {
     char *text = NULL;

@@ -13,6 +13,9 @@ size_t gm_system_count_items(const struct gm_user_system *system, enum gm_system
    malloc'ed; NULL when out of memory. */
 double *gm_system_start_values(const struct gm_system_lane *lane, const char *given);
 
+/* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
+double gm_system_half_length(const struct gm_system_lane *lane);
+
 /* Returns a text that lives as long as the scene; NULL when out of memory. */
 __attribute__((format(printf, 2, 3))) const char *gm_system_kept_text(struct gm_system_scene *system_scene,
                                                                       const char *format, ...);

@@ -187,7 +187,9 @@ bool gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[
         const struct gm_system_item *item =
             gm_system_item_of(&system_scene->system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
         numbers[i] = NAN;
-        if (item && gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
+        if (item && !gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
+            good = gm_refuse(sentence, "not enough memory");
+        } else if (item) {
             gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
         }
     }

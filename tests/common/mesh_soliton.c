@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One or two solitons on a moving mesh: the mesh and its density, the start, the exact solution. */
-#include "core/mesh/soliton.h"
+#include "tests/common/mesh_soliton.h"
 
 #include <math.h>
 
@@ -91,9 +91,8 @@ static void kink(double gamma, double x, double velocity, double *value, double 
     *rate -= velocity * gamma / M_SQRT2 * sech * sech;
 }
 
-void gm_soliton_profile(const void *context, double x, double *value, double *slope, double *rate)
+static void profile_at(const struct gm_soliton *soliton, double x, double *value, double *slope, double *rate)
 {
-    const struct gm_soliton *soliton = context;
     const double gamma = lorentz(soliton), velocity = soliton->velocity,
                  from_middle = x - soliton->length / 2;
     if (soliton->field == GM_PHI4) {
@@ -120,6 +119,14 @@ void gm_soliton_profile(const void *context, double x, double *value, double *sl
     *value = 4 * atan(exp(gamma * from_middle));
     *slope = 2 * gamma / cosh(gamma * from_middle);
     *rate = -velocity * *slope;
+}
+
+void gm_soliton_profile(const void *context, const double *x, size_t count, double *value, double *slope,
+                        double *rate)
+{
+    for (size_t i = 0; i < count; i++) {
+        profile_at(context, x[i], &value[i], &slope[i], &rate[i]);
+    }
 }
 
 /* The time that a soliton takes from the middle of a box to its wall. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_MESH_SOLITON_H
-#define GM_CORE_MESH_SOLITON_H
+#ifndef GM_TESTS_COMMON_MESH_SOLITON_H
+#define GM_TESTS_COMMON_MESH_SOLITON_H
 
 #include "core/mesh/moving_mesh.h"
 
@@ -24,7 +24,8 @@ void gm_soliton_problem(const struct gm_soliton *soliton, struct gm_problem *pro
 double gm_soliton_alpha(const struct gm_soliton *soliton);
 
 /* The field at the start, a gm_mesh_profile of a struct gm_soliton. */
-void gm_soliton_profile(const void *soliton, double x, double *value, double *slope, double *rate);
+void gm_soliton_profile(const void *soliton, const double *x, size_t count, double *value, double *slope,
+                        double *rate);
 
 /* The solution, exact up to the contribution of images of the soliton beyond the walls (about 1e-12); NaN
    if none is known, as for phi^4 after a kink has come near a wall or another kink. Their eq. 168. */
