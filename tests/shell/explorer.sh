@@ -559,7 +559,7 @@ clean 0
 start 24x16
 open_scene soliton
 wait_for 'Mesh points'
-keys Down Down Down Down Down
+keys Down Down Down Down Down Down Down Down
 wait_for 'a mix of both, or…'
 screen | grep '….*…' && fail 'a cut text ends with two ellipses'
 keys q

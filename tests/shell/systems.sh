@@ -111,6 +111,21 @@ magnetic() { # RATES ANSWER
 magnetic 'x = u, y = v, u = -x + v, v = -y + u' 'no  -y + u .* does not rotate the velocity, in the rate of v'
 magnetic 'x = u, y = v, u = -x + v*u, v = -y - u*u' 'no  -x + v\*u .* does not rotate the velocity, in the rate of u'
 magnetic 'x = u, u = -x + v*x + cos(t), y = v, v = -y - u*x' 'yes'
+"$geomint" run ./magnetic.system scheme=boris2,magnetic-splitting2 dt=0.1 steps=40 --json --state >out
+python3 - out <<'END' || fail "steps in a magnetic field: $(cat out)"
+import json, math, sys
+for line, exact in zip(open(sys.argv[1]), (False, True)):
+    x, y, u, v, t, h = 1, 0.2, 0, 1, 0, 0.1
+    for _ in range(40):
+        x, y, t = x + h / 2 * u, y + h / 2 * v, t + h / 2
+        u, v = u + h / 2 * (math.cos(t) - x), v - h / 2 * y
+        angle = h * x if exact else 2 * math.atan(h * x / 2)  # the tangent of Boris' half angle is exact
+        u, v = math.cos(angle) * u + math.sin(angle) * v, math.cos(angle) * v - math.sin(angle) * u
+        u, v = u + h / 2 * (math.cos(t) - x), v - h / 2 * y
+        x, y, t = x + h / 2 * u, y + h / 2 * v, t + h / 2
+    state = json.loads(line)["state"]
+    assert all(abs(a - b) < 1e-12 for a, b in zip(state, (x, y, u, v, t))), (state, x, y, u, v, t)
+END
 {
     printf 'coordinates: x y\nmomenta: p r\nlet: A = (1 + sin(t)/3)*y + x^2/5\nlet: B = x*cos(t)/4\n'
     printf 'H: 0.7*((p - A)^2 + (r - B)^2)/2 + x^4/4 + y^2*cos(t)/2\nstart: x = 1, y = 0.2, p = 0.3, r = 0.5\n'
