@@ -778,6 +778,7 @@ static const char *found_name(const struct report *report, const struct gm_found
 struct found {
     struct gm_found_invariants invariants;
     struct gm_symmetry *symmetries;
+    size_t symmetries_unwritten;
     size_t symmetry_count;
 };
 
@@ -824,6 +825,9 @@ static void print_found(struct report *report, const struct found *found)
             gm_arena_print(report->arena, "%s (scaling %g)", formula, found->symmetries[i].scaling),
             printf("  "), 4);
     }
+    if (found->symmetries_unwritten > 0) {
+        printf("  and %zu whose coefficients are not short fractions\n", found->symmetries_unwritten);
+    }
 }
 
 static void put_found(struct report *report, const struct found *found)
@@ -850,6 +854,7 @@ static void put_found(struct report *report, const struct found *found)
         gm_row_close(&one);
     }
     gm_row_close(&list);
+    gm_row_put(&row, "symmetries_unwritten %i", (int)found->symmetries_unwritten);
     printf("}\n");
 }
 
@@ -866,7 +871,8 @@ static int list_invariants(const struct gm_options *options, struct report *repo
         return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s",
                           found.invariants.lacks);
     }
-    found.symmetry_count = gm_symmetries_find(&report->system, options->arena, &found.symmetries);
+    found.symmetry_count =
+        gm_symmetries_find(&report->system, options->arena, &found.symmetries, &found.symmetries_unwritten);
     gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);
     return gm_finish(GM_EXIT_OK);

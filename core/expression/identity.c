@@ -16,15 +16,6 @@ enum {
     WORK = 1 << 22 /* values of nodes: a long formula is tested at fewer points */
 };
 
-/* Steele, Lea, Flood: SplitMix64 */
-static uint64_t mix(uint64_t x)
-{
-    x += UINT64_C(0x9e3779b97f4a7c15);
-    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return x ^ (x >> 31);
-}
-
 static bool is_square(gm_residue a)
 {
     return gm_residue_power(a, (GM_PRIME - 1) / 2) <= 1;
@@ -33,7 +24,7 @@ static bool is_square(gm_residue a)
 /* A pseudorandom number for f(a, b), free of relations. */
 static gm_residue unrelated(uint64_t seed, unsigned operation, gm_residue a, gm_residue b)
 {
-    return mix(mix(mix(seed ^ operation) ^ a) ^ b) % GM_PRIME;
+    return gm_mixed(gm_mixed(gm_mixed(seed ^ operation) ^ a) ^ b) % GM_PRIME;
 }
 
 /* f(-x) follows from f(x): the sign of a, and a number of |a| as the parameter of the operation. */
@@ -154,7 +145,7 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
 /* Sets the values at the next point. False: they do not exist there. */
 static bool take_point(struct gm_random_values *random)
 {
-    const uint64_t seed = mix(random->number++);
+    const uint64_t seed = gm_mixed(random->number++);
     gm_residue *values = random->values;
     bool exists = true;
     for (size_t k = 0; k < random->count && exists; k++) {
@@ -223,7 +214,7 @@ static struct sized size_there(const struct gm_formula *graph, const gm_node_id 
         const struct gm_node *node = &graph->nodes[i];
         double value = node->value;
         if (node->operation == GM_VARIABLE) {
-            const uint64_t random = mix(seed ^ mix(node->a));
+            const uint64_t random = gm_mixed(seed ^ gm_mixed(node->a));
             value = ((double)(random >> 12) * 0x1p-52 * 1.8 + .2) * (random & 1 && seed % 2 ? -1 : 1);
             value *= seed % 4 == 3 ? 10 : 1; /* beyond a bound that a formula may have */
             value = node->a < variables && !isnan(fixed[node->a]) ? fixed[node->a] : value;

@@ -18,6 +18,15 @@ gm_residue gm_residue_inverse(gm_residue a)
     return gm_residue_power(a, GM_PRIME - 2);
 }
 
+/* Steele, Lea, Flood: SplitMix64 */
+uint64_t gm_mixed(uint64_t x)
+{
+    x += UINT64_C(0x9e3779b97f4a7c15);
+    x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return x ^ (x >> 31);
+}
+
 gm_residue gm_residue_of(double value)
 {
     const double largest = 0x1p36, size = fabs(value);
@@ -33,11 +42,16 @@ gm_residue gm_residue_of(double value)
     }
     if (p[1] * q[1] < largest) {
         result = gm_residue_times((gm_residue)p[1], gm_residue_inverse((gm_residue)q[1]));
-    } else { /* m 2^e, and 2^61 = 1 */
+    } else { /* m 2^e: 2^61 = 1 in the field, so that 1 + 2^-52 would be 513 */
         int exponent = 0;
-        const double whole = ldexp(frexp(size, &exponent), 53);
-        exponent = ((exponent - 53) % 61 + 61) % 61;
-        result = gm_residue_times((gm_residue)whole % GM_PRIME, (gm_residue)1 << exponent);
+        uint64_t whole = (uint64_t)ldexp(frexp(size, &exponent), 53);
+        exponent -= 53;
+        for (; whole % 2 == 0; whole /= 2) {
+            exponent++;
+        }
+        const int small = (exponent % 60 + 60) % 60;
+        result = gm_residue_times(gm_mixed(gm_mixed(whole) ^ (uint64_t)(exponent - small)) % GM_PRIME,
+                                  (gm_residue)1 << small);
     }
     return value < 0 ? gm_residue_minus(result) : result;
 }
@@ -52,11 +66,11 @@ static int64_t divisor(int64_t a, int64_t b)
     return llabs(a);
 }
 
-/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^25: a = remainder / factor. Of random
-   residues one in two thousand is such a fraction. */
+/* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^20: a = remainder / factor. Of random
+   residues one in two million is such a fraction. */
 static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator)
 {
-    const int64_t bound = (int64_t)1 << 25;
+    const int64_t bound = (int64_t)1 << 20;
     int64_t remainders[] = {(int64_t)GM_PRIME, (int64_t)a}, factors[] = {0, 1};
     while (remainders[1] >= bound) {
         const int64_t quotient = remainders[0] / remainders[1],

@@ -38,12 +38,16 @@ static inline gm_residue gm_residue_minus(gm_residue a)
 gm_residue gm_residue_power(gm_residue a, uint64_t n);
 gm_residue gm_residue_inverse(gm_residue a);
 
+/* A pseudorandom number (splitmix64). */
+uint64_t gm_mixed(uint64_t x);
+
 /* The residue of a finite double: of p / q where one with p q < 2^36 rounds to this double, or to a neighbour of it,
-   so that 0.1 and 8/3 are what was written; else of the double itself, m 2^e. */
+   so that 0.1 and 8/3 are what was written; else a pseudorandom one, whose only relation to others is that to twice
+   and half the number: what is proved with it holds for other values, too. */
 gm_residue gm_residue_of(double value);
 
 /* The whole numbers with these ratios and no common divisor, the first that is not 0 above 0. False if they are not
-   below 2^53, or the ratios are not fractions with parts below 2^25. P. S. Wang, ISSAC 1981, 212. */
+   below 2^53, or the ratios are not fractions with parts below 2^20. P. S. Wang, ISSAC 1981, 212. */
 bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole);
 
 #endif

@@ -184,7 +184,7 @@ double *gm_equations_fixed(const struct gm_user_system *system)
 {
     double *fixed = malloc(system->variable_count * sizeof *fixed);
     for (size_t i = 0; fixed && i < system->variable_count; i++) {
-        fixed[i] = system->variables[i].value;
+        fixed[i] = i == system->n ? NAN : system->variables[i].value; /* any time */
     }
     return fixed;
 }

@@ -496,7 +496,7 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     find_named(&search);
     list_candidates(&search);
     if (!take_values(&search)) {
-        found->lacks = "it has too many roots";
+        found->lacks = "the search finds no values of its roots";
         return;
     }
     keep_independent(&search);

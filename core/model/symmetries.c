@@ -41,8 +41,9 @@ static gm_node_id *write_field(struct gm_user_system *system, struct gm_arena *a
 }
 
 size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
-                          struct gm_symmetry **symmetries)
+                          struct gm_symmetry **symmetries, size_t *unwritten)
 {
+    *unwritten = 0;
     const size_t n = system->n, unknowns = n + n * n + 1, points = 6 * n + 20, nodes = 2 * n + n * n;
     if (n > GM_MOST_WITH_SYMMETRIES) {
         return 0;
@@ -73,7 +74,12 @@ size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
     *symmetries = gm_arena_take(arena, count + 1, sizeof **symmetries);
     for (size_t i = 0; i < count && at; i++) {
         const bool rest = basis[i].terms == 1 && basis[i].last == unknowns - 1; /* c alone, as f = 0 */
-        if (!rest && gm_residues_whole(basis[i].entries, unknowns, whole)) {
+        if (rest) {
+            continue;
+        }
+        if (!gm_residues_whole(basis[i].entries, unknowns, whole)) {
+            ++*unwritten;
+        } else {
             (*symmetries)[found++] =
                 (struct gm_symmetry){write_field(system, arena, whole), whole[unknowns - 1]};
         }

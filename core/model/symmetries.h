@@ -14,9 +14,10 @@ struct gm_symmetry {
 };
 
 /* Finds a basis of the affine symmetries for the values of parameters, of a system of which gm_invariants_find lacks
-   nothing. Returns their number, without those whose coefficients are not short fractions; 0 for too many components.
+   nothing. Returns their number, without the *unwritten ones, whose coefficients are not short fractions; 0 for too many
+   components.
    Inside a body of the arena, which is left when out of memory. The graph grows. */
 size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
-                          struct gm_symmetry **symmetries);
+                          struct gm_symmetry **symmetries, size_t *unwritten);
 
 #endif

@@ -83,6 +83,10 @@ static void make_rows(struct gm_user_field *field)
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
     struct gm_parameter common[MOST_ROWS];
     memcpy(common, kind->rows, kind->row_count * sizeof *common);
+    if (points > common[0].highest) {
+        gm_arena_refuse(arena, "points: %.15g are more than the %g nodes that a moving mesh may have", points,
+                        common[0].highest);
+    }
     common[0].standard = gm_kept_number(&of_file->texts, points, NULL);
     for (size_t i = 0; i < kind->row_count; i++) {
         for (size_t k = 0; k < GM_COUNT(chosen); k++) {

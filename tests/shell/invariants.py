@@ -171,5 +171,12 @@ for words, sentence in [
     if out.returncode != 1 or sentence not in out.stderr or out.stdout:
         fail(f"{' '.join(words)}: {out.returncode}, {out.stderr}")
 
+# numbers that a prime field would take for short ones: x^2 + 2561*y^2 is no invariant
+for factor in "(1 + 1e-15)", "2^61":
+    found = json.loads(run("system", f"rate=x = {factor}*y, y = -x", "x=1", "y=1", "--invariants", "--json").stdout)
+    got = [found[key] for key in ("invariants_found", "invariants_unwritten", "symmetries_unwritten")]
+    if got != [[], 1, 1]:
+        fail(f"x' = {factor} y: {got}")
+
 print(f"{len(TABLE)} systems")
 sys.exit(1 if failures else 0)

@@ -88,6 +88,7 @@ second() { # RATES ANSWER
 second 'x = v, y = w, v = -x, w = -y - 0.1*w' 'no  w .* holds a velocity, in the rate of w'
 second 'x = 2*v, v = -x, y = w, w = -y' 'no  2\*v .* is not a velocity, in the rate of x'
 second 'x = v, y = v, v = -x, w = -y' 'no  v .* is not a velocity, in the rate of y'
+second 'x = v, y = w, v = -x - t*v, w = -y' 'no  v .* holds a velocity, in the rate of v' # which vanishes at t = 0
 second 'x = v, y = w, v = w - w - x, w = -y' 'yes'
 second 'x = v, v = -x + y/2, y = w, w = -2*y - x/2 + cos(t)/2' 'yes'
 for scheme in 'verlet 2' 'yoshida4 4' 'blanes-moan-nystrom6 6'; do
@@ -103,6 +104,10 @@ state system rate='x = v' rate='v = -sin(x)' x=1 v=0 >second.txt
 state system H='v^2/2 - cos(x)' coordinates=x momenta=v x=1 v=0 | cmp -s - second.txt || fail 'second order differs from H'
 state ./second.system >second.txt
 printf 'rate: x = v, y = w, v = -x + y/2, w = -2*y - x/2 + cos(t)/2\nstart: x = 1, v = 0, y = 0.2, w = 0.1\n' >order.system
+printf 'rate: x = y, y = -x\nstart: x = 1, y = 1\ninvariant: I = x^2 + y^2 + t^2\n' >wrong.system # its rate is 0 at t = 0
+refused 1 'wrong.system:3:12: I is not an invariant' run ./wrong.system
+"$geomint" list soliton --source | sed "s/^points: 31/points: 100001/" >soliton.system
+refused 1 'soliton.system:16:9: points: 100001 are more than the 100000 nodes' run ./soliton.system until=0
 # a magnetic field rotates velocities: in rates, also interleaved and with the time, and in H with p = v/c + A(x, t)
 magnetic() { # RATES ANSWER
     printf 'rate: %s\nstart: x = 1, u = 0, y = 0.2, v = 1\n' "$1" >magnetic.system
