@@ -649,20 +649,23 @@ static void find_magnetic(struct gm_user_system *system, struct gm_finding *find
     for (size_t i = 0; i < half * half && finding->holds; i++) {
         const size_t row = i / half, column = i % half;
         slopes[i] = slope_of(system, system->rates[first + row], own, half + column);
-        gm_node_id rest = slopes[i];
-        if (canonical && row == column) {
-            rest = gm_difference(&system->graph, slopes[i], slopes[0]);
-        } else if (!canonical) {
-            rest = column <= row ? gm_sum(&system->graph, slopes[i], slopes[column * half + row])
-                                 : gm_formula_constant(&system->graph, 0);
+        if (canonical) {
+            need_zero(system, finding,
+                      row == column ? gm_difference(&system->graph, slopes[i], slopes[0]) : slopes[i], row);
+        } else if (column <= row) {
+            need_zero(system, finding, gm_sum(&system->graph, slopes[i], slopes[column * half + row]),
+                      first + row);
         }
-        need_zero(system, finding, rest, first + row);
         const bool *const fixed = canonical ? all : velocities;
         if (finding->holds && (depends(system, slopes[i], fixed) ||
                                (canonical && depends_on(system, slopes[i], own, system->n)))) {
             deny(finding, system->rates[first + row], NULL);
             finding->component = first + row;
         }
+    }
+    if (canonical && finding->holds && gm_equations_vanishes(system, slopes[0]) != GM_NOT_ZERO) {
+        deny(finding, GM_NO_NODE, "H is not quadratic in the momenta");
+        finding->component = system->n;
     }
     if (finding->holds && !system->graph.failed) {
         write_magnetic(system, nodes, own);

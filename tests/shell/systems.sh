@@ -135,6 +135,10 @@ END
     printf 'coordinates: x y\nmomenta: p r\nlet: A = (1 + sin(t)/3)*y + x^2/5\nlet: B = x*cos(t)/4\n'
     printf 'H: 0.7*((p - A)^2 + (r - B)^2)/2 + x^4/4 + y^2*cos(t)/2\nstart: x = 1, y = 0.2, p = 0.3, r = 0.5\n'
 } >canonical.system
+for c in 0 1; do # without momenta squared no velocity gives them
+    "$geomint" list system H='c*((p1 - q2)^2 + p2^2)/2 + 3*p1*q2 + q1^2' c=$c q1=1 q2=0.5 p1=0.2 p2=0.1 --long >out
+    grep -Eq "magnetic  *$([ $c = 1 ] && echo yes || echo 'no  H is not quadratic')" out || fail "c = $c: $(cat out)"
+done
 for system in ./magnetic.system ./canonical.system charged-particle; do
     for scheme in boris2 magnetic-splitting2; do
         "$geomint" certify $scheme --on $system >out 2>&1

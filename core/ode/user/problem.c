@@ -332,7 +332,7 @@ static void open_magnetic(struct own *self)
     find_constants(self, nodes + (2 + half) * half, 1, &self->magnetic.c);
     open_tape(self, &self->drift, nodes, half, model->components);
     open_tape(self, &self->turning, nodes + half, half + half * half, model->components);
-    self->ode.magnetic = &self->magnetic;
+    self->ode.magnetic = self->magnetic.c != 0 ? &self->magnetic : NULL;
 }
 
 /* Opens the facet of variational schemes. */
