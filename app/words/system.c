@@ -18,6 +18,7 @@
 #include "core/model/equations.h"
 #include "core/model/reader.h"
 #include "render/message.h"
+#include "scenes/common/system/pieces.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
 #include "scenes/ode/system.h"
@@ -261,7 +262,7 @@ static bool open_system(struct making *making)
     }
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system);
-    made->close = field ? gm_user_field_close : gm_system_scene_close;
+    made->close = gm_system_scene_close;
     made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
                                              making->message)
                         : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,

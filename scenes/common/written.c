@@ -10,26 +10,15 @@
 
 #include "core/schemes.h"
 
-const char *gm_kept_texts_add(struct gm_kept_texts *texts, char *text)
-{
-    char **more = text ? realloc(texts->list, (texts->count + 1) * sizeof *more) : NULL;
-    if (!more) {
-        free(text);
-        return NULL;
-    }
-    texts->list = more;
-    return more[texts->count++] = text;
-}
-
-const char *gm_kept_number(struct gm_kept_texts *texts, double value, const char *given)
+const char *gm_written_number(struct gm_arena *arena, double value, const char *given)
 {
     char text[64];
     double number;
     const bool same = given && gm_number_parse(given, &number) && number == value;
-    return gm_kept_texts_add(texts, strdup(same ? given : gm_number_format(value, text, sizeof text)));
+    return gm_arena_print(arena, "%s", same ? given : gm_number_format(value, text, sizeof text));
 }
 
-struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_system_variable *variable,
+struct gm_parameter gm_written_row(struct gm_arena *arena, const struct gm_system_variable *variable,
                                    double value, const char *usual, size_t offset)
 {
     const double most = 1e300; /* sliders find a range of their own */
@@ -40,7 +29,7 @@ struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_
         .help = variable->meaning && variable->meaning[0] ? variable->meaning : usual,
         .type = GM_REAL,
         .offset = offset,
-        .standard = gm_kept_number(texts, value, variable->text),
+        .standard = gm_written_number(arena, value, variable->text),
         .lowest = variable->fixed ? value
                   : ranged        ? variable->low
                                   : -most,
@@ -50,43 +39,33 @@ struct gm_parameter gm_written_row(struct gm_kept_texts *texts, const struct gm_
     };
 }
 
-static bool set_timing(struct gm_kept_texts *texts, const struct gm_user_system *system,
-                       enum gm_system_word word, double value, struct gm_parameter *row)
+static void set_timing(struct gm_arena *arena, const struct gm_user_system *system, enum gm_system_word word,
+                       double value, struct gm_parameter *row)
 {
     const struct gm_system_item *item = gm_system_item_of(system, word, 0);
-    row->standard = gm_kept_number(texts, value, system->texts[word]);
+    row->standard = gm_written_number(arena, value, system->texts[word]);
     if (item && !isnan(item->low)) {
         row->lowest = item->low;
         row->highest = item->high;
     }
     row->help = item && item->text[0] ? item->text : row->help;
-    return row->standard != NULL;
 }
 
-bool gm_written_timing(struct gm_kept_texts *texts, const struct gm_user_system *system, double dt,
-                       double until, struct gm_parameter *dt_row, struct gm_parameter *until_row)
+void gm_written_timing(struct gm_arena *arena, const struct gm_user_system *system, double dt, double until,
+                       struct gm_parameter *rows)
 {
-    return set_timing(texts, system, GM_WORD_DT, dt, dt_row) &&
-           set_timing(texts, system, GM_WORD_UNTIL, until, until_row);
-}
-
-void gm_kept_texts_close(struct gm_kept_texts *texts)
-{
-    for (size_t i = 0; i < texts->count; i++) {
-        free(texts->list[i]);
-    }
-    free(texts->list);
+    set_timing(arena, system, GM_WORD_DT, dt, &rows[0]);
+    set_timing(arena, system, GM_WORD_UNTIL, until, &rows[1]);
 }
 
 /* FNV-1a */
-char *gm_written_mark(const char *name, const char *text)
+const char *gm_written_mark(struct gm_arena *arena, const char *name, const char *text)
 {
     uint32_t sum = UINT32_C(2166136261);
-    char *mark = NULL;
     for (const char *at = text; *at; at++) {
         sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
     }
-    return asprintf(&mark, "%s:%08x", name, (unsigned)sum) < 0 ? NULL : mark;
+    return gm_arena_print(arena, "%s:%08x", name, (unsigned)sum);
 }
 
 bool gm_listed_word(const char **list, char *word, size_t size)
@@ -108,19 +87,20 @@ void gm_written_options(struct gm_observable *observable, const struct gm_system
     observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);
 }
 
-bool gm_written_schemes(const char *text, const struct gm_problem *problem, const char **schemes, size_t most,
-                        size_t *count, char *sentence)
+size_t gm_written_schemes(struct gm_arena *arena, const char *text, const struct gm_problem *problem,
+                          const char **schemes)
 {
     char name[64];
-    for (*count = 0; *count < most && gm_listed_word(&text, name, sizeof name);) {
+    size_t count = 0;
+    while (count < GM_MOST_PREFERRED && gm_listed_word(&text, name, sizeof name)) {
         const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
         if (!(scheme && gm_scheme_fits(scheme, problem))) {
-            return gm_refuse(sentence, "schemes: %s %s", name,
-                             scheme ? "does not fit this system" : "is not a scheme");
+            gm_arena_refuse(arena, "schemes: %s %s", name,
+                            scheme ? "does not fit this system" : "is not a scheme");
         }
-        schemes[(*count)++] = scheme->name;
+        schemes[count++] = scheme->name;
     }
-    return true;
+    return count;
 }
 
 double gm_written_rounded(double value)

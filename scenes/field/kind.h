@@ -61,7 +61,6 @@ extern const struct gm_field_kind gm_field_korteweg, gm_field_schroedinger, gm_f
 
 struct gm_user_field {
     struct gm_system_scene of_file; /* first, so that a pointer to the scene is one to this */
-    struct gm_arena *arena;
     const struct gm_field_kind *kind;
     struct gm_user_wave wave; /* only the member of the kind is used */
     struct gm_user_evolution evolution;

@@ -60,11 +60,9 @@ struct making {
     struct gm_problem problem; /* the problem of the file's own values */
 };
 
-static void close_field(void *thing)
+static void close_evolution(void *evolution)
 {
-    struct gm_user_field *field = thing;
-    gm_user_evolution_close(&field->evolution);
-    gm_system_close_rows(&field->of_file);
+    gm_user_evolution_close(evolution);
 }
 
 static void make_rows(struct gm_user_field *field)
@@ -73,7 +71,7 @@ static void make_rows(struct gm_user_field *field)
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
-    struct gm_arena *arena = field->arena;
+    struct gm_arena *arena = field->of_file.arena;
     const double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
     /* a moving mesh needs fewer nodes than a ring, for which a file of other schemes gives them */
     const double half_length = values[system->velocities - 2], grid = values[system->velocities - 1],
@@ -87,16 +85,15 @@ static void make_rows(struct gm_user_field *field)
         gm_arena_refuse(arena, "points: %.15g are more than the %g nodes that a moving mesh may have", points,
                         common[0].highest);
     }
-    common[0].standard = gm_kept_number(&of_file->texts, points, NULL);
+    common[0].standard = gm_written_number(arena, points, NULL);
     for (size_t i = 0; i < kind->row_count; i++) {
         for (size_t k = 0; k < GM_COUNT(chosen); k++) {
             const char *text = system->texts[chosen[k]];
             const bool here = text && strcmp(common[i].key, gm_system_words[chosen[k]].word) == 0;
             common[i].standard = here ? text : common[i].standard;
         }
-        gm_arena_need(arena, common[i].standard);
     }
-    gm_arena_need(arena, gm_system_make_rows(of_file, timing, common, kind->row_count, false));
+    gm_system_make_rows(of_file, timing, common, kind->row_count, false);
     struct gm_parameter *last = &of_file->rows[of_file->row_count - 1];
     if (of_file->variables[of_file->row_count - 1] == system->velocities - GM_RING_PARAMETERS) {
         last->lowest = 0.01; /* half the length, unless it follows from other keys */
@@ -114,15 +111,11 @@ static void make_rows(struct gm_user_field *field)
     const size_t own = of_file->row_count + kind->row_count;
     gm_parameters_reset(of_file->rows + GM_SYSTEM_ROWS, own - GM_SYSTEM_ROWS, of_file->initial);
     double numbers[GM_SYSTEM_TIMES];
-    char sentence[GM_MESSAGE];
-    if (!gm_system_open_timing(of_file, numbers, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
+    gm_system_open_timing(of_file, numbers);
     const double dt = numbers[0] > 0 ? numbers[0] : gm_written_rounded(half_length / grid),
                  steps = numbers[2] >= 0 ? numbers[2] : 2 * half_length / dt,
                  until = numbers[1] >= 0 ? numbers[1] : steps * dt;
-    gm_arena_need(arena, gm_written_timing(&of_file->texts, system, dt, until, &of_file->rows[DT],
-                                           &of_file->rows[UNTIL]));
+    gm_written_timing(arena, system, dt, until, of_file->rows);
     gm_parameters_reset(of_file->rows, GM_SYSTEM_ROWS, of_file->initial);
 }
 
@@ -133,7 +126,7 @@ static struct gm_observable *add(struct gm_user_field *field, struct gm_observab
     const size_t count = of_file->observable_count++;
     for (size_t k = 0; k < count; k++) {
         if (gm_observables_clash(row.key, of_file->observables[k].key)) {
-            gm_arena_refuse(field->arena, "there are two observables %s", row.key);
+            gm_arena_refuse(field->of_file.arena, "there are two observables %s", row.key);
         }
     }
     of_file->observables[count] = row;
@@ -153,6 +146,7 @@ static void add_densities(struct gm_user_field *field)
 {
     static const char infinite[] = "its density is not finite everywhere";
     struct gm_system_scene *of_file = &field->of_file;
+    struct gm_arena *arena = of_file->arena;
     size_t count = 0;
     for (size_t i = 0; i < of_file->system.item_count; i++) {
         const struct gm_system_item *item = &of_file->system.items[i];
@@ -162,14 +156,13 @@ static void add_densities(struct gm_user_field *field)
         }
         const char *on = gm_system_option_text(item, GM_OPTION_ON, "nodes");
         if (strcmp(on, "nodes") != 0 && strcmp(on, "cells") != 0) {
-            gm_arena_refuse(field->arena, "%.60s: an integral is on nodes or on cells, not on %.60s",
-                            item->name, on);
+            gm_arena_refuse(arena, "%.60s: an integral is on nodes or on cells, not on %.60s", item->name,
+                            on);
         }
         if (count++ == MOST_DENSITIES) {
-            gm_arena_refuse(field->arena, "a field has at most %d invariants and observables",
-                            MOST_DENSITIES);
+            gm_arena_refuse(arena, "a field has at most %d invariants and observables", MOST_DENSITIES);
         }
-        const char *key = gm_arena_print(field->arena, kept ? "%s_error" : "%s", item->name);
+        const char *key = gm_arena_print(arena, kept ? "%s_error" : "%s", item->name);
         const struct gm_system_option *scale = gm_system_option(item, GM_OPTION_SCALE);
         struct gm_observable *row = add(
             field,
@@ -180,20 +173,21 @@ static void add_densities(struct gm_user_field *field)
                                                        .missing = infinite));
         const size_t number = of_file->observable_count - 1;
         gm_written_options(row, item);
-        gm_arena_need(field->arena,
-                      gm_system_open_tape(of_file, &of_file->formulas[number], item->nodes, 1) &&
-                          (!scale || gm_system_open_tape(of_file, &of_file->terms[number], &scale->node, 1)));
+        of_file->formulas[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
+        gm_system_open_tape(of_file, of_file->formulas[number], item->nodes, 1);
+        if (scale) {
+            of_file->terms[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
+            gm_system_open_tape(of_file, of_file->terms[number], &scale->node, 1);
+        }
     }
 }
 
 static void make_observables(struct gm_user_field *field)
 {
     struct gm_system_scene *of_file = &field->of_file;
-    of_file->observables =
-        gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->observables);
-    of_file->formulas = gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
-    of_file->terms = gm_arena_take(of_file->system.arena, MOST_OBSERVABLES, sizeof *of_file->terms);
-    gm_arena_need(field->arena, of_file->observables && of_file->formulas && of_file->terms);
+    of_file->observables = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
+    of_file->formulas = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
+    of_file->terms = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
     of_file->scene.observables = of_file->observables;
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
@@ -222,13 +216,10 @@ static void make_observables(struct gm_user_field *field)
 
 static void make_schemes(struct gm_user_field *field, const struct gm_problem *problem)
 {
-    size_t count;
-    char sentence[GM_MESSAGE];
     const char *text = field->of_file.system.texts[GM_WORD_SCHEMES];
-    if (!gm_written_schemes(field->written_elsewhere == field->elsewhere ? text : NULL, problem,
-                            field->of_file.schemes, GM_MOST_PREFERRED, &count, sentence)) {
-        gm_arena_refuse(field->arena, "%s", sentence);
-    }
+    const size_t count =
+        gm_written_schemes(field->of_file.arena, field->written_elsewhere == field->elsewhere ? text : NULL,
+                           problem, field->of_file.schemes);
     field->of_file.scene.schemes = count > 0 ? field->of_file.schemes : field->kind->schemes;
     field->of_file.scene.lanes = field->of_file.system.texts[GM_WORD_LANES];
 }
@@ -275,10 +266,10 @@ static const char *title_of(struct gm_user_field *field)
     const struct gm_naming naming = gm_system_naming(system);
     char *formula = gm_formula_text(&system->graph, system->energy, &naming);
     if (formula) { /* a long formula is left out */
-        gm_arena_keep(field->arena, formula, free);
+        gm_arena_keep(field->of_file.arena, formula, free);
     }
     return formula && strlen(formula) <= SHORT
-               ? gm_arena_print(field->arena, "Waves in the potential V = %s", formula)
+               ? gm_arena_print(field->of_file.arena, "Waves in the potential V = %s", formula)
                : "Waves in a user-defined potential";
 }
 
@@ -346,7 +337,7 @@ static void find_range(struct gm_user_field *field, const struct gm_problem *pro
 {
     struct gm_grid1 grid;
     const double *y =
-        gm_arena_keep(field->arena, gm_field_start_on(field->of_file.initial, problem, &grid), free);
+        gm_arena_keep(field->of_file.arena, gm_field_start_on(field->of_file.initial, problem, &grid), free);
     const struct gm_view view = {.problem = problem,
                                  .scheme = gm_scheme_find(field->of_file.scene.schemes[0]),
                                  .state = y,
@@ -385,17 +376,14 @@ static bool derive(struct gm_user_field *field)
 static void make(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
-    struct gm_user_field *field = making->field = gm_arena_take(arena, 1, sizeof *field);
+    struct gm_user_field *field = making->field = gm_system_scene_take(arena, making->system, sizeof *field);
     struct gm_system_scene *of_file = &field->of_file;
     struct gm_user_system *system = &of_file->system;
     static const struct gm_track surface[] = {GM_SURFACE_TRACK(record_shown)},
                                  paths[] = {GM_MESH_PATHS_TRACK};
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
     char sentence[GM_MESSAGE];
-    gm_arena_keep(arena, field, close_field);
-    field->arena = arena;
-    *system = *making->system;
-    *making->system = (struct gm_user_system){0};
+    gm_arena_keep(arena, &field->evolution, close_evolution);
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     field->elsewhere = making->elsewhere;
@@ -418,9 +406,7 @@ static void make(struct gm_arena *arena, void *data)
     if (kind->no_walls && texts[GM_WORD_BOUNDARY] && strcmp(texts[GM_WORD_BOUNDARY], "walls") == 0) {
         gm_arena_refuse(arena, "%s", kind->no_walls);
     }
-    if (!gm_system_find_hook(of_file, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
+    gm_system_find_hook(of_file);
     field->solved = gm_line_is_solved(system);
     gm_arena_need(arena, derive(field));
     make_rows(field);
@@ -437,8 +423,7 @@ static void make(struct gm_arena *arena, void *data)
         .words = making->words,
         .source = making->words ? system->source : NULL,
         .text = making->words ? system->source : NULL,
-        .mark =
-            making->words ? gm_arena_keep(arena, gm_written_mark(making->name, system->source), free) : NULL,
+        .mark = making->words ? gm_written_mark(arena, making->name, system->source) : NULL,
         .parameters = of_file->rows,
         .parameter_count = of_file->row_count + of_file->common_count,
         .tracks = moves ? paths : surface,
@@ -467,8 +452,8 @@ static void make(struct gm_arena *arena, void *data)
     } else if (is_known && making->words) {
         of_file->scene.elsewhere = kind->equation ? on_rates : of_equations[known].is_for;
     }
-    if (!gm_system_open_items(of_file, sentence) ||
-        !gm_field_setup(of_file->initial, &making->problem, sentence)) {
+    gm_system_open_items(of_file);
+    if (!gm_field_setup(of_file->initial, &making->problem, sentence)) {
         gm_arena_refuse(arena, "%s", sentence);
     }
     gm_arena_keep(arena, making, close_problem);
@@ -478,9 +463,7 @@ static void make(struct gm_arena *arena, void *data)
         find_range(field, &making->problem);
     }
     make_work(field);
-    if (!gm_system_make_studies(of_file, &making->problem, NULL, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
+    gm_system_make_studies(of_file, &making->problem, NULL);
     gm_arena_drop(arena, making);
 }
 
@@ -489,14 +472,7 @@ static struct gm_system_scene *open_one(struct gm_user_system *system, const cha
                                         const char *const *words, bool elsewhere, char *sentence)
 {
     struct making making = {.system = system, .name = name, .words = words, .elsewhere = elsewhere};
-    struct gm_arena *arena = gm_arena_open();
-    if (!gm_arena_run(arena, make, &making)) {
-        gm_system_close(system);
-        gm_refuse(sentence, "%s", gm_arena_reason(arena));
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return &making.field->of_file;
+    return gm_system_scene_make(make, &making, system, sentence) ? &making.field->of_file : NULL;
 }
 
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
@@ -515,18 +491,8 @@ const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const c
     *fault = (struct gm_fault){0};
     if (first && choices &&
         !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {
-        gm_user_field_close(&first->scene);
+        gm_system_scene_close(&first->scene);
         return NULL;
     }
     return first ? &first->scene : NULL;
-}
-
-void gm_user_field_close(const struct gm_scene *scene)
-{
-    const struct gm_user_field *field =
-        (const struct gm_user_field *)scene; /* the scene is its first member */
-    if (field->of_file.next) {
-        gm_user_field_close(&field->of_file.next->scene);
-    }
-    gm_arena_close(field->arena);
 }

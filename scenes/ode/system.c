@@ -437,7 +437,7 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-static bool make_rows(struct gm_system_scene *system_scene, bool typed)
+static void make_rows(struct gm_system_scene *system_scene, bool typed)
 {
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
     static const struct gm_parameter timing[GM_SYSTEM_ROWS] = {
@@ -463,9 +463,7 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
         GM_CAMERA_ROWS(struct gm_system_lane, camera),
     };
     const size_t skipped = gm_system_skipped(system_scene);
-    if (!gm_system_make_rows(system_scene, timing, common + skipped, GM_COUNT(common) - skipped, typed)) {
-        return false;
-    }
+    gm_system_make_rows(system_scene, timing, common + skipped, GM_COUNT(common) - skipped, typed);
     for (int k = 0; k < 2 && !system_scene->hook; k++) {
         const enum gm_system_word word = k ? GM_WORD_SPREAD : GM_WORD_MEMBERS;
         const struct gm_system_item *item = gm_system_item_of(&system_scene->system, word, 0);
@@ -474,21 +472,17 @@ static bool make_rows(struct gm_system_scene *system_scene, bool typed)
             row->key = item->name[0] ? item->name : row->key;
             row->help = item->text[0] ? item->text : row->help;
             row->standard =
-                gm_kept_number(&system_scene->texts, item->value, system_scene->system.texts[word]);
+                gm_written_number(system_scene->arena, item->value, system_scene->system.texts[word]);
             row->lowest = fmax(item->low, row->lowest);
             row->highest = fmin(item->high, row->highest);
             row->logarithmic = row->lowest > 0;
             system_scene->centre += word == GM_WORD_MEMBERS && item->name[0];
-            if (!row->standard) {
-                return false;
-            }
         }
     }
-    return true;
 }
 
 /* Makes dt and until, from the file, or from the system's frequency. */
-static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
+static void make_timing(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
     gm_parameters_reset(system_scene->rows + GM_SYSTEM_ROWS, system_scene->row_count - GM_SYSTEM_ROWS,
@@ -498,25 +492,20 @@ static bool make_timing(struct gm_system_scene *system_scene, char *sentence)
     const double part = frexp(radian_time(system_scene->initial), &exponent);
     system_scene->radian = ldexp(round(ldexp(part, 20)), exponent - 20);
     double numbers[GM_SYSTEM_TIMES];
-    if (!gm_system_open_timing(system_scene, numbers, sentence)) {
-        return false;
-    }
+    gm_system_open_timing(system_scene, numbers);
     const int looks = system->n <= MOST_FOLLOWED ? 10 : 0;
     const double dt =
         numbers[0] > 0 ? numbers[0] : gm_written_rounded(0.1 * shortest_radian(system_scene->initial, looks));
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
-    return gm_written_timing(&system_scene->texts, system, dt, until, &system_scene->rows[DT],
-                             &system_scene->rows[UNTIL]);
+    gm_written_timing(system_scene->arena, system, dt, until, system_scene->rows);
 }
 
 /* Makes the sights of the state, and the one of the modified energy. */
-static bool make_shows(struct gm_system_scene *system_scene)
+static void make_shows(struct gm_system_scene *system_scene)
 {
-    if (!gm_system_make_sights(system_scene)) {
-        return false;
-    }
+    gm_system_make_sights(system_scene);
     size_t shows = 0;
     while (system_scene->shows[shows]) {
         shows++;
@@ -531,7 +520,6 @@ static bool make_shows(struct gm_system_scene *system_scene)
             show->standard = system_scene->shows[GM_SHOW_SECTION];
         }
     }
-    return true;
 }
 
 static void make_tracks(struct gm_system_scene *system_scene)
@@ -571,20 +559,16 @@ static void make_tracks(struct gm_system_scene *system_scene)
 }
 
 /* Chooses the schemes that the file names, or the best known ones that fit. */
-static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                         char *sentence)
+static void make_schemes(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     static const char *const usual[] = {"rattle2", "verlet",           "midpoint", "rk4",
                                         "gauss4",  "symplectic-euler", "yoshida4"};
     const char *lacks = gm_user_model_lacks(&system_scene->model);
     if (lacks[0]) {
-        return gm_refuse(sentence, "%s", lacks);
+        gm_arena_refuse(system_scene->arena, "%s", lacks);
     }
-    size_t count;
-    if (!gm_written_schemes(system_scene->system.texts[GM_WORD_SCHEMES], problem, system_scene->schemes,
-                            GM_MOST_PREFERRED, &count, sentence)) {
-        return false;
-    }
+    size_t count = gm_written_schemes(system_scene->arena, system_scene->system.texts[GM_WORD_SCHEMES],
+                                      problem, system_scene->schemes);
     const bool named = count > 0;
     for (size_t i = 0; i < GM_COUNT(usual) && !named; i++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(usual[i], problem);
@@ -593,11 +577,10 @@ static bool make_schemes(struct gm_system_scene *system_scene, const struct gm_p
         }
     }
     if (count == 0) {
-        return gm_refuse(sentence, "no scheme fits this system");
+        gm_arena_refuse(system_scene->arena, "no scheme fits this system");
     }
     system_scene->scene.schemes = system_scene->schemes;
     system_scene->scene.lanes = system_scene->system.texts[GM_WORD_LANES];
-    return true;
 }
 
 /* Returns the title in the file, or the formula if that is short. */
@@ -623,21 +606,45 @@ static const char *title_of(struct gm_system_scene *system_scene)
         whole = formula != NULL; /* a long formula is left out */
         free(formula);
     }
-    const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(system_scene, "%s", text) : NULL;
-    return kept ? kept : "A user-defined system";
+    return whole && strlen(text) <= SHORT ? gm_arena_print(system_scene->arena, "%s", text)
+                                          : "A user-defined system";
 }
 
-static bool make(struct gm_system_scene *system_scene, const char *name, const char *const *words, bool typed,
-                 char *sentence)
+/* A scene that is being made. */
+struct making {
+    struct gm_user_system *system;
+    const char *name;
+    const char *const *words;
+    bool typed;
+    struct gm_system_scene *system_scene;
+    struct gm_problem problem; /* of the file's own values */
+};
+
+static void close_made_problem(void *problem)
 {
+    gm_user_problem_close(problem);
+}
+
+static void close_model(void *model)
+{
+    gm_user_model_close(model);
+}
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct making *making = data;
+    const char *const *words = making->words;
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_system_scene *system_scene = making->system_scene =
+        gm_system_scene_take(arena, making->system, sizeof *system_scene);
     struct gm_user_system *system = &system_scene->system;
-    gm_refuse(sentence, "not enough memory");
-    if (!gm_system_find_hook(system_scene, sentence) || !gm_user_model_open(&system_scene->model, system) ||
-        !make_rows(system_scene, typed)) {
-        return false;
-    }
+    char sentence[GM_MESSAGE];
+    gm_system_find_hook(system_scene);
+    gm_arena_keep(arena, &system_scene->model, close_model);
+    gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
+    make_rows(system_scene, making->typed);
     system_scene->scene = (struct gm_scene){
-        .name = name,
+        .name = making->name,
         .title = title_of(system_scene),
         .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A user-defined system.",
         .time = system->texts[GM_WORD_TIME] ? system->texts[GM_WORD_TIME] : "the unit of its equations",
@@ -645,9 +652,9 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
         .initial = system_scene->initial,
         .words = words,
-        .source = typed || !words ? NULL : system->source,
+        .source = making->typed || !words ? NULL : system->source,
         .text = words ? system->source : NULL,
-        .mark = words ? gm_kept_texts_add(&system_scene->texts, gm_written_mark(name, system->source)) : NULL,
+        .mark = words ? gm_written_mark(arena, making->name, system->source) : NULL,
         .parameters = system_scene->rows,
         .parameter_count = system_scene->row_count + GM_COMMON_ROWS - gm_system_skipped(system_scene),
         .variant = gm_system_variant,
@@ -662,65 +669,53 @@ static bool make(struct gm_system_scene *system_scene, const char *name, const c
         .failure = gm_system_tell_failure,
     };
     const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
-    struct gm_problem problem;
-    if (!gm_system_open_items(system_scene, sentence) || !make_timing(system_scene, sentence) ||
-        (end && !gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1)) ||
-        !make_shows(system_scene) || !gm_system_check_levels(system_scene, sentence) ||
-        !gm_system_open_surfaces(system_scene, sentence) ||
-        !setup(system_scene->initial, &problem, sentence)) {
-        return false;
+    gm_system_open_items(system_scene);
+    make_timing(system_scene);
+    make_shows(system_scene);
+    gm_system_check_levels(system_scene);
+    gm_system_open_surfaces(system_scene);
+    if (!setup(system_scene->initial, &making->problem, sentence)) {
+        gm_arena_refuse(arena, "%s", sentence);
     }
+    gm_arena_keep(arena, &making->problem, close_made_problem);
     make_tracks(system_scene);
     system_scene->scene.parameter_count += system_scene->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
     if (end) {
+        gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1);
         system_scene->scene.stop = gm_system_stop;
         system_scene->scene.stops = gm_system_stops;
         system_scene->scene.follow = 1;
     }
-    bool good = gm_system_make_observables(system_scene, &problem, sentence) &&
-                gm_system_check_exact(system_scene, &problem, sentence) &&
-                make_schemes(system_scene, &problem, sentence) &&
-                gm_system_make_studies(system_scene, &problem, radian_time, sentence);
-    gm_user_problem_close(&problem);
+    gm_system_make_observables(system_scene, &making->problem);
+    gm_system_check_exact(system_scene, &making->problem);
+    make_schemes(system_scene, &making->problem);
+    gm_system_make_studies(system_scene, &making->problem, radian_time);
+    gm_arena_drop(arena, &making->problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
     system_scene->scene.asked = gm_ode_asked + skipped;
     system_scene->scene.asked_count = GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
                                       (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
-    for (size_t i = 0; good && i < system->choices.count; i++) {
+    for (size_t i = 0; i < system->choices.count; i++) {
         const char *key = system->choices.list[i].name;
-        good = gm_scene_observable(&system_scene->scene, key) < 0 ||
-               gm_refuse(sentence, "choice: %s is an observable of this system: take another name", key);
+        if (gm_scene_observable(&system_scene->scene, key) >= 0) {
+            gm_arena_refuse(arena, "choice: %s is an observable of this system: take another name", key);
+        }
     }
-    if (good && system_scene->observable_count > MOST_OBSERVED) {
-        return gm_refuse(sentence, "a system has at most %d observables and invariants; this has %zu",
-                         MOST_OBSERVED, system_scene->observable_count);
+    if (system_scene->observable_count > MOST_OBSERVED) {
+        gm_arena_refuse(arena, "a system has at most %d observables and invariants; this has %zu",
+                        MOST_OBSERVED, system_scene->observable_count);
     }
-    return good;
+    gm_arena_need(arena, gm_memory_refusals() == refusals); /* a default would have another value */
 }
 
 /* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(const struct gm_user_system *system, const char *name,
+static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
                                         const char *const *words, bool typed, char *sentence)
 {
-    struct gm_system_scene *system_scene = calloc(1, sizeof *system_scene);
-    if (!system_scene) {
-        gm_system_close((struct gm_user_system *)system);
-        gm_refuse(sentence, "not enough memory");
-        return NULL;
-    }
-    system_scene->system = *system;
-    const unsigned long refusals = gm_memory_refusals();
-    bool good = make(system_scene, name, words, typed, sentence);
-    if (gm_memory_refusals() != refusals) { /* a default would have another value */
-        good = gm_refuse(sentence, "not enough memory");
-    }
-    if (!good) {
-        gm_system_scene_close(&system_scene->scene);
-        return NULL;
-    }
-    return system_scene;
+    struct making making = {.system = system, .name = name, .words = words, .typed = typed};
+    return gm_system_scene_make(make, &making, system, sentence) ? making.system_scene : NULL;
 }
 
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
@@ -742,25 +737,4 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
         return NULL;
     }
     return first ? &first->scene : NULL;
-}
-
-void gm_system_scene_close(const struct gm_scene *scene)
-{
-    struct gm_system_scene *system_scene =
-        (struct gm_system_scene *)scene; /* the scene is its first member */
-    if (system_scene->next) {
-        gm_system_scene_close(&system_scene->next->scene);
-    }
-    for (size_t i = 0; i < system_scene->sight_count; i++) {
-        gm_system_close_sight(&system_scene->sights[i]);
-    }
-    gm_system_close_sight(&system_scene->section);
-    gm_tape_close(&system_scene->surfaces);
-    struct gm_tape *const others[] = {&system_scene->where, &system_scene->stop, &system_scene->exact};
-    for (size_t i = 0; i < GM_COUNT(others); i++) {
-        gm_tape_close(others[i]);
-    }
-    gm_user_model_close(&system_scene->model);
-    gm_system_close_rows(system_scene);
-    free(system_scene);
 }

@@ -12,6 +12,5 @@
 const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
                                             const char *const *words, bool typed, struct gm_fault *fault,
                                             char *sentence);
-void gm_system_scene_close(const struct gm_scene *scene);
 
 #endif

@@ -16,6 +16,7 @@
 #include "core/schemes.h"
 #include "render/message.h"
 #include "scenes/common/lane.h"
+#include "scenes/common/system/pieces.h"
 #include "scenes/ode/system.h"
 #include "tests/common/lane.h"
 

@@ -18,6 +18,7 @@
 #include "render/message.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/system/look.h"
+#include "scenes/common/system/pieces.h"
 #include "scenes/ode/system.h"
 #include "tests/common/lane.h"
 

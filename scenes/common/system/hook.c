@@ -9,7 +9,7 @@
 #include "scenes/common/system/hooks.def"
 #undef GM_HOOK
 
-bool gm_system_find_hook(struct gm_system_scene *system_scene, char *sentence)
+void gm_system_find_hook(struct gm_system_scene *system_scene)
 {
     static const struct gm_hook *const hooks[] = {
 #define GM_HOOK(name) &gm_hook_##name,
@@ -22,8 +22,9 @@ bool gm_system_find_hook(struct gm_system_scene *system_scene, char *sentence)
     }
     const struct gm_hook *hook = system_scene->hook;
     if (name && !hook) {
-        return gm_refuse(sentence, "hook: there is no hook \"%.60s\"", name);
+        gm_arena_refuse(system_scene->arena, "hook: there is no hook \"%.60s\"", name);
     }
-    return !hook || hook->suits(&system_scene->system) ||
-           gm_refuse(sentence, "the hook \"%s\" is for %s", hook->name, hook->needs);
+    if (hook && !hook->suits(&system_scene->system)) {
+        gm_arena_refuse(system_scene->arena, "the hook \"%s\" is for %s", hook->name, hook->needs);
+    }
 }

@@ -17,8 +17,7 @@ struct gm_hook {
     size_t observable_count;
 };
 
-/* Finds the hook that the file names, if it does. False with a sentence if it is unknown, or suits other
-   systems. */
-bool gm_system_find_hook(struct gm_system_scene *system_scene, char *sentence);
+/* Finds the hook that the file names, if it does. Refuses one that is unknown, or suits other systems. */
+void gm_system_find_hook(struct gm_system_scene *system_scene);
 
 #endif

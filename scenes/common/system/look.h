@@ -58,19 +58,14 @@ enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
 enum { GM_SHOW_ALL, GM_SHOW_SECTION };
 #define GM_SHOW_OVER_TIME "t:"
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_MEMBERS, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
-enum {
-    GM_MOST_CONDITIONS = 8,
-    GM_MOST_SIGHTS = 64,
-    GM_MOST_PREFERRED = 32,
-    GM_MOST_SURFACES = 8,
-    GM_MOST_OVER_TIME = 8
-};
+enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_SURFACES = 8, GM_MOST_OVER_TIME = 8 };
 
 struct gm_hook; /* scenes/common/system/hook.h */
 
 /* The data that follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
+    struct gm_arena *arena; /* holds all of this, and the system */
     struct gm_user_system system;
     struct gm_user_model model;
     const struct gm_hook *hook;           /* NULL: the file names none */
@@ -81,8 +76,8 @@ struct gm_system_scene {
     const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* the words of choices, NULL-terminated */
     const char **lacks; /* for each row: why this system lacks it, or NULL; NULL: it is alone */
     struct gm_observable *observables;
-    struct gm_tape *formulas; /* for each observable */
-    struct gm_tape *terms;    /* for each error: the sum of the magnitudes of its terms */
+    struct gm_tape **formulas; /* for each observable; NULL: a function of its own */
+    struct gm_tape **terms;    /* for each error: the sum of the magnitudes of its terms; else NULL */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
     struct gm_sight *sights; /* the first is the one of show=all; the last pair_count are planes */
@@ -105,7 +100,6 @@ struct gm_system_scene {
     double values[5];
     const char *work_schemes[GM_MOST_PREFERRED + 1], *stability_schemes[GM_MOST_PREFERRED + 1];
     const char *schemes[GM_MOST_PREFERRED + 1];
-    struct gm_kept_texts texts;
     struct gm_system_lane *initial;
 };
 

@@ -3,8 +3,6 @@
 #include "scenes/common/system/pieces.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/model/equations.h"
@@ -48,22 +46,48 @@ double gm_system_half_length(const struct gm_system_lane *lane)
     return half;
 }
 
-const char *gm_system_kept_text(struct gm_system_scene *system_scene, const char *format, ...)
+static void close_system(void *thing)
 {
-    char *text = NULL;
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vasprintf(&text, format, arguments);
-    va_end(arguments);
-    return gm_kept_texts_add(&system_scene->texts, length < 0 ? NULL : text);
+    gm_system_close(&((struct gm_system_scene *)thing)->system);
 }
 
-bool gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
+void *gm_system_scene_take(struct gm_arena *arena, struct gm_user_system *system, size_t size)
+{
+    struct gm_system_scene *system_scene = gm_arena_take(arena, 1, size);
+    system_scene->arena = arena;
+    system_scene->system = *system;
+    *system = (struct gm_user_system){0};
+    return gm_arena_keep(arena, system_scene, close_system);
+}
+
+bool gm_system_scene_make(void (*body)(struct gm_arena *arena, void *making), void *making,
+                          struct gm_user_system *system, char *sentence)
+{
+    struct gm_arena *arena = gm_arena_open();
+    if (gm_arena_run(arena, body, making)) {
+        return true;
+    }
+    gm_system_close(system);
+    gm_refuse(sentence, "%s", gm_arena_reason(arena));
+    gm_arena_close(arena);
+    return false;
+}
+
+void gm_system_scene_close(const struct gm_scene *scene)
+{
+    const struct gm_system_scene *system_scene =
+        (const struct gm_system_scene *)scene; /* the scene is its first member */
+    if (system_scene->next) {
+        gm_system_scene_close(&system_scene->next->scene);
+    }
+    gm_arena_close(system_scene->arena);
+}
+
+void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count)
 {
     const size_t inputs = system_scene->system.variable_count;
-    double *unused = calloc(inputs, sizeof *unused);
-    const bool good = unused && gm_tape_open(tape, &system_scene->system.graph, nodes, count, inputs, unused);
-    free(unused);
-    return good;
+    const double *unused = gm_arena_take(system_scene->arena, inputs, sizeof *unused);
+    gm_tape_keep(system_scene->arena, tape,
+                 gm_tape_open(tape, &system_scene->system.graph, nodes, count, inputs, unused));
 }

@@ -111,7 +111,7 @@ const char *gm_system_idle(const void *parameters, const char *key)
 }
 
 /* Makes the row of a choice, whose values are its words. */
-static bool make_choice(struct gm_system_scene *system_scene, size_t i)
+static void make_choice(struct gm_system_scene *system_scene, size_t i)
 {
     const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
     for (size_t k = 0; k < choice->count; k++) {
@@ -122,34 +122,33 @@ static bool make_choice(struct gm_system_scene *system_scene, size_t i)
     *row = (struct gm_parameter){
         .key = choice->name,
         .unit = "",
-        .help = gm_kept_texts_add(&system_scene->texts,
-                                  gm_span_words(system_scene->system.source, choice->meaning)),
+        .help = gm_arena_keep(system_scene->arena,
+                              gm_span_words(system_scene->system.source, choice->meaning), free),
         .type = GM_CHOICE,
         .offset = offsetof(struct gm_system_lane, values) + i * sizeof(double),
         .standard = choice->words[choice->chosen],
         .choices = system_scene->words[i],
     };
-    return row->help != NULL;
 }
 
-bool gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
+void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
                          const struct gm_parameter *common, size_t count, bool typed)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters,
                  starts = gm_system_is_field(system) ? 0 : n;
     const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + starts;
-    system_scene->rows = gm_arena_take(system->arena, most + count, sizeof *system_scene->rows);
-    system_scene->variables = gm_arena_take(system->arena, most, sizeof *system_scene->variables);
+    struct gm_arena *arena = system_scene->arena;
+    system_scene->rows = gm_arena_take(arena, most + count, sizeof *system_scene->rows);
+    system_scene->variables = gm_arena_take(arena, most, sizeof *system_scene->variables);
     system_scene->initial =
-        gm_arena_take(system->arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
-    double *start = gm_equations_start(system, NULL);
-    bool good = system_scene->rows && system_scene->variables && system_scene->initial && start;
-    for (size_t i = 0; good && i < choices; i++) {
-        good = make_choice(system_scene, i);
+        gm_arena_take(arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
+    const double *start = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
+    for (size_t i = 0; i < choices; i++) {
+        make_choice(system_scene, i);
     }
     size_t row = GM_SYSTEM_ROWS + choices;
-    for (size_t i = 0; good && i < parameters + starts; i++) {
+    for (size_t i = 0; i < parameters + starts; i++) {
         const bool is_start = i >= parameters;
         size_t number = is_start ? i - parameters : system->parameters + i;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
@@ -160,61 +159,34 @@ bool gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
             continue;
         }
         system_scene->variables[row] = number;
-        system_scene->rows[row] = gm_written_row(
-            &system_scene->texts, variable, start[number], is_start ? "where it starts" : "a parameter",
-            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
-        system_scene->rows[row].required = typed;
-        good = system_scene->rows[row++].standard != NULL;
+        system_scene->rows[row] =
+            gm_written_row(arena, variable, start[number], is_start ? "where it starts" : "a parameter",
+                           offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row++].required = typed;
     }
     system_scene->row_count = row;
-    if (good) {
-        system_scene->common = system_scene->rows + row;
-        system_scene->common_count = count;
-        memcpy(system_scene->rows, timing, GM_SYSTEM_ROWS * sizeof *timing);
-        memcpy(system_scene->common, common, count * sizeof *common);
-        system_scene->initial->owner = system_scene;
-    }
-    free(start);
-    return good;
+    system_scene->common = system_scene->rows + row;
+    system_scene->common_count = count;
+    memcpy(system_scene->rows, timing, GM_SYSTEM_ROWS * sizeof *timing);
+    memcpy(system_scene->common, common, count * sizeof *common);
+    system_scene->initial->owner = system_scene;
 }
 
-bool gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES],
-                           char *sentence)
+void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES])
 {
-    double *values = gm_system_start_values(system_scene->initial, NULL);
-    bool good = values || gm_refuse(sentence, "not enough memory");
-    for (size_t i = 0; good && i < GM_SYSTEM_TIMES; i++) {
+    struct gm_arena *arena = system_scene->arena;
+    const double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
+    for (size_t i = 0; i < GM_SYSTEM_TIMES; i++) {
         const struct gm_system_item *item =
             gm_system_item_of(&system_scene->system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
         numbers[i] = NAN;
-        if (item && !gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1)) {
-            good = gm_refuse(sentence, "not enough memory");
-        } else if (item) {
+        if (item) {
+            gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1);
             gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
         }
     }
-    free(values);
-    const double steps = good ? numbers[GM_SYSTEM_TIMES - 1] : NAN;
+    const double steps = numbers[GM_SYSTEM_TIMES - 1];
     if (steps < 0 || (isfinite(steps) && steps != floor(steps))) {
-        return gm_refuse(sentence, "steps: %.10g is not a whole number", steps);
+        gm_arena_refuse(arena, "steps: %.10g is not a whole number", steps);
     }
-    return good;
-}
-
-void gm_system_close_rows(struct gm_system_scene *system_scene)
-{
-    for (size_t i = 0; system_scene->formulas && i < system_scene->observable_count; i++) {
-        gm_tape_close(&system_scene->formulas[i]);
-    }
-    for (size_t i = 0; system_scene->terms && i < system_scene->observable_count; i++) {
-        gm_tape_close(&system_scene->terms[i]);
-    }
-    for (size_t i = 0; system_scene->of_items && i < system_scene->system.item_count; i++) {
-        gm_tape_close(&system_scene->of_items[i]);
-    }
-    for (size_t i = 0; i < GM_SYSTEM_TIMES; i++) {
-        gm_tape_close(&system_scene->timing[i]);
-    }
-    gm_kept_texts_close(&system_scene->texts);
-    gm_system_close(&system_scene->system);
 }

@@ -10,63 +10,61 @@
 #include "core/schemes.h"
 #include "scenes/common/system/pieces.h"
 
-/* Returns true if an option names an observable, or is missing. */
-static bool is_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
-                          enum gm_system_option_word word, char *sentence)
+/* Refuses an option that names what is no observable. */
+static void check_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
+                             enum gm_system_option_word word)
 {
     const char *key = gm_system_option_text(item, word, NULL);
-    return !key || gm_scene_observable(&system_scene->scene, key) >= 0 ||
-           gm_refuse(sentence, "%s: %.60s is not an observable", gm_system_words[item->word].word, key);
+    if (key && gm_scene_observable(&system_scene->scene, key) < 0) {
+        gm_arena_refuse(system_scene->arena, "%s: %.60s is not an observable",
+                        gm_system_words[item->word].word, key);
+    }
 }
 
-/* Reads the schemes that an option names, ended by NULL; *list is NULL for the usual ones. */
-static bool take_schemes(const struct gm_system_item *item, const struct gm_problem *problem,
-                         const char **schemes, const char *const **list, char *sentence)
+/* Reads the schemes that an option names, ended by NULL. Returns NULL for the usual ones. */
+static const char *const *take_schemes(struct gm_arena *arena, const struct gm_system_item *item,
+                                       const struct gm_problem *problem, const char **schemes)
 {
     const char *text = gm_system_option_text(item, GM_OPTION_SCHEMES, "usual");
-    size_t count = 0;
-    *list = NULL;
     if (strcmp(text, "usual") == 0) {
-        return true;
+        return NULL;
     }
-    *list = schemes;
-    return gm_written_schemes(text, problem, schemes, GM_MOST_PREFERRED, &count, sentence);
+    gm_written_schemes(arena, text, problem, schemes);
+    return schemes;
 }
 
-static bool make_figures(struct gm_system_scene *system_scene)
+static void make_figures(struct gm_system_scene *system_scene)
 {
     const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_FIGURE);
-    system_scene->figures =
-        gm_arena_take(system_scene->system.arena, count + 1, sizeof *system_scene->figures);
-    for (size_t i = 0; system_scene->figures && i < count; i++) {
+    system_scene->figures = gm_arena_take(system_scene->arena, count + 1, sizeof *system_scene->figures);
+    for (size_t i = 0; i < count; i++) {
         const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_FIGURE, i);
         system_scene->figures[i] =
             (struct gm_figure){.name = item->name, .statement = item->text, .arguments = item->words};
     }
     system_scene->scene.figures = system_scene->figures;
     system_scene->scene.figure_count = count;
-    return system_scene->figures != NULL;
 }
 
 /* ---- work and precision ---- */
 
-static bool make_work(struct gm_system_scene *system_scene, const struct gm_problem *problem, char *sentence)
+static void make_work(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_WORK, 0);
+    struct gm_arena *arena = system_scene->arena;
     struct gm_work *work = &system_scene->work;
     system_scene->scene.work = work;
     if (system_scene->radian > 0) { /* a field has a work of its own */
         work->coarsest = system_scene->radian;
         work->halvings = 8;
     }
-    if (!item && system_scene->radian == 0) {
-        return true;
+    if (!item && system_scene->radian > 0) {
+        const double until = atof(gm_scene_parameter(&system_scene->scene, "until")->standard);
+        work->arguments =
+            gm_arena_print(arena, "until=%.17g", fmin(until, gm_written_rounded(20 * system_scene->radian)));
     }
     if (!item) {
-        const double until = atof(gm_scene_parameter(&system_scene->scene, "until")->standard);
-        work->arguments = gm_system_kept_text(system_scene, "until=%.17g",
-                                              fmin(until, gm_written_rounded(20 * system_scene->radian)));
-        return work->arguments != NULL;
+        return;
     }
     const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
                                   *values = gm_system_option(item, GM_OPTION_VALUES);
@@ -76,12 +74,12 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     const char *const known[] = {solves, reference};
     for (size_t i = 0; i < GM_COUNT(known); i++) {
         if (known[i] && !gm_scheme_find(known[i])) {
-            return gm_refuse(sentence, "work: %.60s is not a scheme", known[i]);
+            gm_arena_refuse(arena, "work: %.60s is not a scheme", known[i]);
         }
     }
     if (errors && (errors->count != 3 ||
                    !(errors->numbers[0] > errors->numbers[1] && errors->numbers[1] > errors->numbers[2]))) {
-        return gm_refuse(sentence, "work: errors are three numbers that fall: errors 1e-3, 1e-6, 1e-9");
+        gm_arena_refuse(arena, "work: errors are three numbers that fall: errors 1e-3, 1e-6, 1e-9");
     }
     work->arguments = item->words;
     work->measure = gm_system_option_text(item, GM_OPTION_MEASURE, work->measure);
@@ -93,17 +91,17 @@ static bool make_work(struct gm_system_scene *system_scene, const struct gm_prob
     work->ratio = tie ? system_scene->system.variables[tie->variable].name : NULL;
     if (values) {
         if (!gm_scene_parameter(&system_scene->scene, item->name)) {
-            return gm_refuse(sentence, "work: %.60s is not a parameter", item->name);
+            gm_arena_refuse(arena, "work: %.60s is not a parameter", item->name);
         }
         work->resolution = item->name;
         work->resolutions = values->numbers;
         work->resolution_count = values->count;
     }
     if (!(work->coarsest > 0) || work->halvings < 1 || work->halvings > 30) {
-        return gm_refuse(sentence, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");
+        gm_arena_refuse(arena, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");
     }
-    return is_observable(system_scene, item, GM_OPTION_MEASURE, sentence) &&
-           take_schemes(item, problem, system_scene->work_schemes, &work->schemes, sentence);
+    check_observable(system_scene, item, GM_OPTION_MEASURE);
+    work->schemes = take_schemes(arena, item, problem, system_scene->work_schemes);
 }
 
 /* ---- maps of stability ---- */
@@ -124,7 +122,7 @@ static double unit_of(const void *parameters)
 
 /* Makes the map of a system whose file has none: over the first parameter that can change, or over the start
    of the first component. */
-static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian)(const void *parameters))
+static void make_usual_map(struct gm_system_scene *system_scene, double (*radian)(const void *parameters))
 {
     static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
     static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
@@ -144,8 +142,8 @@ static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian
     }
     const bool kept = system_scene->observable_count > 0 && system_scene->observables[0].kept;
     system_scene->stability = (struct gm_stability){
-        .arguments =
-            gm_system_kept_text(system_scene, "until=%.17g", gm_written_rounded(200 * system_scene->radian)),
+        .arguments = gm_arena_print(system_scene->arena, "until=%.17g",
+                                    gm_written_rounded(200 * system_scene->radian)),
         .parameter = parameter->key,
         .values = system_scene->values,
         .value_count = count,
@@ -160,31 +158,33 @@ static bool make_usual_map(struct gm_system_scene *system_scene, double (*radian
         .kept = kept ? system_scene->observables[0].key : NULL,
         .error = kept ? system_scene->observables[0].key : NULL,
     };
-    return system_scene->stability.arguments != NULL;
 }
 
 /* Reads the map in the line stability:. */
-static bool read_map(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                     const struct gm_system_item *item, char *sentence)
+static void read_map(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                     const struct gm_system_item *item)
 {
+    struct gm_arena *arena = system_scene->arena;
     struct gm_stability *map = &system_scene->stability;
     const struct gm_system_option *values = gm_system_option(item, GM_OPTION_VALUES),
                                   *unit = gm_system_option(item, GM_OPTION_STEP_UNIT),
                                   *steps = gm_system_option(item, GM_OPTION_STEPS);
     const struct gm_parameter *row = values ? gm_scene_parameter(&system_scene->scene, item->name) : NULL;
+    if (!values) {
+        gm_arena_refuse(arena, "stability: a parameter and its values are missing: q 0, 1");
+    }
     if (!row) {
-        return values ? gm_refuse(sentence, "stability: %.60s is not a parameter", item->name)
-                      : gm_refuse(sentence, "stability: a parameter and its values are missing: q 0, 1");
+        gm_arena_refuse(arena, "stability: %.60s is not a parameter", item->name);
     }
     for (size_t i = 0; i < values->count; i++) {
         if (!(values->numbers[i] >= row->lowest && values->numbers[i] <= row->highest)) {
-            return gm_refuse(sentence, "stability: %s lies between %g and %g, and one of its values is %g",
-                             row->key, row->lowest, row->highest, values->numbers[i]);
+            gm_arena_refuse(arena, "stability: %s lies between %g and %g, and one of its values is %g",
+                            row->key, row->lowest, row->highest, values->numbers[i]);
         }
     }
     for (size_t i = 0; steps && i < steps->count; i++) {
         if (!(steps->numbers[i] > 0)) {
-            return gm_refuse(sentence, "stability: a step is above 0, and this is %g", steps->numbers[i]);
+            gm_arena_refuse(arena, "stability: a step is above 0, and this is %g", steps->numbers[i]);
         }
     }
     map->arguments = item->words;
@@ -201,38 +201,42 @@ static bool read_map(struct gm_system_scene *system_scene, const struct gm_probl
         map->step_count = steps->count;
     }
     if (!map->unit || !map->steps) {
-        return gm_refuse(sentence,
-                         "stability: a field needs a unit and steps: unit 2*half_length/points = Δt / Δx; "
-                         "steps 0.5, 1, 2");
+        gm_arena_refuse(arena,
+                        "stability: a field needs a unit and steps: unit 2*half_length/points = Δt / Δx; "
+                        "steps 0.5, 1, 2");
     }
     map->throughout = gm_system_option(item, GM_OPTION_LARGEST) != NULL;
     map->settle = (int64_t)gm_system_option_number(item, GM_OPTION_SETTLE, 0);
     map->kept = gm_system_option_text(item, GM_OPTION_LOST, NULL);
     map->error = gm_system_option_text(item, GM_OPTION_WRONG, NULL);
-    return is_observable(system_scene, item, GM_OPTION_LOST, sentence) &&
-           is_observable(system_scene, item, GM_OPTION_WRONG, sentence) &&
-           take_schemes(item, problem, system_scene->stability_schemes, &map->schemes, sentence);
+    check_observable(system_scene, item, GM_OPTION_LOST);
+    check_observable(system_scene, item, GM_OPTION_WRONG);
+    map->schemes = take_schemes(arena, item, problem, system_scene->stability_schemes);
 }
 
-bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                            double (*radian)(const void *parameters), char *sentence)
+void gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                            double (*radian)(const void *parameters))
 {
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_STABILITY, 0),
                                 *graph;
     for (size_t i = 0; (graph = gm_system_item_of(&system_scene->system, GM_WORD_GRAPH, i)); i++) {
         if (gm_scene_observable(&system_scene->scene, graph->name) < 0) {
-            return gm_refuse(sentence, "graph: %.60s is not an observable", graph->name);
+            gm_arena_refuse(system_scene->arena, "graph: %.60s is not an observable", graph->name);
         }
     }
     const char *missing = item ? gm_system_option_text(item, GM_OPTION_MISSING, NULL) : NULL;
+    make_figures(system_scene);
+    make_work(system_scene, problem);
     if (missing) {
-        system_scene->scene.no_stability = gm_system_kept_text(
-            system_scene, "%s; stability --region SCHEME shows the limit of a scheme", missing);
-        return system_scene->scene.no_stability && make_figures(system_scene) &&
-               make_work(system_scene, problem, sentence);
+        system_scene->scene.no_stability = gm_arena_print(
+            system_scene->arena, "%s; stability --region SCHEME shows the limit of a scheme", missing);
+        return;
     }
     system_scene->scene.stability = item || radian ? &system_scene->stability : NULL;
-    return make_figures(system_scene) && make_work(system_scene, problem, sentence) &&
-           (!radian || make_usual_map(system_scene, radian)) &&
-           (!item || read_map(system_scene, problem, item, sentence));
+    if (radian) {
+        make_usual_map(system_scene, radian);
+    }
+    if (item) {
+        read_map(system_scene, problem, item);
+    }
 }

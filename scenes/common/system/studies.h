@@ -7,8 +7,8 @@
 
 /* Makes figures, work and stability of a scene that has rows, observables and schemes. `radian` is 1 / the
    largest frequency at the start, the unit of steps unless the file names another; NULL: a field, which has a
-   map of stability if its file does, and whose work is set. False with a sentence on failure. */
-bool gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                            double (*radian)(const void *parameters), char *sentence);
+   map of stability if its file does, and whose work is set. */
+void gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                            double (*radian)(const void *parameters));
 
 #endif

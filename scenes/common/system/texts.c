@@ -127,8 +127,7 @@ static const struct gm_tape *tape_of(const struct gm_system_scene *system_scene,
 /* ---- opening ---- */
 
 /* Checks that keys in braces are keys of the scene. */
-static bool check_keys(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
-                       char *sentence)
+static void check_keys(const struct gm_system_scene *system_scene, const struct gm_system_item *item)
 {
     const size_t first = item->word == GM_WORD_REQUIRE;
     const char *brace = strchr(item->text, '{');
@@ -138,51 +137,49 @@ static bool check_keys(const struct gm_system_scene *system_scene, const struct 
         snprintf(key, sizeof key, "%.*s", (int)(length < 60 ? length : 60), brace + 1);
         if (item->nodes[k] == GM_NO_NODE && strcmp(key, "schemes") != 0 &&
             !gm_scene_parameter(&system_scene->scene, key)) {
-            return gm_refuse(sentence, "%s: {%s} is not a value of this system",
-                             gm_system_words[item->word].word, key);
+            gm_arena_refuse(system_scene->arena, "%s: {%s} is not a value of this system",
+                            gm_system_words[item->word].word, key);
         }
     }
-    return true;
 }
 
-/* Opens the tape of an item: its formulas, then its option `while` or `unit`. False when out of memory. */
-static bool open_item(struct gm_system_scene *system_scene, const struct gm_system_item *item,
+/* Opens the tape of an item: its formulas, then its option `while` or `unit`. */
+static void open_item(struct gm_system_scene *system_scene, const struct gm_system_item *item,
                       struct gm_tape *tape)
 {
     static const enum gm_system_option_word words[] = {GM_OPTION_WHILE, GM_OPTION_STEP_UNIT};
-    gm_node_id *nodes = malloc((item->count + GM_COUNT(words)) * sizeof *nodes);
+    gm_node_id *nodes = gm_arena_take(system_scene->arena, item->count + GM_COUNT(words), sizeof *nodes);
     size_t count = 0;
-    for (; nodes && count < item->count; count++) {
+    for (; count < item->count; count++) {
         nodes[count] =
             item->nodes[count] == GM_NO_NODE ? 0 : item->nodes[count]; /* a key has a value elsewhere */
     }
-    for (size_t k = 0; nodes && k < GM_COUNT(words); k++) {
+    for (size_t k = 0; k < GM_COUNT(words); k++) {
         const struct gm_system_option *option = gm_system_option(item, words[k]);
         if (option) {
             nodes[count++] = option->node;
         }
     }
-    const bool good = nodes && (count == 0 || gm_system_open_tape(system_scene, tape, nodes, count));
-    free(nodes);
-    return good;
+    if (count > 0) {
+        gm_system_open_tape(system_scene, tape, nodes, count);
+    }
 }
 
-bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence)
+void gm_system_open_items(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
     system_scene->of_items =
-        gm_arena_take(system->arena, system->item_count + 1, sizeof *system_scene->of_items);
-    bool good = system_scene->of_items != NULL;
-    for (size_t i = 0; good && i < system->item_count; i++) {
+        gm_arena_take(system_scene->arena, system->item_count + 1, sizeof *system_scene->of_items);
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        const bool is_text = item->text && item->word != GM_WORD_LEVEL;
+        if (item->text && item->word != GM_WORD_LEVEL) {
+            check_keys(system_scene, item);
+        }
         if (item->text || item->word == GM_WORD_STABILITY || item->word == GM_WORD_COLOURS ||
             item->word == GM_WORD_TIE) {
-            good = (!is_text || check_keys(system_scene, item, sentence)) &&
-                   open_item(system_scene, item, &system_scene->of_items[i]);
+            open_item(system_scene, item, &system_scene->of_items[i]);
         }
     }
-    return good;
 }
 
 /* ---- writing ---- */

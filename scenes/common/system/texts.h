@@ -6,8 +6,8 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/system/look.h"
 
-/* Opens the tapes of texts, requirements and levels. False with a sentence on failure. */
-bool gm_system_open_items(struct gm_system_scene *system_scene, char *sentence);
+/* Opens the tapes of texts, requirements and levels. */
+void gm_system_open_items(struct gm_system_scene *system_scene);
 
 /* Returns the text of a line in a picture of lanes; `otherwise` if the file has no such line. Parts of a
    subtitle, between semicolons, are left out if they differ between lanes. */

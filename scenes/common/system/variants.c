@@ -76,26 +76,20 @@ static double nothing(const struct gm_view *view)
     return NAN;
 }
 
-/* Gives a system the rows, and moves its values and formulas to them. False when out of memory. */
-static bool take(struct gm_system_scene *own, const struct tables *tables)
+/* Gives a system the rows, and moves its values and formulas to them. */
+static void take(struct gm_arena *arena, struct gm_system_scene *own, const struct tables *tables)
 {
     const size_t rows = tables->row_count, count = tables->observable_count,
                  size = sizeof *own->initial + rows * (sizeof(double) + 1);
     const struct gm_system_scene before = *own;
-    struct gm_arena *arena = own->system.arena;
     char text[GM_CHOICE_SIZE + 32];
-    own->rows = gm_arena_take(arena, rows + tables->common_count, sizeof *own->rows);
+    own->rows = tables->rows;
     own->variables = gm_arena_take(arena, rows, sizeof *own->variables);
     own->initial = gm_arena_take(arena, 1, size);
     own->observables = gm_arena_take(arena, count + 1, sizeof *own->observables);
     own->formulas = gm_arena_take(arena, count + 1, sizeof *own->formulas);
     own->terms = gm_arena_take(arena, count + 1, sizeof *own->terms);
     own->lacks = gm_arena_take(arena, rows, sizeof *own->lacks);
-    if (!(own->rows && own->variables && own->initial && own->observables && own->formulas && own->terms &&
-          own->lacks)) {
-        *own = before;
-        return false;
-    }
     for (size_t row = 0; row < rows; row++) {
         const struct gm_parameter *to = &tables->rows[row];
         const size_t from = find(before.rows, sizeof *to, before.row_count, to->key);
@@ -112,7 +106,6 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
             own->observables[i] = before.observables[from];
             own->formulas[i] = before.formulas[from];
             own->terms[i] = before.terms[from];
-            before.formulas[from] = before.terms[from] = (struct gm_tape){0};
         } else {
             own->observables[i] = (struct gm_observable){.key = row->key,
                                                          .title = row->title,
@@ -121,12 +114,7 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
                                                          .logarithmic = row->logarithmic};
         }
     }
-    for (size_t i = 0; i < before.observable_count; i++) { /* formulas without a row */
-        gm_tape_close(&before.formulas[i]);
-        gm_tape_close(&before.terms[i]);
-    }
     memcpy(own->initial, before.initial, offsetof(struct gm_system_lane, values));
-    memcpy(own->rows, tables->rows, (rows + tables->common_count) * sizeof *own->rows);
     own->common = own->rows + rows;
     own->common_count = tables->common_count;
     own->scene.parameter_count += rows - own->row_count;
@@ -136,16 +124,16 @@ static bool take(struct gm_system_scene *own, const struct tables *tables)
     own->scene.initial = own->initial;
     own->scene.parameters = own->rows;
     own->scene.observables = own->observables;
-    return true;
 }
 
 /* Adds a system to those of the file, with their rows. */
-static bool join(struct gm_system_scene *own, struct gm_system_scene *first, const struct tables *tables)
+static void join(struct gm_arena *arena, struct gm_system_scene *own, struct gm_system_scene *first,
+                 const struct tables *tables)
 {
     own->scene.asked = first->scene.asked;
     own->scene.asked_count = first->scene.asked_count;
-    own->first = take(own, tables) ? first : NULL;
-    return own->first != NULL;
+    take(arena, own, tables);
+    own->first = first;
 }
 
 /* Returns true if a system has a row or, with row_count added, an observable. */
@@ -178,8 +166,9 @@ static size_t find_difference(const struct gm_system_scene *own, const struct gm
 }
 
 /* Gives the value of a row as the reason for what a system lacks without a reason: all of it, or what only
-   one has of the first system and `other`, which differs from it in that row alone. False when out of memory. */
-static bool give_reason(struct gm_system_scene *own, size_t row, const struct gm_system_scene *other)
+   one has of the first system and `other`, which differs from it in that row alone. */
+static void give_reason(struct gm_arena *arena, struct gm_system_scene *own, size_t row,
+                        const struct gm_system_scene *other)
 {
     const char *reason = NULL;
     char value[GM_CHOICE_SIZE + 32];
@@ -193,28 +182,26 @@ static bool give_reason(struct gm_system_scene *own, size_t row, const struct gm
         }
         if (!reason) {
             gm_parameter_format(&own->rows[row], own->initial, value, sizeof value);
-            reason = gm_system_kept_text(own, "it is not defined with %s=%s", own->rows[row].key, value);
-        }
-        if (!reason) {
-            return false;
+            reason = gm_arena_print(arena, "it is not defined with %s=%s", own->rows[row].key, value);
         }
         *place = reason;
     }
-    return true;
 }
 
-/* Gives the reasons for what a system lacks. False when out of memory. */
-static bool explain(struct gm_system_scene *own)
+/* Gives the reasons for what a system lacks. */
+static void explain(struct gm_arena *arena, struct gm_system_scene *own)
 {
     size_t count;
-    bool good = true;
-    for (const struct gm_system_scene *other = own->first->next; other && good; other = other->next) {
-        count = 0; /* one that could not be completed has no rows */
-        const size_t row = other->first ? find_difference(own->first, other, &count) : 0;
-        good = count != 1 || give_reason(own, row, other);
+    for (const struct gm_system_scene *other = own->first->next; other; other = other->next) {
+        const size_t row = find_difference(own->first, other, &count);
+        if (count == 1) {
+            give_reason(arena, own, row, other);
+        }
     }
     const size_t last = find_difference(own, own->first, &count);
-    return good && (count == 0 || give_reason(own, last, NULL));
+    if (count > 0) {
+        give_reason(arena, own, last, NULL);
+    }
 }
 
 /* Opens the system of the text of `first` with other values, and adds it to its list. */
@@ -243,9 +230,8 @@ static struct gm_system_scene *open_other(struct gm_system_scene *first, const s
     return NULL;
 }
 
-/* Collects the views of all systems of a file: all, the section, planes, and the modified Hamiltonian. False
-   when out of memory. */
-static bool unite_shows(struct gm_system_scene *first)
+/* Collects the views of all systems of a file: all, the section, planes, and the modified Hamiltonian. */
+static void unite_shows(struct gm_arena *arena, struct gm_system_scene *first)
 {
     size_t most = 1, count = 0;
     for (const struct gm_system_scene *other = first; other; other = other->next) {
@@ -253,8 +239,8 @@ static bool unite_shows(struct gm_system_scene *first)
             most++;
         }
     }
-    first->all_shows = gm_arena_take(first->system.arena, most, sizeof *first->all_shows);
-    for (int pass = 0; first->all_shows && pass < 3; pass++) {
+    first->all_shows = gm_arena_take(arena, most, sizeof *first->all_shows);
+    for (int pass = 0; pass < 3; pass++) {
         for (const struct gm_system_scene *other = first; other; other = other->next) {
             for (size_t k = 0; other->shows[k]; k++) {
                 const char *name = other->shows[k];
@@ -268,7 +254,6 @@ static bool unite_shows(struct gm_system_scene *first)
             }
         }
     }
-    return first->all_shows != NULL;
 }
 
 static bool has_scheme(const struct gm_system_scene *system_scene, const char *scheme)
@@ -299,8 +284,17 @@ static void keep_common_schemes(struct gm_system_scene *first)
     }
 }
 
-bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
+/* What a body that opens systems works on. */
+struct uniting {
+    struct gm_system_scene *first, *made;
+    const struct gm_system_lane *lane;
+    const struct gm_system_opening *opening;
+};
+
+static void unite(struct gm_arena *arena, void *data)
 {
+    const struct uniting *uniting = data;
+    struct gm_system_scene *first = uniting->first;
     const struct gm_written_choices *choices = &first->system.choices;
     size_t building = 0, rows = first->row_count + first->common_count,
            observables = first->observable_count + 1;
@@ -311,40 +305,41 @@ bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_openi
         const struct gm_written_choice *choice = &choices->list[i];
         for (size_t k = 0; k < choice->count; k++) {
             const struct gm_system_value word = {choice->name, choice->words[k]};
-            const struct gm_system_scene *other =
-                k != choice->chosen ? open_other(first, &word, 1, opening) : NULL;
-            if (other) {
-                rows += other->row_count;
-                observables += other->observable_count;
-            } else if (k != choice->chosen) {
-                return false;
+            if (k == choice->chosen) {
+                continue;
             }
+            const struct gm_system_scene *other = open_other(first, &word, 1, uniting->opening);
+            if (!other) {
+                gm_arena_refuse(arena, "%s", uniting->opening->sentence);
+            }
+            rows += other->row_count;
+            observables += other->observable_count;
         }
     }
     keep_common_schemes(first);
-    struct tables tables = {.rows = calloc(rows, sizeof *tables.rows),
+    struct tables tables = {.rows = gm_arena_take(arena, rows, sizeof *tables.rows),
                             .common_count = first->common_count,
-                            .observables = calloc(observables, sizeof *tables.observables)};
-    bool good = tables.rows && tables.observables;
-    for (const struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
+                            .observables = gm_arena_take(arena, observables, sizeof *tables.observables)};
+    for (const struct gm_system_scene *other = first; building > 0 && other; other = other->next) {
         add(&tables, other);
     }
-    if (good) {
-        memcpy(tables.rows + tables.row_count, first->common, first->common_count * sizeof *tables.rows);
-    }
-    if (good && first->shows) {
-        good = unite_shows(first);
+    memcpy(tables.rows + tables.row_count, first->common, first->common_count * sizeof *tables.rows);
+    if (first->shows) {
+        unite_shows(arena, first);
         tables.rows[tables.row_count + GM_ROW_SHOW - gm_system_skipped(first)].choices = first->all_shows;
     }
-    for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
-        good = join(other, first, &tables);
+    for (struct gm_system_scene *other = first; building > 0 && other; other = other->next) {
+        join(arena, other, first, &tables);
     }
-    for (struct gm_system_scene *other = first; good && building > 0 && other; other = other->next) {
-        good = explain(other);
+    for (struct gm_system_scene *other = first; building > 0 && other; other = other->next) {
+        explain(arena, other);
     }
-    free(tables.rows);
-    free(tables.observables);
-    return good || gm_refuse(opening->sentence, "not enough memory");
+}
+
+bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
+{
+    return gm_arena_run(first->arena, unite, &(struct uniting){.first = first, .opening = opening}) ||
+           gm_refuse(opening->sentence, "%s", gm_arena_reason(first->arena));
 }
 
 /* Returns true if a system has a lane's values. */
@@ -359,38 +354,53 @@ static bool is_of(const struct gm_system_scene *other, const struct gm_system_la
     return other->first != NULL;
 }
 
+/* Opens the system of a lane's values. */
+static void open_variant(struct gm_arena *arena, void *data)
+{
+    struct uniting *uniting = data;
+    const struct gm_system_scene *first = uniting->first;
+    size_t count = 0;
+    struct gm_system_value *values = gm_arena_take(arena, first->row_count, sizeof *values);
+    for (size_t row = 0; row < first->row_count; row++) {
+        if (builds(first, row)) {
+            const struct gm_parameter *at = &first->rows[row];
+            char text[GM_CHOICE_SIZE + 32];
+            gm_parameter_format(at, uniting->lane, text, sizeof text);
+            values[count++] = (struct gm_system_value){at->key, gm_arena_print(arena, "%s", text)};
+        }
+    }
+    uniting->made = open_other(uniting->first, values, count, uniting->opening);
+}
+
+static void join_variant(struct gm_arena *arena, void *data)
+{
+    const struct uniting *uniting = data;
+    struct gm_system_scene *first = uniting->first;
+    join(arena, uniting->made, first,
+         &(struct tables){first->rows, first->observables, first->row_count, first->common_count,
+                          first->observable_count});
+    explain(arena, uniting->made);
+}
+
 /* Makes a missing system and adds it to the list. */
 static struct gm_system_scene *add_variant(struct gm_system_scene *first, const struct gm_system_lane *lane,
                                            const struct gm_system_opening *opening)
 {
-    size_t building = 0, count = 0;
+    struct uniting uniting = {.first = first, .lane = lane, .opening = opening};
     const unsigned long refusals = gm_memory_refusals();
-    const struct tables tables = {first->rows, first->observables, first->row_count, first->common_count,
-                                  first->observable_count};
-    for (size_t row = 0; row < first->row_count; row++) {
-        building += builds(first, row);
-    }
-    struct gm_system_value *values = calloc(building, sizeof *values);
-    char(*texts)[GM_CHOICE_SIZE + 32] = calloc(building, sizeof *texts);
-    for (size_t row = 0; values && texts && row < first->row_count; row++) {
-        if (builds(first, row)) {
-            const struct gm_parameter *at = &first->rows[row];
-            values[count] = (struct gm_system_value){
-                at->key, gm_parameter_format(at, lane, texts[count], sizeof texts[count])};
-            count++;
-        }
-    }
-    struct gm_system_scene *made = count == building ? open_other(first, values, count, opening) : NULL;
-    free(values);
-    free(texts);
-    if (made && join(made, first, &tables) && explain(made) && gm_memory_refusals() == refusals) {
-        opening->sentence[0] = '\0'; /* the scene was made under the sentence that memory is short */
+    const size_t mark = gm_arena_mark(first->arena);
+    gm_refuse(opening->sentence, "not enough memory");
+    gm_arena_run(first->arena, open_variant, &uniting);
+    gm_arena_release(first->arena, mark);
+    struct gm_system_scene *made = uniting.made;
+    if (made && gm_arena_run(made->arena, join_variant, &uniting) && gm_memory_refusals() == refusals) {
+        opening->sentence[0] = '\0';
         return made;
     }
     if (made) {
-        made->first = NULL;
-    }
-    if (made || count != building) {
+        first->next = made->next;
+        made->next = NULL;
+        gm_system_scene_close(&made->scene);
         gm_refuse(opening->sentence, "not enough memory");
     } else if (opening->fault->sentence[0]) {
         size_t line, column;

@@ -54,37 +54,31 @@ bool gm_system_has_level(const struct gm_system_scene *system_scene, const struc
     return next_level(system_scene, sight, &number) != NULL;
 }
 
-bool gm_system_check_levels(struct gm_system_scene *system_scene, char *sentence)
+void gm_system_check_levels(struct gm_system_scene *system_scene)
 {
+    struct gm_arena *arena = system_scene->arena;
     const struct gm_user_system *system = &system_scene->system;
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_LEVEL, i)); i++) {
         const struct gm_sight *sight = item->in_section ? &system_scene->section : &system_scene->sights[0];
         if (sight->components[0] < 0 || sight->components[1] < 0) {
-            return gm_refuse(sentence, "level: a curve is drawn in a plane of two components");
+            gm_arena_refuse(arena, "level: a curve is drawn in a plane of two components");
         }
         size_t count = 0;
-        gm_node_id *parts = gm_formula_parts(&system->graph, item->nodes[0], &count);
-        const char *other = NULL;
-        for (size_t k = 0; parts && k < count; k++) {
+        const gm_node_id *parts =
+            gm_arena_keep(arena, gm_formula_parts(&system->graph, item->nodes[0], &count), free);
+        for (size_t k = 0; k < count; k++) {
             const struct gm_node *node = &system->graph.nodes[parts[k]];
             const bool moves =
                 node->operation == GM_VARIABLE &&
                 (node->a <= system->n || (node->a >= system->velocities && node->a < system->initial));
             if (moves && (long)node->a != sight->components[0] && (long)node->a != sight->components[1]) {
-                other = system->variables[node->a].name;
+                gm_arena_refuse(arena, "level: %s is not shown: a curve holds %s and %s",
+                                system->variables[node->a].name, system->variables[sight->components[0]].name,
+                                system->variables[sight->components[1]].name);
             }
         }
-        const bool good = parts && !other;
-        free(parts);
-        if (!good) {
-            return other ? gm_refuse(sentence, "level: %s is not shown: a curve holds %s and %s", other,
-                                     system->variables[sight->components[0]].name,
-                                     system->variables[sight->components[1]].name)
-                         : gm_refuse(sentence, "not enough memory");
-        }
     }
-    return true;
 }
 
 static const struct gm_system_scene *scene_of(const struct gm_lane *lane)

@@ -5,9 +5,9 @@
 
 #include "scenes/ode/system/space.h"
 
-/* Returns true if the levels contain only the two names of their plane, parameters, values at the start and
-   exact solutions; else false with a sentence. */
-bool gm_system_check_levels(struct gm_system_scene *system_scene, char *sentence);
+/* Refuses levels that contain more than the two names of their plane, parameters, values at the start and
+   exact solutions. */
+void gm_system_check_levels(struct gm_system_scene *system_scene);
 
 /* Returns true if a sight shows levels. */
 bool gm_system_has_level(const struct gm_system_scene *system_scene, const struct gm_sight *sight);

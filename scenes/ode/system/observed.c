@@ -32,7 +32,7 @@ static double observed(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[2] = {0, 1};
-    gm_system_values(&system_scene->formulas[view->observable - system_scene->observables], view,
+    gm_system_values(system_scene->formulas[view->observable - system_scene->observables], view,
                      gm_system_centre(view), values);
     return values[1] > 0 ? values[0] : NAN;
 }
@@ -40,7 +40,7 @@ static double observed(const struct gm_view *view)
 static double terms(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    return value_of(&system_scene->terms[view->observable - system_scene->observables], view);
+    return value_of(system_scene->terms[view->observable - system_scene->observables], view);
 }
 
 /* Returns p q' - L of a Lagrangian system, whose formulas hold velocities, or the magnitudes of its terms. */
@@ -152,44 +152,42 @@ void gm_system_stops(const struct gm_view *view, const double *states, const dou
 
 /* ---- the rows of the scene ---- */
 
-bool gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                           char *sentence)
+void gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
+    struct gm_arena *arena = system_scene->arena;
     const size_t n = system_scene->exact.outputs;
     struct gm_problem alone = *problem;
-    double *start = n > 0 ? gm_system_start_values(system_scene->initial, NULL) : NULL,
-           *exact = calloc(n + 1, sizeof *exact);
-    bool good = n == 0 || (start && exact);
-    alone.m = 1;
-    if (n > 0 && good) {
-        gm_system_values(
-            &system_scene->exact,
-            &(struct gm_view){
-                .parameters = system_scene->initial, .problem = &alone, .state = start, .start = start},
-            0, exact);
+    if (n == 0) {
+        return;
     }
-    for (size_t i = 0; good && i < n; i++) {
+    const double *start = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
+    double *exact = gm_arena_take(arena, n, sizeof *exact);
+    alone.m = 1;
+    gm_system_values(
+        &system_scene->exact,
+        &(struct gm_view){
+            .parameters = system_scene->initial, .problem = &alone, .state = start, .start = start},
+        0, exact);
+    for (size_t i = 0; i < n; i++) {
         const struct gm_system_variable *variable = &system_scene->system.variables[i];
         const double most = 1e-9 * fmax(1, fabs(start[i]));
         if (variable->exact != GM_NO_NODE && variable->start != GM_NO_NODE &&
             !(fabs(exact[i] - start[i]) <= most)) {
-            good = gm_refuse(sentence, "exact: %.60s would begin at %.10g, and it starts at %.10g",
-                             variable->name, exact[i], start[i]);
+            gm_arena_refuse(arena, "exact: %.60s would begin at %.10g, and it starts at %.10g",
+                            variable->name, exact[i], start[i]);
         }
     }
-    free(start);
-    free(exact);
-    return good;
 }
 
-/* Returns a node with the magnitudes of its terms, and of their factors, instead of these; GM_NO_NODE when
-   out of memory. */
-static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
+/* Returns a node with the magnitudes of its terms, and of their factors, instead of these. */
+static gm_node_id sizes_of(struct gm_system_scene *system_scene, gm_node_id root)
 {
+    struct gm_arena *arena = system_scene->arena;
+    struct gm_formula *graph = &system_scene->system.graph;
     size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(graph, root, &count),
-               *sizes = calloc((size_t)root + 1, sizeof *sizes);
-    for (size_t k = 0; parts && sizes && k < count; k++) {
+    const gm_node_id *parts = gm_arena_keep(arena, gm_formula_parts(graph, root, &count), free);
+    gm_node_id *sizes = gm_arena_take(arena, (size_t)root + 1, sizeof *sizes);
+    for (size_t k = 0; k < count; k++) {
         const gm_node_id i = parts[k];
         const struct gm_node node = graph->nodes[i];
         switch (node.operation) {
@@ -211,30 +209,35 @@ static gm_node_id sizes_of(struct gm_formula *graph, gm_node_id root)
             sizes[i] = gm_simplified(graph, GM_OPERATION_ABS, i, i);
         }
     }
-    const gm_node_id found = parts && sizes && !graph->failed ? sizes[root] : GM_NO_NODE;
-    free(parts);
-    free(sizes);
-    return found;
+    gm_arena_need(arena, !graph->failed);
+    return sizes[root];
 }
 
 /* Adds an observable: node `node` while node `condition` is above 0; GM_NO_NODE: a function of its own,
    always. */
-static bool add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node,
+static void add_observable(struct gm_system_scene *system_scene, struct gm_observable row, gm_node_id node,
                            gm_node_id condition)
 {
-    const size_t i = system_scene->observable_count;
+    const size_t i = system_scene->observable_count++;
     const gm_node_id nodes[2] = {node, condition};
     system_scene->observables[i] = row;
-    system_scene->observable_count++;
-    bool good = row.key && row.title &&
-                (node == GM_NO_NODE || gm_system_open_tape(system_scene, &system_scene->formulas[i], nodes,
-                                                           condition == GM_NO_NODE ? 1 : 2));
-    if (good && row.error && node != GM_NO_NODE) {
-        const gm_node_id sizes = sizes_of(&system_scene->system.graph, node);
-        system_scene->observables[i].terms = terms;
-        good = sizes != GM_NO_NODE && gm_system_open_tape(system_scene, &system_scene->terms[i], &sizes, 1);
+    if (node == GM_NO_NODE) {
+        return;
     }
-    return good;
+    system_scene->formulas[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
+    gm_system_open_tape(system_scene, system_scene->formulas[i], nodes, condition == GM_NO_NODE ? 1 : 2);
+    if (row.error) {
+        const gm_node_id sizes = sizes_of(system_scene, node);
+        system_scene->observables[i].terms = terms;
+        system_scene->terms[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
+        gm_system_open_tape(system_scene, system_scene->terms[i], &sizes, 1);
+    }
+}
+
+/* Adds a function of its own. */
+static void add_function(struct gm_system_scene *system_scene, struct gm_observable row)
+{
+    add_observable(system_scene, row, GM_NO_NODE, GM_NO_NODE);
 }
 
 static bool is_forced(const struct gm_user_system *system)
@@ -250,37 +253,36 @@ static bool is_forced(const struct gm_user_system *system)
 /* Returns the scale of a symmetry's momentum map: its terms at the start, which may cancel. */
 static double momentum_scale(struct gm_system_scene *system_scene, const struct gm_system_item *item)
 {
-    const size_t half = system_scene->system.n / 2;
-    double *values = gm_system_start_values(system_scene->initial, NULL),
-           *generator = malloc(half * sizeof *generator), sum = 0;
-    struct gm_tape tape = {0};
-    if (values && generator && gm_system_open_tape(system_scene, &tape, item->nodes, half)) {
-        gm_tape_values(&tape, values, generator, 1);
-        for (size_t i = 0; i < half; i++) {
-            sum += fabs(generator[i] * values[half + i]);
-        }
+    struct gm_arena *arena = system_scene->arena;
+    const size_t half = system_scene->system.n / 2, mark = gm_arena_mark(arena);
+    struct gm_tape *tape = gm_arena_take(arena, 1, sizeof *tape);
+    const double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
+    double *generator = gm_arena_take(arena, half, sizeof *generator), sum = 0;
+    gm_system_open_tape(system_scene, tape, item->nodes, half);
+    gm_tape_values(tape, values, generator, 1);
+    for (size_t i = 0; i < half; i++) {
+        sum += fabs(generator[i] * values[half + i]);
     }
-    gm_tape_close(&tape);
-    free(generator);
-    free(values);
+    gm_arena_release(arena, mark);
     return isfinite(sum) ? sum : 0;
 }
 
-/* Returns the text, which the scene owns, with blanks for underscores. */
-static const char *spaced(struct gm_system_scene *system_scene, const char *text)
+/* Returns "NAME error", with blanks for underscores. */
+static const char *error_title(struct gm_arena *arena, const char *name)
 {
-    for (char *at = text ? system_scene->texts.list[system_scene->texts.count - 1] : NULL; at && *at; at++) {
+    char *text = gm_arena_print(arena, "%s error", name);
+    for (char *at = text; *at; at++) {
         *at = *at == '_' ? ' ' : *at;
     }
     return text;
 }
 
-static bool add_energy(struct gm_system_scene *system_scene, const struct gm_problem *problem)
+static void add_energy(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = &system_scene->system;
     const bool lagrangian = system->kind == GM_LAGRANGIAN, kept = !system->timed && !is_forced(system);
     if (system->kind == GM_RATES || (lagrangian && !gm_ode_of(problem)->hamiltonian)) {
-        return true;
+        return;
     }
     struct gm_observable energy =
         kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
@@ -288,13 +290,13 @@ static bool add_energy(struct gm_system_scene *system_scene, const struct gm_pro
     const struct gm_system_item *line = gm_system_item_of(system, GM_WORD_HAMILTONIAN, 0);
     if (kept && line) {
         energy.least = gm_system_option_number(line, GM_OPTION_SCALE, 0);
-        energy.scale_text = gm_system_kept_text(system_scene, "%.3g", energy.least);
+        energy.scale_text = gm_arena_print(system_scene->arena, "%.3g", energy.least);
     }
     if (lagrangian) {
         energy.evaluate = legendre_energy;
         energy.terms = kept ? legendre_terms : NULL;
     }
-    return add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy, GM_NO_NODE);
+    add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy, GM_NO_NODE);
 }
 
 /* Returns a short name of an invariant for formulas: its own or its let's. */
@@ -312,30 +314,26 @@ static const char *symbol_of(const struct gm_system_scene *system_scene, const s
 
 /* Adds the error of an invariant, of a Casimir, or of a symmetry's momentum, with this number among those
    without a name. */
-static bool add_invariant(struct gm_system_scene *system_scene, const struct gm_system_item *item,
+static void add_invariant(struct gm_system_scene *system_scene, const struct gm_system_item *item,
                           size_t nameless)
 {
     const bool symmetry = item->word == GM_WORD_SYMMETRY;
     const char *name =
-        item->name[0] ? item->name : gm_system_kept_text(system_scene, "momentum%zu", nameless);
-    if (!name) {
-        return false;
-    }
+        item->name[0] ? item->name : gm_arena_print(system_scene->arena, "momentum%zu", nameless);
     const double scale =
         symmetry ? momentum_scale(system_scene, item) : gm_system_option_number(item, GM_OPTION_SCALE, 0);
     struct gm_observable row = GM_KEPT_OBSERVABLE(
-        gm_system_kept_text(system_scene, "%s_error", name), observed, symbol_of(system_scene, item, name),
-        spaced(system_scene, gm_system_kept_text(system_scene, "%s error", name)), .least = scale,
-        .scale_text = scale > 0 ? gm_system_kept_text(system_scene, "%.3g", scale) : NULL);
+        gm_arena_print(system_scene->arena, "%s_error", name), observed, symbol_of(system_scene, item, name),
+        error_title(system_scene->arena, name), .least = scale,
+        .scale_text = scale > 0 ? gm_arena_print(system_scene->arena, "%.3g", scale) : NULL);
     gm_written_options(&row, item);
     row.kept = item->check != GM_NOT_ZERO; /* else forces change it, for every scheme */
-    return add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0],
-                          GM_NO_NODE);
+    add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0], GM_NO_NODE);
 }
 
 enum { FOLLOWED = 64 };
 
-static bool add_observed(struct gm_system_scene *system_scene, const struct gm_system_item *item)
+static void add_observed(struct gm_system_scene *system_scene, const struct gm_system_item *item)
 {
     struct gm_observable row = GM_OBSERVABLE(item->name, observed, item->name);
     const struct gm_system_option *condition = gm_system_option(item, GM_OPTION_WHILE);
@@ -346,7 +344,7 @@ static bool add_observed(struct gm_system_scene *system_scene, const struct gm_s
     if (row.period > 0 && system_scene->scene.follow == 0) {
         system_scene->scene.follow = FOLLOWED; /* an angle must be seen in every part of a turn */
     }
-    return add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
+    add_observable(system_scene, row, item->nodes[0], condition ? condition->node : GM_NO_NODE);
 }
 
 /* Returns the step that the discrete energy balance determines, or dt with other schemes. */
@@ -363,7 +361,7 @@ static double restarts(const struct gm_view *view)
 }
 
 /* Adds the step of the file's schemes, if one of them determines it. */
-static bool add_steps(struct gm_system_scene *system_scene)
+static void add_steps(struct gm_system_scene *system_scene)
 {
     const char *list = system_scene->system.texts[GM_WORD_SCHEMES];
     char name[64];
@@ -372,112 +370,93 @@ static bool add_steps(struct gm_system_scene *system_scene)
         const struct gm_scheme *scheme = gm_scheme_find(name);
         chosen = chosen || (scheme && scheme->family->parameters == gm_settings_of_variational_time);
     }
-    return !chosen ||
-           (add_observable(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE("tau", tau, "time step τ"),
-                           GM_NO_NODE, GM_NO_NODE) &&
-            add_observable(system_scene,
-                           (struct gm_observable)GM_OBSERVABLE("restarts", restarts, "restarts"), GM_NO_NODE,
-                           GM_NO_NODE));
+    if (chosen) {
+        add_function(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE("tau", tau, "time step τ"));
+        add_function(system_scene, (struct gm_observable)GM_OBSERVABLE("restarts", restarts, "restarts"));
+    }
 }
 
 /* Adds the quantities in the file: observe:, invariant:, casimir:, symmetry:. */
-static bool add_named(struct gm_system_scene *system_scene)
+static void add_named(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
     size_t nameless = 0;
-    bool good = true;
-    for (size_t i = 0; good && i < system->item_count; i++) {
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         switch (item->word) {
         case GM_WORD_OBSERVE:
-            good = add_observed(system_scene, item);
+            add_observed(system_scene, item);
             break;
         case GM_WORD_SYMMETRY:
             nameless += !item->name[0];
-            good = system->kind > GM_LAGRANGIAN || add_invariant(system_scene, item, nameless);
+            if (system->kind <= GM_LAGRANGIAN) {
+                add_invariant(system_scene, item, nameless);
+            }
             break;
         case GM_WORD_INVARIANT:
         case GM_WORD_CASIMIR:
-            good = add_invariant(system_scene, item, 0);
+            add_invariant(system_scene, item, 0);
             break;
         default:
             break;
         }
     }
-    return good;
 }
 
-static bool add_defects(struct gm_system_scene *system_scene, const struct gm_problem *problem)
+static void add_defects(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
-    return gm_action_constraints(problem) == 0 ||
-           (add_observable(system_scene,
-                           (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
-                                                                   "the largest |g|"),
-                           GM_NO_NODE, GM_NO_NODE) &&
-            add_observable(system_scene,
-                           (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
-                                                                   "the largest |dg/dt|"),
-                           GM_NO_NODE, GM_NO_NODE));
+    if (gm_action_constraints(problem) > 0) {
+        add_function(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE(
+                                       "constraint_defect", constraint_defect, "the largest |g|"));
+        add_function(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
+                                                                           "the largest |dg/dt|"));
+    }
 }
 
 /* Adds the distance from exact:, for the components given there. */
-static bool add_solution_error(struct gm_system_scene *system_scene)
+static void add_solution_error(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
-    gm_node_id *exact = calloc(system->n, sizeof *exact);
+    gm_node_id *exact = gm_arena_take(system_scene->arena, system->n, sizeof *exact);
     bool told = false;
-    for (size_t i = 0; exact && i < system->n; i++) {
+    for (size_t i = 0; i < system->n; i++) {
         const gm_node_id node = system->variables[i].exact;
         told |= node != GM_NO_NODE;
         exact[i] = node != GM_NO_NODE ? node : 0;
     }
-    bool good = exact != NULL;
-    if (good && told) {
-        good = gm_system_open_tape(system_scene, &system_scene->exact, exact, system->n) &&
-               add_observable(system_scene,
-                              (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", solution_error,
-                                                                      "distance from the exact solution"),
-                              GM_NO_NODE, GM_NO_NODE);
+    if (told) {
+        gm_system_open_tape(system_scene, &system_scene->exact, exact, system->n);
+        add_function(system_scene, (struct gm_observable)GM_LOG_OBSERVABLE(
+                                       "solution_error", solution_error, "distance from the exact solution"));
         system_scene->work.measure = "solution_error";
     }
-    free(exact);
-    return good;
 }
 
-/* Adds the area of a disc of members, in the plane. */
-static bool add_area(struct gm_system_scene *system_scene)
+/* Adds the area of a disc of members, in the plane, and that of two tangents: of coordinates with their momenta,
+   or in a plane. */
+static void add_areas(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
-    return gm_system_motion(system) != 2 ||
-           (add_observable(system_scene,
-                           (struct gm_observable)GM_OBSERVABLE("area", gm_ring_area,
-                                                               "area of the disc of members",
-                                                               .why = gm_ring_why, .of_members = true),
-                           GM_NO_NODE, GM_NO_NODE) &&
-            (system->kind > GM_LAGRANGIAN || is_forced(system) ||
-             add_observable(system_scene,
-                            (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", gm_ring_area, "A",
-                                                                     "area error", .why = gm_ring_why,
-                                                                     .of_members = true),
-                            GM_NO_NODE, GM_NO_NODE)));
+    const bool plane = gm_system_motion(system) == 2;
+    if (plane) {
+        add_function(system_scene,
+                     (struct gm_observable)GM_OBSERVABLE("area", gm_ring_area, "area of the disc of members",
+                                                         .why = gm_ring_why, .of_members = true));
+    }
+    if (plane && system->kind <= GM_LAGRANGIAN && !is_forced(system)) {
+        add_function(system_scene,
+                     (struct gm_observable)GM_KEPT_OBSERVABLE("area_error", gm_ring_area, "A", "area error",
+                                                              .why = gm_ring_why, .of_members = true));
+    }
+    if (system->tangents >= 2 && (system->kind == GM_CANONICAL || plane)) {
+        add_function(system_scene, (struct gm_observable)GM_OBSERVABLE(
+                                       "area_tangent", area_tangent,
+                                       "determinant of the tangent map, mean over the members"));
+    }
 }
 
-/* Adds the area of a disc, and that of two tangents: of coordinates with their momenta, or in a plane. */
-static bool add_areas(struct gm_system_scene *system_scene)
-{
-    const struct gm_user_system *system = &system_scene->system;
-    const bool spanned =
-        system->tangents >= 2 && (system->kind == GM_CANONICAL || gm_system_motion(system) == 2);
-    return add_area(system_scene) &&
-           (!spanned || add_observable(system_scene,
-                                       (struct gm_observable)GM_OBSERVABLE(
-                                           "area_tangent", area_tangent,
-                                           "determinant of the tangent map, mean over the members"),
-                                       GM_NO_NODE, GM_NO_NODE));
-}
-
-/* Refuses the line that makes a second observable of that name; false. */
-static bool refuse_twice(const struct gm_system_scene *system_scene, const char *key, char *sentence)
+/* Refuses the line that makes a second observable of that name. */
+static void refuse_twice(const struct gm_system_scene *system_scene, const char *key)
 {
     for (size_t i = system_scene->system.item_count; i-- > 0;) {
         const struct gm_system_item *item = &system_scene->system.items[i];
@@ -485,39 +464,45 @@ static bool refuse_twice(const struct gm_system_scene *system_scene, const char 
         const char *ending = item->word == GM_WORD_OBSERVE ? "" : "_error";
         if (gm_system_is_observed(item) && length > 0 && strncmp(key, item->name, length) == 0 &&
             strcmp(key + length, ending) == 0) {
-            return gm_refuse(sentence, "%s: %s makes two observables %s", gm_system_words[item->word].word,
-                             item->name, key);
+            gm_arena_refuse(system_scene->arena, "%s: %s makes two observables %s",
+                            gm_system_words[item->word].word, item->name, key);
         }
     }
-    return gm_refuse(sentence, "there are two observables %s", key);
+    gm_arena_refuse(system_scene->arena, "there are two observables %s", key);
 }
 
-bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                                char *sentence)
+void gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
+    struct gm_arena *arena = system_scene->arena;
     const struct gm_hook *hook = system_scene->hook;
     const size_t of_hook = hook ? hook->observable_count : 0,
                  most = system_scene->system.item_count + 10 + of_hook;
-    system_scene->observables =
-        gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->observables);
-    system_scene->formulas = gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->formulas);
-    system_scene->terms = gm_arena_take(system_scene->system.arena, most, sizeof *system_scene->terms);
-    bool good = system_scene->observables && system_scene->formulas && system_scene->terms;
-    for (size_t i = 0; good && i < of_hook; i++) {
-        good = add_observable(system_scene, hook->observables[i], GM_NO_NODE, GM_NO_NODE);
+    system_scene->observables = gm_arena_take(arena, most, sizeof *system_scene->observables);
+    system_scene->formulas = gm_arena_take(arena, most, sizeof *system_scene->formulas);
+    system_scene->terms = gm_arena_take(arena, most, sizeof *system_scene->terms);
+    for (size_t i = 0; i < of_hook; i++) {
+        add_function(system_scene, hook->observables[i]);
     }
-    const bool carried = system_scene->system.tangents > 0; /* for the areas, which come first */
-    good = good && (!carried || add_areas(system_scene)) && add_energy(system_scene, problem) &&
-           add_steps(system_scene) && add_named(system_scene) && add_defects(system_scene, problem) &&
-           add_solution_error(system_scene) && (carried || add_areas(system_scene));
+    const bool carried = system_scene->system.tangents > 0; /* then the areas come first */
+    if (carried) {
+        add_areas(system_scene);
+    }
+    add_energy(system_scene, problem);
+    add_steps(system_scene);
+    add_named(system_scene);
+    add_defects(system_scene, problem);
+    add_solution_error(system_scene);
+    if (!carried) {
+        add_areas(system_scene);
+    }
     system_scene->scene.observables = system_scene->observables;
     system_scene->scene.observable_count = system_scene->observable_count;
-    for (size_t i = 0; i < system_scene->observable_count && good; i++) {
-        for (size_t k = 0; k < i && good; k++) {
+    for (size_t i = 0; i < system_scene->observable_count; i++) {
+        for (size_t k = 0; k < i; k++) {
             const char *key = system_scene->observables[i].key, *other = system_scene->observables[k].key;
-            good = !gm_observables_clash(key, other) ||
-                   refuse_twice(system_scene, strlen(key) < strlen(other) ? other : key, sentence);
+            if (gm_observables_clash(key, other)) {
+                refuse_twice(system_scene, strlen(key) < strlen(other) ? other : key);
+            }
         }
     }
-    return good;
 }

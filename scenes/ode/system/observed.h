@@ -5,13 +5,11 @@
 
 #include "scenes/common/system/look.h"
 
-/* Makes the observables; false with a sentence, or when out of memory. */
-bool gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                                char *sentence);
+/* Makes the observables. */
+void gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem);
 
-/* Returns true if the exact solution in the file has the system's start; else false with a sentence. */
-bool gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem,
-                           char *sentence);
+/* Refuses an exact solution in the file that has not the system's start. */
+void gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem);
 
 /* A change of its sign ends a run: the value at a view and at `count` other states of it, struct gm_scene,
    stops. */

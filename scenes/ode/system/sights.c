@@ -20,26 +20,27 @@ static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)
     if (!angles) {
         return false;
     }
-    double *values = gm_system_start_values(system_scene->initial, NULL), before, after;
-    struct gm_tape tape = {0};
-    if (values && gm_system_open_tape(system_scene, &tape, &node, 1)) {
-        gm_tape_values(&tape, values, &before, 1);
-        for (size_t i = 0; i < system->n && !found; i++) {
-            if (system->variables[i].angle) {
-                values[i] += 2 * M_PI;
-                gm_tape_values(&tape, values, &after, 1);
-                values[i] -= 2 * M_PI;
-                found = fabs(fabs(after - before) - 2 * M_PI) < 1e-9;
-            }
+    struct gm_arena *arena = system_scene->arena;
+    const size_t mark = gm_arena_mark(arena);
+    struct gm_tape *tape = gm_arena_take(arena, 1, sizeof *tape);
+    double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free), before,
+           after;
+    gm_system_open_tape(system_scene, tape, &node, 1);
+    gm_tape_values(tape, values, &before, 1);
+    for (size_t i = 0; i < system->n && !found; i++) {
+        if (system->variables[i].angle) {
+            values[i] += 2 * M_PI;
+            gm_tape_values(tape, values, &after, 1);
+            values[i] -= 2 * M_PI;
+            found = fabs(fabs(after - before) - 2 * M_PI) < 1e-9;
         }
     }
-    gm_tape_close(&tape);
-    free(values);
+    gm_arena_release(arena, mark);
     return found;
 }
 
 /* Describes an axis: its name, and if it is an angle or a component. */
-static bool describe_axis(struct gm_system_scene *system_scene, struct gm_sight *sight, size_t k,
+static void describe_axis(struct gm_system_scene *system_scene, struct gm_sight *sight, size_t k,
                           gm_node_id node)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -50,21 +51,20 @@ static bool describe_axis(struct gm_system_scene *system_scene, struct gm_sight 
         sight->angles[k] = is_angle(system_scene, node);
     }
     sight->labels[k] =
-        gm_kept_texts_add(&system_scene->texts, gm_formula_text(&system->graph, node, &naming));
-    return sight->labels[k] != NULL;
+        gm_arena_keep(system_scene->arena, gm_formula_text(&system->graph, node, &naming), free);
 }
 
 /* A plane of two formulas. */
-static bool open_plane(struct gm_system_scene *system_scene, struct gm_sight *sight, gm_node_id x,
+static void open_plane(struct gm_system_scene *system_scene, struct gm_sight *sight, gm_node_id x,
                        gm_node_id y)
 {
     const gm_node_id nodes[] = {x, y};
     sight->dimensions = 2;
     sight->bodies = 1;
-    sight->fixed = calloc(1, sizeof *sight->fixed);
-    return sight->fixed && describe_axis(system_scene, sight, 0, x) &&
-           describe_axis(system_scene, sight, 1, y) &&
-           gm_system_open_tape(system_scene, &sight->tape, nodes, 2);
+    sight->fixed = gm_arena_take(system_scene->arena, 1, sizeof *sight->fixed);
+    describe_axis(system_scene, sight, 0, x);
+    describe_axis(system_scene, sight, 1, y);
+    gm_system_open_tape(system_scene, &sight->tape, nodes, 2);
 }
 
 /* Copies the formulas of all lines of a word; returns their end. */
@@ -79,26 +79,27 @@ static gm_node_id *copy_nodes(const struct gm_user_system *system, enum gm_syste
 }
 
 /* Finds the bodies at rest. */
-static bool find_fixed(const struct gm_user_system *system, struct gm_sight *sight, const gm_node_id *nodes)
+static void find_fixed(const struct gm_system_scene *system_scene, struct gm_sight *sight,
+                       const gm_node_id *nodes)
 {
-    bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
-    for (size_t i = 0; marked && i <= system->n; i++) {
+    struct gm_arena *arena = system_scene->arena;
+    const struct gm_user_system *system = &system_scene->system;
+    bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked);
+    for (size_t i = 0; i <= system->n; i++) {
         marked[i] = true;
     }
-    moves = marked ? gm_formula_dependent(&system->graph, marked, system->variable_count) : NULL;
-    for (size_t i = 0; moves && i < sight->bodies; i++) {
+    const bool *moves =
+        gm_arena_keep(arena, gm_formula_dependent(&system->graph, marked, system->variable_count), free);
+    for (size_t i = 0; i < sight->bodies; i++) {
         sight->fixed[i] = true;
         for (size_t k = 0; k < sight->dimensions; k++) {
             sight->fixed[i] = sight->fixed[i] && !moves[nodes[i * sight->dimensions + k]];
         }
     }
-    free(marked);
-    free(moves);
-    return moves != NULL;
 }
 
 /* Returns the name of axis k of space, x for bodies that are members of lists, x[1], x[2]. NULL if they have
-   no common name, or when out of memory. */
+   no common name. */
 static const char *common_name(struct gm_system_scene *system_scene, size_t k)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -117,7 +118,7 @@ static const char *common_name(struct gm_system_scene *system_scene, size_t k)
         common = name;
         length = strcspn(name, "[");
     }
-    return common ? gm_kept_texts_add(&system_scene->texts, strndup(common, length)) : NULL;
+    return common ? gm_arena_print(system_scene->arena, "%.*s", (int)length, common) : NULL;
 }
 
 /* Names the axes: in a plane by the variables of its one body, and then clicks are starts; in space x, y and
@@ -155,7 +156,7 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
 }
 
 /* Opens the sight of `view` and `rod` lines. */
-static bool open_view(struct gm_system_scene *system_scene, struct gm_sight *sight)
+static void open_view(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t views = gm_system_count_items(system, GM_WORD_VIEW),
@@ -164,78 +165,74 @@ static bool open_view(struct gm_system_scene *system_scene, struct gm_sight *sig
                                         : gm_system_item_of(system, GM_WORD_ROD, 0)->count / 2;
     *sight = (struct gm_sight){
         .name = "view", .dimensions = dimensions, .bodies = views, .rods = rods, .components = {-1, -1}};
-    gm_node_id *nodes = calloc(gm_sight_numbers(sight), sizeof *nodes);
-    sight->fixed = calloc(views + 1, sizeof *sight->fixed);
-    bool good = nodes && sight->fixed;
-    if (good) {
-        copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
-        good = find_fixed(system, sight, nodes) &&
-               gm_system_open_tape(system_scene, &sight->tape, nodes, gm_sight_numbers(sight));
-        name_axes(system_scene, sight);
-    }
-    free(nodes);
-    return good;
+    gm_node_id *nodes = gm_arena_take(system_scene->arena, gm_sight_numbers(sight), sizeof *nodes);
+    sight->fixed = gm_arena_take(system_scene->arena, views + 1, sizeof *sight->fixed);
+    copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
+    find_fixed(system_scene, sight, nodes);
+    gm_system_open_tape(system_scene, &sight->tape, nodes, gm_sight_numbers(sight));
+    name_axes(system_scene, sight);
 }
 
-bool gm_system_open_surfaces(struct gm_system_scene *system_scene, char *sentence)
+void gm_system_open_surfaces(struct gm_system_scene *system_scene)
 {
     gm_node_id nodes[3 * GM_MOST_SURFACES];
     const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_SURFACE);
     if (count > GM_MOST_SURFACES) {
-        return gm_refuse(sentence, "a system has at most %d surfaces; this has %zu", GM_MOST_SURFACES, count);
+        gm_arena_refuse(system_scene->arena, "a system has at most %d surfaces; this has %zu",
+                        GM_MOST_SURFACES, count);
     }
     copy_nodes(&system_scene->system, GM_WORD_SURFACE, nodes);
-    return count == 0 || gm_system_open_tape(system_scene, &system_scene->surfaces, nodes, 3 * count);
+    if (count > 0) {
+        gm_system_open_tape(system_scene, &system_scene->surfaces, nodes, 3 * count);
+    }
 }
 
-static bool add_pair(struct gm_system_scene *system_scene, size_t a, size_t b)
+static void add_pair(struct gm_system_scene *system_scene, size_t a, size_t b)
 {
     struct gm_user_system *system = &system_scene->system;
     if (system_scene->sight_count == GM_MOST_SIGHTS) {
-        return true;
+        return;
     }
     struct gm_sight *sight = &system_scene->sights[system_scene->sight_count++];
     system_scene->pair_count++;
     sight->name =
-        gm_system_kept_text(system_scene, "%s:%s", system->variables[a].name, system->variables[b].name);
-    const gm_node_id x = gm_formula_variable(&system->graph, a), y = gm_formula_variable(&system->graph, b);
-    return sight->name && open_plane(system_scene, sight, x, y);
+        gm_arena_print(system_scene->arena, "%s:%s", system->variables[a].name, system->variables[b].name);
+    open_plane(system_scene, sight, gm_formula_variable(&system->graph, a),
+               gm_formula_variable(&system->graph, b));
 }
 
-bool gm_system_make_sights(struct gm_system_scene *system_scene)
+void gm_system_make_sights(struct gm_system_scene *system_scene)
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = gm_system_motion(system), half = n / 2;
     const struct gm_system_item *items = system->items;
-    system_scene->sights = gm_arena_take(system->arena, GM_MOST_SIGHTS, sizeof *system_scene->sights);
-    system_scene->shows =
-        gm_arena_take(system->arena, GM_MOST_SIGHTS + 5 + system->item_count, sizeof *system_scene->shows);
-    bool good = system_scene->sights && system_scene->shows;
-    if (good &&
-        (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {
-        good = open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
+    system_scene->sights = gm_arena_take(system_scene->arena, GM_MOST_SIGHTS, sizeof *system_scene->sights);
+    system_scene->shows = gm_arena_take(system_scene->arena, GM_MOST_SIGHTS + 5 + system->item_count,
+                                        sizeof *system_scene->shows);
+    if (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0) {
+        open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
     }
     if (n == 1) {
-        good = good && add_pair(system_scene, 1, 0); /* the component over time */
+        add_pair(system_scene, 1, 0); /* the component over time */
     }
-    for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
-        good = add_pair(system_scene, i, gm_system_component(system, half + i, 0));
+    for (size_t i = 0; system->kind <= GM_LAGRANGIAN && i < half; i++) {
+        add_pair(system_scene, i, gm_system_component(system, half + i, 0));
     }
     const size_t planar = system->kind <= GM_LAGRANGIAN ? half : n;
-    for (size_t i = 0; good && i < planar && n > 1; i++) {
-        for (size_t k = i + 1; good && k < planar && system_scene->sight_count < GM_MOST_SIGHTS; k++) {
-            good = add_pair(system_scene, i, k);
+    for (size_t i = 0; i < planar && n > 1; i++) {
+        for (size_t k = i + 1; k < planar && system_scene->sight_count < GM_MOST_SIGHTS; k++) {
+            add_pair(system_scene, i, k);
         }
     }
     const struct gm_sight *first = &system_scene->sights[0];
     system_scene->disc[1] =
         n == 1 ? 0 : gm_system_component(system, system->kind <= GM_LAGRANGIAN ? half : 1, 0);
-    if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1 && !first->over_time) {
+    if (first->components[0] >= 0 && first->components[1] >= 0 && n > 1 && !first->over_time) {
         system_scene->disc[0] = (size_t)first->components[0];
         system_scene->disc[1] = (size_t)first->components[1];
     }
     const struct gm_system_item *section_item = gm_system_item_of(system, GM_WORD_SECTION, 0);
-    if (good && section_item) {
+    if (section_item) {
         gm_node_id nodes[1 + GM_MOST_CONDITIONS] = {section_item->nodes[0]};
         system_scene->has_section = true;
         system_scene->stroboscopic = section_item->periodic;
@@ -244,33 +241,23 @@ bool gm_system_make_sights(struct gm_system_scene *system_scene)
         memcpy(nodes + 1, section_item->nodes + 3, system_scene->conditions * sizeof *nodes);
         system_scene->turns = !system_scene->stroboscopic && is_angle(system_scene, nodes[0]);
         system_scene->section.name = "section";
-        good = open_plane(system_scene, &system_scene->section, section_item->nodes[1],
-                          section_item->nodes[2]) &&
-               gm_system_open_tape(system_scene, &system_scene->where, nodes, 1 + system_scene->conditions);
+        open_plane(system_scene, &system_scene->section, section_item->nodes[1], section_item->nodes[2]);
+        gm_system_open_tape(system_scene, &system_scene->where, nodes, 1 + system_scene->conditions);
     }
     size_t shows = 0;
-    if (good) {
-        system_scene->shows[shows++] = "all";
-        if (system_scene->has_section) {
-            system_scene->shows[shows++] = "section";
-        }
-        for (size_t i = 0; i < system->item_count; i++) {
-            system_scene->shows[shows] = gm_system_option_text(&items[i], GM_OPTION_SHOW, NULL);
-            shows += system_scene->shows[shows] != NULL;
-        }
-        if (n > 1 && system->n <= GM_MOST_OVER_TIME) {
-            system_scene->shows[shows++] = GM_SHOW_OVER_TIME "all";
-        }
-        for (size_t i = system_scene->sight_count - system_scene->pair_count; i < system_scene->sight_count;
-             i++) {
-            system_scene->shows[shows++] = system_scene->sights[i].name;
-        }
+    system_scene->shows[shows++] = "all";
+    if (system_scene->has_section) {
+        system_scene->shows[shows++] = "section";
     }
-    return good;
-}
-
-void gm_system_close_sight(struct gm_sight *sight)
-{
-    gm_tape_close(&sight->tape);
-    free(sight->fixed);
+    for (size_t i = 0; i < system->item_count; i++) {
+        system_scene->shows[shows] = gm_system_option_text(&items[i], GM_OPTION_SHOW, NULL);
+        shows += system_scene->shows[shows] != NULL;
+    }
+    if (n > 1 && system->n <= GM_MOST_OVER_TIME) {
+        system_scene->shows[shows++] = GM_SHOW_OVER_TIME "all";
+    }
+    for (size_t i = system_scene->sight_count - system_scene->pair_count; i < system_scene->sight_count;
+         i++) {
+        system_scene->shows[shows++] = system_scene->sights[i].name;
+    }
 }

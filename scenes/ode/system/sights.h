@@ -5,11 +5,10 @@
 
 #include "scenes/common/system/look.h"
 
-/* Makes the sights, the section and the words of show=, with space for one more; false when out of memory. */
-bool gm_system_make_sights(struct gm_system_scene *system_scene);
-void gm_system_close_sight(struct gm_sight *sight);
+/* Makes the sights, the section and the words of show=, with space for one more. */
+void gm_system_make_sights(struct gm_system_scene *system_scene);
 
-/* Opens the surfaces that the file names; false with a sentence if they are too many. */
-bool gm_system_open_surfaces(struct gm_system_scene *system_scene, char *sentence);
+/* Opens the surfaces that the file names; refuses too many. */
+void gm_system_open_surfaces(struct gm_system_scene *system_scene);
 
 #endif
