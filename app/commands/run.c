@@ -217,12 +217,14 @@ static void tell_equilibria(const struct gm_lane *lane, int width)
     for (size_t i = 0; i < portrait.count; i++) {
         const struct gm_equilibrium *equilibrium = &portrait.equilibria[i];
         const double(*values)[2] = equilibrium->eigenvalues;
-        printf("  %-*s (%.10g, %.10g) %s, eigenvalues ", width, "equilibrium", equilibrium->at[0],
-               equilibrium->at[1], gm_equilibrium_kind_name(equilibrium->kind));
-        if (values[0][1] == 0) {
-            printf("%.7g, %.7g\n", values[0][0], values[1][0]);
+        printf("  %-*s (%.10g, %.10g) %s", width, "equilibrium", equilibrium->at[0], equilibrium->at[1],
+               gm_equilibrium_kind_name(equilibrium->kind));
+        if (equilibrium->kind == GM_NOT_SMOOTH) {
+            printf("\n");
+        } else if (values[0][1] == 0) {
+            printf(", eigenvalues %.7g, %.7g\n", values[0][0], values[1][0]);
         } else {
-            printf("%.7g ± %.7gi\n", values[0][0], values[0][1]);
+            printf(", eigenvalues %.7g ± %.7gi\n", values[0][0], values[0][1]);
         }
     }
     if (portrait.count == 0 || portrait.missing) {

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
@@ -21,9 +22,10 @@ enum {
     BISECTIONS = 10
 };
 
-/* Bounds relative to the window, to the usual size of f, and to entries or eigenvalues of the Jacobian. */
-static const double alike = 1e-6, converged = 1e-7, round_off = 1e-15, residual = 1e-10, singular = 1e-13,
-                    degenerate = 1e-9, traceless = 1e-8;
+/* Bounds relative to the window. A multiple zero is known to `alike_multiple` only. */
+static const double alike = 1e-6, alike_multiple = 1e-4, converged = 1e-7, round_off = 1e-15;
+/* Bounds relative to what f and its Jacobian reach beside the point: at this distance, a part of the window. */
+static const double beside = 1e-3, residual = 1e-9, uncertain = 1e-4, negligible = 1e-12, kink = 0.1;
 /* The values beside a zero fall below this part of those at the ends of its edge. */
 static const double fallen = 0.1;
 
@@ -35,7 +37,8 @@ const char *gm_equilibrium_kind_name(enum gm_equilibrium_kind kind)
                                         [GM_UNSTABLE_NODE] = "unstable node",
                                         [GM_UNSTABLE_FOCUS] = "unstable focus",
                                         [GM_CENTRE] = "centre",
-                                        [GM_DEGENERATE] = "degenerate"};
+                                        [GM_DEGENERATE] = "degenerate",
+                                        [GM_NOT_SMOOTH] = "not smooth"};
     return names[kind];
 }
 
@@ -125,44 +128,77 @@ static bool fill_fields(struct gm_portrait *portrait, const struct gm_problem *p
 struct search {
     const struct gm_problem *problem;
     struct gm_portrait *portrait;
-    double size[2];  /* of the window */
-    double scale[2]; /* the median of the size of each component of f; 1 if that is 0 */
+    double size[2]; /* of the window */
 };
 
-static int compare_sizes(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
+/* Largest values on a ring around a point, at `beside`. */
+struct ring {
+    double field[2], entries[4];      /* |f|, and entries of |J| */
+    double entry, trace, determinant; /* changes of them from their values at the point */
+};
 
-/* Writes the medians of |f|, which no pole moves. */
-static void find_scale(struct search *search)
+static struct ring look_around(const struct search *search, const double *at, const double *jacobian)
 {
-    enum { APART = 16, SAMPLES = CORNERS / APART + 1 }; /* 16 does not divide a row of corners */
-    for (size_t c = 0; c < 2; c++) {
-        double sizes[SAMPLES];
-        size_t count = 0;
-        for (size_t k = 0; k < CORNERS; k += APART) {
-            sizes[count] = fabs(search->portrait->fields[c][k]);
-            count += isfinite(sizes[count]);
+    static const double directions[][2] = {{1, 0},   {-1, 0},   {0, 1},    {0, -1},
+                                           {.7, .7}, {-.7, .7}, {.7, -.7}, {-.7, -.7}};
+    struct ring ring = {.entry = 0};
+    const double trace = jacobian[0] + jacobian[3],
+                 determinant = jacobian[0] * jacobian[3] - jacobian[1] * jacobian[2];
+    for (size_t i = 0; i < GM_COUNT(directions); i++) {
+        double point[2], f[2], j[4];
+        for (size_t k = 0; k < 2; k++) {
+            point[k] = at[k] + beside * directions[i][k] * search->size[k];
         }
-        qsort(sizes, count, sizeof *sizes, compare_sizes);
-        search->scale[c] = count > 0 && sizes[count / 2] > 0 ? sizes[count / 2] : 1;
+        gm_field(search->problem, point, f, 1);
+        if (!isfinite(f[0] + f[1]) || !gm_jacobian(search->problem, point, j)) {
+            continue;
+        }
+        for (size_t k = 0; k < 4; k++) {
+            ring.field[k / 2] = fmax(ring.field[k / 2], fabs(f[k / 2]));
+            ring.entries[k] = fmax(ring.entries[k], fabs(j[k]));
+            ring.entry = fmax(ring.entry, fabs(j[k] - jacobian[k]));
+        }
+        ring.trace = fmax(ring.trace, fabs(j[0] + j[3] - trace));
+        ring.determinant = fmax(ring.determinant, fabs(j[0] * j[3] - j[1] * j[2] - determinant));
     }
+    return ring;
 }
 
-/* Writes Newton's step -J^+ f in units of the window, with J and f in units of the window and of the usual f: with the
-   pseudoinverse J' / |J|^2 if J has rank 1. */
+/* Returns true if the Jacobian jumps at a point: very near it changes as much as it does on the ring. */
+static bool has_kink(const struct search *search, const double *at, const struct ring *ring)
+{
+    double j[2][4], jump = 0, largest = 0;
+    for (size_t side = 0; side < 4; side++) {
+        double point[2] = {at[0], at[1]};
+        point[side / 2] += (side % 2 ? 1e-4 : -1e-4) * beside * search->size[side / 2];
+        if (!gm_jacobian(search->problem, point, j[side % 2])) {
+            return false;
+        }
+        for (size_t k = 0; k < 4 && side % 2; k++) {
+            jump = fmax(jump, fabs(j[1][k] - j[0][k]));
+            largest = fmax(largest, ring->entries[k]);
+        }
+    }
+    return jump > kink * ring->entry && jump > residual * largest;
+}
+
+/* Writes Newton's step -J^+ f in units of the window, where each row of J and f has length 1: with the pseudoinverse
+   J' / |J|^2 if J has rank 1. */
 static void find_step(const struct search *search, const double *jacobian, const double *f, double *step)
 {
     double j[4], u[2];
-    for (size_t k = 0; k < 4; k++) {
-        j[k] = jacobian[k] * search->size[k % 2] / search->scale[k / 2];
-        u[k / 2] = f[k / 2] / search->scale[k / 2];
+    for (size_t row = 0; row < 2; row++) {
+        const double *entry = jacobian + 2 * row,
+                     length = hypot(entry[0] * search->size[0], entry[1] * search->size[1]);
+        const bool none = length == 0 && f[row] == 0; /* the component is 0 here, and does not change */
+        u[row] = none ? 0 : f[row] / length;
+        for (size_t k = 0; k < 2; k++) {
+            j[2 * row + k] = none ? 0 : entry[k] * search->size[k] / length;
+        }
     }
     const double det = j[0] * j[3] - j[1] * j[2],
                  square = j[0] * j[0] + j[1] * j[1] + j[2] * j[2] + j[3] * j[3];
-    if (fabs(det) > singular * square) {
+    if (fabs(det) > 1e-13) {
         step[0] = (j[1] * u[1] - j[3] * u[0]) / det;
         step[1] = (j[2] * u[0] - j[0] * u[1]) / det;
     } else {
@@ -179,8 +215,9 @@ static double stretch(double ratio, double ratio_before)
     return fabs(ratio - ratio_before) < alike_ratios && ratio > quick && ratio < slow ? 1 / (1 - ratio) : 1;
 }
 
-/* Moves a point to an equilibrium, with the Jacobian there. Returns false if it finds none in the window. */
-static bool solve(const struct search *search, double *at, double *jacobian)
+/* Moves a point to an equilibrium, with the Jacobian there and what lies around. Returns false if it finds none in the
+   window. */
+static bool solve(const struct search *search, double *at, double *jacobian, struct ring *ring)
 {
     const struct gm_window *window = &search->portrait->window;
     double f[2], step[2], length = INFINITY, ratio = 0;
@@ -211,31 +248,45 @@ static bool solve(const struct search *search, double *at, double *jacobian)
         }
     }
     gm_field(search->problem, at, f, 1);
-    bool found = length < converged && gm_jacobian(search->problem, at, jacobian);
+    if (!(length < converged && gm_jacobian(search->problem, at, jacobian))) {
+        return false;
+    }
+    bool found = true;
+    *ring = look_around(search, at, jacobian);
     for (size_t k = 0; k < 2; k++) {
         at[k] = fabs(at[k]) < round_off * search->size[k] ? 0 : at[k];
         const double beyond = fmax(window->low[k] - at[k], at[k] - window->high[k]);
-        found = found && fabs(f[k]) <= residual * search->scale[k] && beyond <= round_off * search->size[k];
+        found = found && fabs(f[k]) <= residual * ring->field[k] && beyond <= round_off * search->size[k];
     }
     return found;
 }
 
-/* Writes the eigenvalues and the kind that they make. Entries and eigenvalues that are round-off are 0. */
-static void classify(const struct search *search, struct gm_equilibrium *equilibrium)
+/* Writes the eigenvalues and the kind that they make. The place of a multiple zero is uncertain, and with it the
+   determinant and the trace there: what the ring shows decides if they are 0. */
+static void classify(const struct search *search, struct gm_equilibrium *equilibrium, const struct ring *ring)
 {
-    double *j = equilibrium->jacobian, largest = 0; /* in units of the window and of the usual f */
+    double *j = equilibrium->jacobian;
     for (size_t k = 0; k < 4; k++) {
-        const double usual = search->scale[k / 2] / search->size[k % 2];
-        j[k] = fabs(j[k]) <= round_off * usual ? 0 : j[k];
-        largest = fmax(largest, fabs(j[k]) / usual);
+        j[k] = fabs(j[k]) <= negligible * ring->entries[k] ? 0 : j[k];
     }
     const double trace = j[0] + j[3], det = j[0] * j[3] - j[1] * j[2],
-                 unit = search->scale[0] / search->size[0] * search->scale[1] / search->size[1],
-                 rate = fmax(fmax(fabs(j[0]), fabs(j[3])), sqrt(fabs(det)));
+                 products = fabs(j[0] * j[3]) + fabs(j[1] * j[2]);
     /* (trace / 2)^2 - det without cancellation */
     const double root = (j[0] - j[3]) * (j[0] - j[3]) / 4 + j[1] * j[2];
     double(*values)[2] = equilibrium->eigenvalues;
     memset(values, 0, sizeof equilibrium->eigenvalues);
+    if (has_kink(search, equilibrium->at, ring)) {
+        equilibrium->kind = GM_NOT_SMOOTH;
+        values[0][0] = values[0][1] = values[1][0] = values[1][1] = NAN;
+        return;
+    }
+    if (fabs(det) <= uncertain * ring->determinant || fabs(det) <= negligible * products) {
+        const double other = fabs(trace) <= uncertain * ring->trace ? 0 : trace;
+        equilibrium->kind = GM_DEGENERATE;
+        values[0][0] = fmax(other, 0);
+        values[1][0] = fmin(other, 0);
+        return;
+    }
     if (root < 0) {
         values[0][0] = values[1][0] = trace / 2;
         values[0][1] = sqrt(-root);
@@ -245,16 +296,12 @@ static void classify(const struct search *search, struct gm_equilibrium *equilib
         values[0][0] = fmax(large, small);
         values[1][0] = fmin(large, small);
     }
-    if (fabs(det) <= degenerate * largest * largest * unit) {
-        equilibrium->kind = GM_DEGENERATE;
-        for (size_t k = 0; k < 4; k++) {
-            double *part = &values[k / 2][k % 2];
-            *part = fabs(*part) <= round_off * rate ? 0 : *part;
-        }
-    } else if (det < 0) {
+    const double balance = fmax(fabs(j[0]), fabs(j[3]));
+    if (det < 0) {
         equilibrium->kind = GM_SADDLE;
-    } else if (fabs(trace) <= traceless * rate) {
+    } else if (fabs(trace) <= negligible * balance + residual * ring->trace) {
         equilibrium->kind = GM_CENTRE;
+        values[0][0] = values[1][0] = 0;
     } else if (root >= 0) {
         equilibrium->kind = trace < 0 ? GM_STABLE_NODE : GM_UNSTABLE_NODE;
     } else {
@@ -262,58 +309,65 @@ static void classify(const struct search *search, struct gm_equilibrium *equilib
     }
 }
 
-/* Returns a number below, at or above 0 if a is before, at or after b, by x, then y. */
-static int compare(const struct search *search, const double *a, const double *b)
+/* Returns true if two equilibria are one, as far as their places are known. */
+static bool is_same(const struct search *search, const struct gm_equilibrium *a,
+                    const struct gm_equilibrium *b)
 {
-    for (size_t k = 0; k < 2; k++) {
-        if (fabs(a[k] - b[k]) > alike * search->size[k]) {
-            return a[k] < b[k] ? -1 : 1;
-        }
-    }
-    return 0;
+    const bool multiple = a->kind == GM_DEGENERATE && b->kind == GM_DEGENERATE;
+    const double most = multiple ? alike_multiple : alike;
+    return fabs(a->at[0] - b->at[0]) <= most * search->size[0] &&
+           fabs(a->at[1] - b->at[1]) <= most * search->size[1];
+}
+
+/* Returns true if a is before b, by x, then y. */
+static bool is_before(const struct search *search, const double *a, const double *b)
+{
+    return fabs(a[0] - b[0]) > alike * search->size[0] ? a[0] < b[0] : a[1] < b[1];
 }
 
 /* Returns true if an equilibrium is one point of a curve of them: from a point beside it, along the null vector of J,
    Newton's method finds another. It finds the same one if that is isolated. */
 static bool is_on_curve(const struct search *search, const struct gm_equilibrium *equilibrium)
 {
-    static const double aside = 1e-3; /* of the window */
     const double *j = equilibrium->jacobian, *row = hypot(j[0], j[1]) > hypot(j[2], j[3]) ? j : j + 2,
                  null[] = {row[1], -row[0]};
     const double largest = fmax(fabs(null[0]) / search->size[0], fabs(null[1]) / search->size[1]);
     for (double sign = -1; sign <= 1; sign += 2) {
         double other[2], jacobian[4], moved = 0;
+        struct ring ring;
         for (size_t k = 0; k < 2; k++) {
             other[k] =
-                equilibrium->at[k] + sign * aside * (largest > 0 ? null[k] / largest : search->size[k]);
+                equilibrium->at[k] + sign * beside * (largest > 0 ? null[k] / largest : search->size[k]);
         }
-        const bool found = solve(search, other, jacobian);
+        const bool found = solve(search, other, jacobian, &ring);
         for (size_t k = 0; found && k < 2; k++) {
             moved = fmax(moved, fabs(other[k] - equilibrium->at[k]) / search->size[k]);
         }
-        if (moved > aside / 2) {
+        if (moved > beside / 2) {
             return true;
         }
     }
     return false;
 }
 
-/* Adds the equilibrium that Newton's method finds from a point, in its place, unless it is there or on a curve. */
+/* Adds the equilibrium that Newton's method finds from a point, in its place, unless it is there or on a curve. Looks
+   for others beside a new one, of which a cell may hold several. */
 static void add_from(const struct search *search, double x, double y)
 {
     struct gm_portrait *portrait = search->portrait;
     struct gm_equilibrium found = {.at = {x, y}};
-    if (!solve(search, found.at, found.jacobian)) {
+    struct ring ring;
+    if (!solve(search, found.at, found.jacobian, &ring)) {
         return;
     }
+    classify(search, &found, &ring);
     size_t place = 0;
-    while (place < portrait->count && compare(search, portrait->equilibria[place].at, found.at) < 0) {
-        place++;
+    for (size_t i = 0; i < portrait->count; i++) {
+        if (is_same(search, &portrait->equilibria[i], &found)) {
+            return;
+        }
+        place += is_before(search, portrait->equilibria[i].at, found.at);
     }
-    if (place < portrait->count && compare(search, portrait->equilibria[place].at, found.at) == 0) {
-        return;
-    }
-    classify(search, &found);
     if (found.kind == GM_DEGENERATE && is_on_curve(search, &found)) {
         portrait->missing = "equilibria fill a curve, which is not listed";
         return;
@@ -326,6 +380,11 @@ static void add_from(const struct search *search, double x, double y)
             (portrait->count - place) * sizeof found);
     portrait->equilibria[place] = found;
     portrait->count++;
+    for (int i = 0; i < 8; i++) {
+        const double aside = (i < 4 ? beside : 3 * beside);
+        add_from(search, found.at[0] + (i % 2 ? aside : -aside) * search->size[0],
+                 found.at[1] + (i % 4 < 2 ? aside : -aside) * search->size[1]);
+    }
 }
 
 /* Starts from the middle of cell `cell` of a grid over the window. */
@@ -357,7 +416,6 @@ bool gm_portrait_open(struct gm_portrait *portrait, const struct gm_problem *pro
     portrait->missing = !is_finite ? "the field is nowhere finite in the window"
                         : !moves   ? "the field is 0 in the whole window"
                                    : NULL;
-    find_scale(&search);
     mark_poles(portrait, problem);
     size_t cells = 0;
     for (size_t cell = 0; cell < (size_t)COLUMNS * ROWS && cells < MOST_CELLS; cell++) {

@@ -16,8 +16,9 @@ enum gm_equilibrium_kind {
     GM_STABLE_FOCUS,
     GM_UNSTABLE_NODE,
     GM_UNSTABLE_FOCUS,
-    GM_CENTRE,    /* of the linear field: nonlinear terms may make it a focus */
-    GM_DEGENERATE /* an eigenvalue is 0 */
+    GM_CENTRE,     /* of the linear field: nonlinear terms may make it a focus */
+    GM_DEGENERATE, /* an eigenvalue is 0 */
+    GM_NOT_SMOOTH  /* the Jacobian jumps there; eigenvalues are NaN */
 };
 /* Returns "saddle", "stable node" ... */
 const char *gm_equilibrium_kind_name(enum gm_equilibrium_kind kind);

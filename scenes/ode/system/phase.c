@@ -205,7 +205,7 @@ static void draw_equilibria(struct gm_picture *picture, struct gm_panel *panel,
         [GM_SADDLE] = {GM_HALF_DISC, "◐ saddle"},      [GM_STABLE_NODE] = {GM_DISC, "● stable"},
         [GM_STABLE_FOCUS] = {GM_DISC, "● stable"},     [GM_UNSTABLE_NODE] = {GM_RING, "○ unstable"},
         [GM_UNSTABLE_FOCUS] = {GM_RING, "○ unstable"}, [GM_CENTRE] = {GM_DOTTED_RING, "◌ centre"},
-        [GM_DEGENERATE] = {GM_CROSS, "× degenerate"},
+        [GM_DEGENERATE] = {GM_CROSS, "× degenerate"},  [GM_NOT_SMOOTH] = {GM_CROSS, "× not smooth"},
     };
     for (size_t i = 0; i < portrait->count; i++) {
         const struct gm_style style = {GM_INK, 1, 11, GM_SOLID};
