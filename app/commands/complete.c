@@ -50,6 +50,9 @@ static void offer_file(const struct gm_listed *listed, const void *stem)
 {
     char title[128];
     snprintf(title, sizeof title, "%s", listed->title);
+    if (!gm_text_is_plain(listed->name)) {
+        return; /* a terminal would obey it */
+    }
     offer(stem, listed->name, gm_text_tame(title));
 }
 

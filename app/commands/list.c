@@ -22,6 +22,7 @@
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
+#include "render/cells/text.h"
 
 /* A row of a list: JSON has its texts with their keys; otherwise the first two, and in a long list the
    next ones, up to number `longer`. */
@@ -36,7 +37,9 @@ static void list_texts(const struct gm_options *options, const char *const texts
         printf("}\n");
         return;
     }
-    gm_print_wrapped(texts[1][1], printf("%-*s ", width, texts[0][1]), width + 1);
+    char name[256]; /* it may be a file's */
+    snprintf(name, sizeof name, "%s", texts[0][1]);
+    gm_print_wrapped(texts[1][1], printf("%-*s ", width, gm_text_tame(name)), width + 1);
     for (size_t i = 2; options->longer && i < longer; i++) {
         gm_print_wrapped(texts[i][1], printf("  "), 2);
     }

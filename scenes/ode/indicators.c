@@ -164,7 +164,11 @@ double gm_volume_error(const struct gm_view *view)
 const char *gm_volume_why(const struct gm_view *view)
 {
     const struct followed *followed = view->worked[GM_WORKED_VOLUME].data;
-    return !followed ? NULL : followed->why ? followed->why : "the divergence of the equations is not known";
+    if (!followed || followed->why) {
+        return followed ? followed->why : NULL;
+    }
+    return gm_log_volume(view) == -INFINITY ? "a step of the scheme has the determinant 0"
+                                            : "the divergence of the equations is not known";
 }
 
 /* ---- coming back, and leaving ---- */

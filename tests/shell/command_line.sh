@@ -136,7 +136,7 @@ refused 1 'acute triangles' run room columns=6 # rows are what the lips need
 status 0 sweep cavity columns=8,16 steps=0 --measure triangles
 [ "$(grep -c ',ok,' out)" = 2 ] || fail "a sweep over columns: $(cat out)"
 # names that others use
-refused 1 'scheme box does not fit scene kepler: it needs .*; geomint list kepler names those that do$' run kepler scheme=box
+refused 1 'scheme box does not fit scene kepler: it needs .*; geomint list kepler --long names those that do$' run kepler scheme=box
 status 0 certify forward-euler
 # a word of options opens the explorer too
 status 1 tui --theme light

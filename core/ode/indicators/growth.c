@@ -161,6 +161,9 @@ static double orthonormalise(const struct gm_growth *growth)
         for (size_t c = 0; c < n; c++) {
             square += v[c] * v[c];
         }
+        if (square == 0) {
+            return -INFINITY;
+        }
         for (size_t c = 0; c < size; c++) {
             v[c] /= sqrt(square);
         }
@@ -185,6 +188,9 @@ static bool step_volume(struct gm_growth *growth)
 {
     struct gm_run *run = growth->run;
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    if (growth->log_volume == -INFINITY) { /* it stays 0 */
+        return gm_run_advance(run, 1) == GM_OK;
+    }
     const double t = run->t, before = divergence_at(growth, run);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
     const double middle =
