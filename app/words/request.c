@@ -321,7 +321,8 @@ static bool find_schemes(struct gm_request *request, char *message)
     char words[256];
     gm_arguments_tell_scene(scene, words, sizeof words);
     return !unfit ||
-           gm_refuse(message, "scheme %s does not fit scene %s%s%s; geomint list %s --long names those that do",
+           gm_refuse(message,
+                     "scheme %s does not fit scene %s%s%s; geomint list %s --long names those that do",
                      unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
 }
 
