@@ -187,14 +187,27 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
 static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  const struct derivative *derivative)
 {
-    const double(*tangent)[TANGENTS] = derivative->at;
-    (void)subject;
-    (void)scheme;
+    const size_t n = gm_subject_components(subject, scheme);
+    struct derivative rest = *derivative; /* what elimination leaves */
+    double determinant = 1;
     (void)dt;
-    double determinant = 0;
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        determinant += tangent[0][i] * (tangent[1][j] * tangent[2][k] - tangent[1][k] * tangent[2][j]);
+    for (size_t i = 0; i < n; i++) {
+        size_t pivot = i;
+        for (size_t row = i + 1; row < n; row++) {
+            pivot = fabs(rest.at[row][i]) > fabs(rest.at[pivot][i]) ? row : pivot;
+        }
+        for (size_t column = 0; column < n; column++) {
+            const double entry = rest.at[pivot][column];
+            rest.at[pivot][column] = pivot == i ? entry : -rest.at[i][column];
+            rest.at[i][column] = entry;
+        }
+        determinant *= rest.at[i][i];
+        for (size_t row = i + 1; row < n; row++) {
+            const double factor = rest.at[row][i] / rest.at[i][i];
+            for (size_t column = i; column < n; column++) {
+                rest.at[row][column] -= factor * rest.at[i][column];
+            }
+        }
     }
     return fabs(determinant - 1);
 }
@@ -218,7 +231,8 @@ static struct defect of_way_back(const struct gm_subject *subject, const struct 
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
-/* Claims about the derivative of a step: the defect of each is a polynomial of this degree in its entries. */
+/* Claims about the derivative of a step: the defect of each is a polynomial of this degree in its entries; 0: the number
+   of components. */
 static const struct {
     enum gm_claim claim;
     int degree;
@@ -227,7 +241,7 @@ static const struct {
     {GM_SYMPLECTIC, 2, form_defect},
     {GM_CONFORMAL, 2, conformal_form_defect},
     {GM_POISSON_MAP, 2, bracket_defect},
-    {GM_KEEPS_VOLUME, 3, determinant_defect},
+    {GM_KEEPS_VOLUME, 0, determinant_defect},
 };
 
 static struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme,
@@ -235,7 +249,9 @@ static struct defect defect_at(const struct gm_subject *subject, const struct gm
 {
     for (size_t i = 0; i < GM_COUNT(of_step); i++) {
         if (of_step[i].claim == claim) {
-            return of_derivative(subject, scheme, dt, tolerance, of_step[i].degree, of_step[i].defect);
+            const int degree =
+                of_step[i].degree > 0 ? of_step[i].degree : (int)gm_subject_components(subject, scheme);
+            return of_derivative(subject, scheme, dt, tolerance, degree, of_step[i].defect);
         }
     }
     return of_way_back(subject, scheme, dt, claim == GM_REVERSIBLE);
