@@ -327,9 +327,15 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = begin(scheme);
     scheme->family->kind->certify(scheme, &certificate);
+    /* on the program's own systems nothing excuses a claim; but a user's scheme may fit none of them */
+    const bool untried = scheme->word && !certificate.order_problem[0];
+    const char *reason =
+        untried ? "no problem of the certificates fits it: name a system, --on SYSTEM" : NULL;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        certificate.claims[bit].reason = NULL; /* on the program's own systems nothing excuses a claim */
+        certificate.claims[bit].reason = certificate.claims[bit].claimed ? reason : NULL;
     }
+    certificate.order_reason = untried ? reason : certificate.order_reason;
+    certificate.order_holds = certificate.order_holds || untried;
     conclude(&certificate);
     return certificate;
 }

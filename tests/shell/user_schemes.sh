@@ -233,6 +233,16 @@ refused 1 'no diagram: the order of leapfrog' certify leapfrog -o drawn/c.png
 refused 1 'the diagram of one scheme' certify all -o drawn/c.png
 [ ! -e drawn/c.png ] || fail 'a diagram of nothing'
 
+# nothing is broken where nothing was measured; a method for other motions does not keep the form of constrained ones
+status 0 certify 'composition(verlet, boris2; 1/2, 1/2)'
+grep -q 'measured nowhere: no problem of the certificates fits it: name a system, --on SYSTEM$' out || fail "$(cat out)"
+status 0 certify 'composition(verlet, lobatto2; 1/2, 1/2)'
+grep -q 'S symplectic  *holds' out || fail "$(cat out)"
+status 0 certify 'composition(rattle2, midpoint; 1/2, 1/2)' --on spherical-pendulum
+grep -q 'S symplectic  *not claimed' out || fail "$(cat out)"
+status 0 certify 'composition(rattle2, rattle2; 1/2, 1/2)' --on spherical-pendulum
+grep -q 'S symplectic  *holds' out || fail "$(cat out)"
+
 # with the digits that are missing
 status 0 certify 'composition(verlet; order: 4; 1.3512, -1.7024, 1.3512)' --polish new/folder/polished.scheme
 grep -q '1.35120719195965763404768780897' new/folder/polished.scheme || fail "polished: $(cat new/folder/*)"

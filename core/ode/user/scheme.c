@@ -375,7 +375,8 @@ static struct own *compose(const struct making *making, const struct substeps *s
     open_exact(making, &self->exact, substeps);
     struct gm_substeps *row = self->coefficients;
     self->row.family = carrying ? &gm_family_composition_carrying : &gm_family_composition;
-    self->row.needs = needs;
+    /* on an energy that splits, schemes for others are schemes that it has under another name */
+    self->row.needs = needs & GM_NEEDS_SPLIT ? needs & ~(unsigned)GM_NEEDS_INSEPARABLE : needs;
     row->count = substeps->count;
     for (int i = 0; i < substeps->count; i++) {
         row->at[i] = (struct gm_substep){substeps->at[i].scheme, substeps->at[i].fraction.value};
@@ -764,8 +765,10 @@ static struct gm_theory theory_of_bases(const struct making *making, const struc
 {
     struct gm_theory theory = {.order = bases->at[0]->order, .symplectic = true};
     for (int i = 0; i < bases->count; i++) {
+        /* the form of constrained motions is kept by schemes for them alone */
+        const unsigned changes = (bases->at[i]->needs ^ row->needs) & GM_NEEDS_CONSTRAINTS;
         theory.order = bases->at[i]->order < theory.order ? bases->at[i]->order : theory.order;
-        theory.symplectic = theory.symplectic && bases->at[i]->claims & GM_SYMPLECTIC;
+        theory.symplectic = theory.symplectic && bases->at[i]->claims & GM_SYMPLECTIC && !changes;
     }
     theory.symmetric = are_adjoint(making, row, row);
     theory.order += theory.symmetric ? theory.order % 2 : 0;
