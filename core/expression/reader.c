@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/expression/nearest.h"
+#include "core/expression/number.h"
 
 enum {
     DEEPEST = 200,           /* nested parentheses */
@@ -29,15 +30,30 @@ static const struct {
     {'^', 14, 13, GM_OPERATION_POWER},
 };
 
+/* A call of a function of the text. */
+struct call {
+    struct gm_definition *definition;
+    const struct call *caller;
+    size_t first;    /* number of indices that are bound outside of the body */
+    unsigned hidden; /* those that the caller does not see, by bits */
+    struct argument {
+        struct gm_span text; /* empty: an unknown number */
+        gm_node_id node;
+        bool read;
+    } arguments[GM_MOST_ARGUMENTS];
+};
+
 struct reader {
     struct gm_formula *graph;
     struct gm_scope scope; /* scope, with the indices of loops */
     const char *text;
     size_t at, end;
-    int depth, fixed; /* depth in parentheses; in brackets and bounds */
-    int64_t operands; /* counted in units of 1 / OF_AN_INDEX */
-    int bounds;       /* depth in bounds of loops */
-    unsigned varying; /* bit k: a bound uses index k, so the rounds of its loop differ */
+    int depth, fixed;  /* depth in parentheses; in brackets and bounds */
+    int64_t operands;  /* counted in units of 1 / OF_AN_INDEX */
+    int bounds;        /* depth in bounds of loops */
+    unsigned varying;  /* bit k: a bound uses index k, so the rounds of its loop differ */
+    unsigned hidden;   /* bit k: index k is of a text around this one */
+    struct call *call; /* the function whose body is read; NULL: none */
     bool failed;
     struct gm_fault *fault;
 };
@@ -328,14 +344,15 @@ static long read_whole(struct reader *reader, const char *what)
     return (long)value;
 }
 
-/* Moves to the closing parenthesis of a loop without rounds. */
-static void skip_loop(struct reader *reader)
+/* Moves to the parenthesis that closes the open one, or to a comma before it. */
+static void skip(struct reader *reader, bool to_comma)
 {
-    int depth = 1;
-    while (depth > 0 && peek(reader) != '\0') {
+    for (int depth = 1; peek(reader) != '\0'; reader->at++) {
         const char next = reader->text[reader->at];
         depth += (next == '(') - (next == ')');
-        reader->at += depth > 0;
+        if (depth == 0 || (to_comma && depth == 1 && next == ',')) {
+            return;
+        }
     }
 }
 
@@ -343,7 +360,8 @@ static const struct gm_index *index_of(const struct reader *reader, const char *
 {
     for (size_t i = reader->scope.index_count; i-- > 0;) {
         const struct gm_index *index = &reader->scope.indices[i];
-        if (index->length == length && memcmp(index->text, text, length) == 0) {
+        if (!(reader->hidden & 1U << i) && index->length == length &&
+            memcmp(index->text, text, length) == 0) {
             return index;
         }
     }
@@ -359,6 +377,19 @@ static bool is_head(struct reader *reader)
     const bool is_there = reader->at > begin && peek(reader) == '=';
     reader->at = begin;
     return is_there;
+}
+
+/* The number of the argument of that name in the body that is read, or GM_MOST_ARGUMENTS. */
+static size_t argument_of(const struct reader *reader, const char *text, size_t length)
+{
+    const struct gm_definition *definition = reader->call ? reader->call->definition : NULL;
+    for (size_t i = 0; definition && i < definition->count; i++) {
+        const struct gm_span name = definition->arguments[i];
+        if (name.end - name.begin == length && memcmp(reader->text + name.begin, text, length) == 0) {
+            return i;
+        }
+    }
+    return GM_MOST_ARGUMENTS;
 }
 
 struct loop {
@@ -404,6 +435,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
     if (scope->index_count == GM_MOST_INDICES) {
         fail(reader, begin, "more than %d loops in each other", GM_MOST_INDICES);
     } else if (gm_formula_reserves(name.text, length) || index_of(reader, name.text, length) ||
+               argument_of(reader, name.text, length) < GM_MOST_ARGUMENTS ||
                (scope->find && scope->find(scope->data, &name, &node, sentence) != GM_UNKNOWN)) {
         fail(reader, begin, "%.*s has a meaning already and cannot be the index of a loop",
              (int)(length < 60 ? length : 60), name.text);
@@ -435,7 +467,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
         }
     }
     if (low > high) {
-        skip_loop(reader);
+        skip(reader, false);
     }
 }
 
@@ -470,6 +502,102 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     }
     reader->graph->place = (uint32_t)begin;
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
+}
+
+/* Reads all of a span. */
+static gm_node_id read_span(struct reader *reader, struct gm_span span)
+{
+    const size_t at = reader->at, end = reader->end;
+    reader->at = span.begin;
+    reader->end = span.end;
+    const gm_node_id node = read_expression(reader, 0);
+    const char next = reader->failed || reader->graph->failed ? '\0' : peek(reader);
+    if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
+        fail(reader, reader->at, "there is no operator here; a product is written with *");
+    } else if (next == ')') {
+        fail(reader, reader->at, "this parenthesis was never opened");
+    } else if (next != '\0') {
+        expected(reader, "an operator");
+    }
+    reader->end = end;
+    reader->at = reader->failed ? end : at;
+    return node;
+}
+
+/* Reads an argument of the body's call, where the caller wrote it: once, and in each index anew. */
+static gm_node_id read_argument(struct reader *reader, size_t number)
+{
+    struct call *call = reader->call;
+    struct argument *argument = &call->arguments[number];
+    if (argument->read && reader->fixed == 0) {
+        return argument->node;
+    }
+    if (argument->text.begin == argument->text.end) {
+        return reader->fixed > 0 ? fail(reader, reader->at, "%s", "")
+                                 : gm_formula_constant(reader->graph, NAN);
+    }
+    const unsigned hidden = reader->hidden;
+    reader->call = (struct call *)call->caller;
+    reader->hidden = call->hidden | (((1U << reader->scope.index_count) - 1) & ~((1U << call->first) - 1));
+    const gm_node_id node = read_span(reader, argument->text);
+    reader->hidden = hidden;
+    reader->call = call;
+    if (reader->fixed == 0) {
+        argument->node = node;
+        argument->read = true;
+    }
+    return node;
+}
+
+/* Reads the body of a call. */
+static gm_node_id read_body(struct reader *reader, struct call *call)
+{
+    struct gm_definition *definition = call->definition;
+    definition->called = true;
+    reader->call = call;
+    reader->hidden = (1U << call->first) - 1;
+    const gm_node_id node = read_span(reader, definition->body);
+    for (size_t i = 0; i < definition->count && !reader->failed; i++) {
+        read_argument(reader, i); /* an operand that the body does not use may have a fault */
+    }
+    reader->hidden = call->hidden;
+    reader->call = (struct call *)call->caller;
+    return node;
+}
+
+/* Reads the operands and ) of a call, then the body. */
+static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_definition *definition)
+{
+    struct call call = {
+        definition, reader->call, reader->scope.index_count, reader->hidden, {{{0, 0}, 0, false}}};
+    const int length = (int)(definition->name.end - definition->name.begin);
+    const char *name = reader->text + definition->name.begin;
+    size_t count = 0;
+    for (bool more = peek(reader) != ')'; more; more = take(reader, ',')) {
+        peek(reader);
+        const size_t operand = reader->at;
+        skip(reader, true);
+        if (operand == reader->at) {
+            return expected(reader, "a value");
+        }
+        if (count < GM_MOST_ARGUMENTS) {
+            call.arguments[count].text = (struct gm_span){operand, reader->at};
+        }
+        count++;
+    }
+    if (!take(reader, ')')) {
+        return expected(reader, ")");
+    }
+    if (count != definition->count) {
+        return fail(reader, begin, "%.*s takes %zu argument%s, not %zu", length, name, definition->count,
+                    gm_plural((double)definition->count), count);
+    }
+    for (const struct call *caller = reader->call; caller; caller = caller->caller) {
+        if (caller->definition == definition) {
+            return fail(reader, begin, "%.*s is defined by itself", length, name);
+        }
+    }
+    return read_body(reader, &call);
 }
 
 /* True if the next parenthesis begins with the time t and has more. */
@@ -522,9 +650,18 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         }
         return sum || product ? read_sum(reader, begin, sum) : read_call(reader, begin, function);
     }
+    struct gm_definition *definition =
+        called && scope->definition ? scope->definition(scope->data, name.text, length) : NULL;
+    if (definition && !exact && !index_of(reader, name.text, length)) {
+        take(reader, '(');
+        return read_defined(reader, begin, definition);
+    }
     gm_node_id node = 0;
     const struct gm_index *index = index_of(reader, name.text, length);
-    if (index || is_word("pi", name.text, length)) {
+    const size_t argument = index ? GM_MOST_ARGUMENTS : argument_of(reader, name.text, length);
+    if (argument < GM_MOST_ARGUMENTS) {
+        node = read_argument(reader, argument);
+    } else if (index || is_word("pi", name.text, length)) {
         node = gm_formula_constant(reader->graph, index ? (double)index->value : M_PI);
         reader->varying |= index && reader->bounds > 0 ? 1U << (index - scope->indices) : 0;
     } else {
@@ -633,17 +770,18 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
     struct reader reader = {
         .graph = graph, .scope = *scope, .text = text, .at = begin, .end = end, .fault = fault};
     *fault = (struct gm_fault){.offset = begin};
-    *node = read_expression(&reader, 0);
-    if (!reader.failed && !graph->failed && peek(&reader) != '\0') {
-        const char next = peek(&reader);
-        if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
-            fail(&reader, reader.at, "there is no operator here; a product is written with *");
-        } else if (next == ')') {
-            fail(&reader, reader.at, "this parenthesis was never opened");
-        } else {
-            expected(&reader, "an operator");
-        }
-    }
+    *node = read_span(&reader, (struct gm_span){begin, end});
+    graph->place = GM_NO_PLACE;
+    return !reader.failed && !graph->failed;
+}
+
+bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_definition *definition,
+                      const struct gm_scope *scope, struct gm_fault *fault)
+{
+    struct reader reader = {.graph = graph, .scope = *scope, .text = text, .fault = fault};
+    struct call call = {.definition = definition};
+    *fault = (struct gm_fault){.offset = definition->body.begin};
+    read_body(&reader, &call);
     graph->place = GM_NO_PLACE;
     return !reader.failed && !graph->failed;
 }

@@ -995,8 +995,8 @@ static bool read_system(struct gm_reading *reading)
     if (!gm_lines_are_text(reading->text, reading->length, &fault)) {
         return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
     }
-    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_parameters(reading) ||
-        !gm_declared_state(reading) || !gm_declared_relations(reading) ||
+    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_functions(reading) ||
+        !gm_declared_parameters(reading) || !gm_declared_state(reading) || !gm_declared_relations(reading) ||
         !all_nodes(reading, &system->rates, system->n)) {
         return false;
     }
@@ -1023,6 +1023,11 @@ static bool read_system(struct gm_reading *reading)
     for (size_t i = 0; i < reading->line_count; i++) {
         if (!read_counted(reading, &reading->lines[i])) {
             return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
+        }
+    }
+    for (size_t i = 0; i < reading->definition_count; i++) {
+        if (!reading->definitions[i].called && !gm_reading_check(reading, &reading->definitions[i])) {
+            return false;
         }
     }
     return check_space(reading) && is_complete(reading) && name_parts(reading);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/expression/nearest.h"
+#include "core/expression/number.h"
 
 enum {
     ONCE = GM_LINE_ONCE,
@@ -265,6 +266,12 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                  entry->name, entry->name);
         return GM_REFUSED;
     }
+    if (entry->role == GM_ENTRY_FUNCTION) {
+        const size_t count = gm_reading_definition(reading, name->text, name->length)->count;
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a function of %zu argument%s", brief, name->text,
+                 count, gm_plural((double)count));
+        return GM_REFUSED;
+    }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
@@ -304,16 +311,47 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
-/* Makes one attempt; false without a fault if another name must be read first. */
-static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                    long element, gm_node_id *node, bool *postponed)
+struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name, size_t length)
 {
-    struct gm_scope scope = {.find = find,
+    for (size_t i = 0; i < reading->definition_count; i++) {
+        const struct gm_span other = reading->definitions[i].name;
+        if (other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0) {
+            return &reading->definitions[i];
+        }
+    }
+    return NULL;
+}
+
+static struct gm_definition *definition_of(void *data, const char *name, size_t length)
+{
+    return gm_reading_definition(data, name, length);
+}
+
+static struct gm_scope scope_of(struct gm_reading *reading)
+{
+    return (struct gm_scope){.find = find,
                              .known = known,
+                             .definition = definition_of,
                              .data = reading,
                              .lines = true,
                              .initial = reading->initial,
                              .exact = reading->exact};
+}
+
+/* Ends an attempt that failed; true if another name must be read first. */
+static bool is_postponed(struct gm_reading *reading, const struct gm_fault *fault)
+{
+    if (reading->system->graph.failed) {
+        return gm_fail_memory(&reading->fault);
+    }
+    return fault->sentence[0] == '\0' || gm_fail_first(&reading->fault, fault->offset, "%s", fault->sentence);
+}
+
+/* Makes one attempt; false without a fault if another name must be read first. */
+static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                    long element, gm_node_id *node, bool *postponed)
+{
+    struct gm_scope scope = scope_of(reading);
     if (bound && bound->begin < bound->end) {
         scope.indices[scope.index_count++] =
             (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
@@ -324,15 +362,18 @@ static bool attempt(struct gm_reading *reading, struct gm_span span, const struc
                               reading->counter.end - reading->counter.begin, reading->counted};
     }
     struct gm_fault fault;
-    *postponed = false;
-    if (gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
-        return true;
-    }
-    if (reading->system->graph.failed) {
-        return gm_fail_memory(&reading->fault);
-    }
-    *postponed = fault.sentence[0] == '\0';
-    return *postponed ? false : gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    const bool good =
+        gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault);
+    *postponed = !good && is_postponed(reading, &fault);
+    return good;
+}
+
+bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definition)
+{
+    const struct gm_scope scope = scope_of(reading);
+    struct gm_fault fault;
+    return gm_formula_check(&reading->system->graph, reading->text, definition, &scope, &fault) ||
+           is_postponed(reading, &fault);
 }
 
 static bool is_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
