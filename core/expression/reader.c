@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/expression/nearest.h"
-#include "core/expression/number.h"
 
 enum {
     DEEPEST = 200,           /* nested parentheses */
@@ -35,7 +34,7 @@ struct call {
     struct gm_definition *definition;
     const struct call *caller;
     size_t first;    /* number of indices that are bound outside of the body */
-    unsigned hidden; /* those that the caller does not see, by bits */
+    unsigned hidden; /* bit k: the caller does not see index k */
     struct argument {
         struct gm_span text; /* empty: an unknown number */
         gm_node_id node;
@@ -222,6 +221,16 @@ static const char *other_name(const char *word)
     return NULL;
 }
 
+bool gm_is_random(const char *word)
+{
+    static const char *const words[] = {"noise", "wiener", "randn", "normal", "ran", "rand", "random"};
+    size_t i = 0;
+    while (i < sizeof words / sizeof *words && strcmp(words[i], word) != 0) {
+        i++;
+    }
+    return i < sizeof words / sizeof *words;
+}
+
 static gm_node_id unknown(struct reader *reader, size_t offset, const char *text, size_t length,
                           const char *what)
 {
@@ -231,6 +240,9 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
     }
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)(length < 60 ? length : 60), text);
+    if (gm_is_random(word)) {
+        return fail(reader, offset, "%s", GM_NO_NOISE);
+    }
     const char *near = other_name(word);
     near = near ? near : gm_nearest(word, count, candidate, reader);
     return fail(reader, offset, "there is no %s %s%s%.60s", what, word, near ? "; did you mean " : "",
@@ -524,7 +536,7 @@ static gm_node_id read_span(struct reader *reader, struct gm_span span)
     return node;
 }
 
-/* Reads an argument of the body's call, where the caller wrote it: once, and in each index anew. */
+/* Reads an argument of the body's call, where the caller wrote it: once, and again in each index. */
 static gm_node_id read_argument(struct reader *reader, size_t number)
 {
     struct call *call = reader->call;
@@ -590,7 +602,7 @@ static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_de
     }
     if (count != definition->count) {
         return fail(reader, begin, "%.*s takes %zu argument%s, not %zu", length, name, definition->count,
-                    gm_plural((double)definition->count), count);
+                    definition->count == 1 ? "" : "s", count);
     }
     for (const struct call *caller = reader->call; caller; caller = caller->caller) {
         if (caller->definition == definition) {
@@ -600,17 +612,47 @@ static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_de
     return read_body(reader, &call);
 }
 
-/* True if the next parenthesis begins with the time t and has more. */
-static bool is_at_time(const struct reader *reader)
+/* Takes (0). */
+static bool take_zero(struct reader *reader)
 {
-    size_t at = reader->at + 1;
-    while (at < reader->end && reader->text[at] == ' ') {
-        at++;
+    const size_t begin = reader->at;
+    if (take(reader, '(') && take(reader, '0') && take(reader, ')')) {
+        return true;
     }
-    if (gm_name_length(reader->text + at, reader->end - at) != 1 || reader->text[at] != 't') {
-        return false;
+    reader->at = begin;
+    return false;
+}
+
+/* Refuses the parenthesis behind a name that is no function. */
+static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
+{
+    const size_t begin = reader->at++;
+    const int brief = (int)(name->length < 60 ? name->length : 60);
+    struct gm_name start = *name;
+    gm_node_id node;
+    char sentence[GM_FAULT_SENTENCE], *end;
+    start.initial = true;
+    if (!reader->scope.initial ||
+        reader->scope.find(reader->scope.data, &start, &node, sentence) != GM_KNOWN) {
+        return fail(reader, begin, "%.*s is not a function; a product is written with *: %.*s*(", brief,
+                    name->text, brief, name->text);
     }
-    return at + 1 < reader->end && reader->text[at + 1] != ')';
+    peek(reader);
+    const char *inside = reader->text + reader->at;
+    skip(reader, false);
+    size_t length = (size_t)(reader->text + reader->at - inside);
+    while (length > 0 && inside[length - 1] == ' ') {
+        length--;
+    }
+    const bool brief_too = length < 40 && !memchr(inside, '\n', length);
+    const char *shown = brief_too ? inside : "...";
+    strtod(inside, &end);
+    return fail(
+        reader, begin,
+        length > 0 && end == inside + length
+            ? "%.*s(%.*s): only %.*s(0), the start, is known"
+            : "%.*s(%.*s) is a delay; delay equations are not solved; a product is written with *: %.*s*(",
+        brief, name->text, brief_too ? (int)length : 3, shown, brief, name->text);
 }
 
 static gm_node_id read_name(struct reader *reader, bool exact);
@@ -672,11 +714,8 @@ static gm_node_id read_name(struct reader *reader, bool exact)
             if (!reader->failed && !take(reader, ']')) {
                 return expected(reader, "]");
             }
-        } else if (called && scope->initial && !exact && reader->at + 2 < reader->end &&
-                   memcmp(reader->text + reader->at, "(0)", 3) == 0) {
-            name.initial = true;
-            reader->at += 3;
         }
+        name.initial = scope->initial && !exact && take_zero(reader);
         char sentence[GM_FAULT_SENTENCE] = "";
         reader->graph->place = (uint32_t)begin;
         const enum gm_meaning meaning = reader->failed ? GM_KNOWN
@@ -690,16 +729,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
             return fail(reader, begin, "%s", sentence);
         }
     }
-    if (!reader->failed && peek(reader) == '(' && is_at_time(reader)) {
-        return fail(reader, reader->at,
-                    "%.*s(t...) is %.*s at another time: delays are not known; a product is written with *",
-                    brief, name.text, brief, name.text);
-    }
-    if (!reader->failed && peek(reader) == '(') {
-        return fail(reader, reader->at, "%.*s is not a function; a product is written with *: %.*s*(", brief,
-                    name.text, brief, name.text);
-    }
-    return node;
+    return !reader->failed && peek(reader) == '(' ? refuse_call(reader, &name) : node;
 }
 
 static gm_node_id read_operand(struct reader *reader)

@@ -94,13 +94,16 @@ struct gm_scope {
 bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, size_t end,
                      const struct gm_scope *scope, gm_node_id *node, struct gm_fault *fault);
 
-/* Reads the body of a function that nobody calls, for its faults: its arguments are unknown numbers. Where one
-   stands in an index, the rest is not read. */
+/* Reads the body of a function that no formula calls, for its faults: its arguments are unknown numbers. An index
+   that holds one ends the reading, without a fault. */
 bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_definition *definition,
                       const struct gm_scope *scope, struct gm_fault *fault);
 
 /* True if a name is a function, sum, prod or pi. */
 bool gm_formula_reserves(const char *text, size_t length);
+/* True for a name that other programs give to random numbers. */
+#define GM_NO_NOISE "the equations are deterministic; noise is not known"
+bool gm_is_random(const char *word);
 bool gm_is_letter(char character); /* a letter or _ begins a name */
 /* The length in bytes of the name at text[0 .. length); 0: none begins there. */
 size_t gm_name_length(const char *text, size_t length);

@@ -126,12 +126,11 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
-        reading->initial = word == GM_WORD_EXACT || word == GM_WORD_START;
         reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system);
         if (gm_reading_assignment(reading, piece, &target)) {
             gm_reading_elements(reading, &target, assign, &assignment);
         }
-        reading->initial = reading->exact = false;
+        reading->exact = false;
     }
     return !reading->fault.failed;
 }
@@ -276,9 +275,9 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     if (named && named->place != target.name.begin) {
         return gm_reading_fail_twice(reading, target.name.begin, named);
     }
-    reading->initial = reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
+    reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
     const bool good = named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value);
-    reading->initial = reading->exact = false;
+    reading->exact = false;
     if (!good) {
         return false;
     }
@@ -322,9 +321,9 @@ static bool read_level(struct gm_reading *reading, const struct gm_system_line *
     if (item->in_section && !section) {
         return gm_fail_first(&reading->fault, line->value.begin, "there is no line \"section\"");
     }
-    reading->initial = reading->exact = true;
+    reading->exact = true;
     const bool good = add_formula(reading, item, piece);
-    reading->initial = reading->exact = false;
+    reading->exact = false;
     if (good && !gm_span_take(reading->text, &rest, ";", &piece)) {
         return gm_fail_first(&reading->fault, piece.end, "a text was expected: level: F; the exact orbit");
     }

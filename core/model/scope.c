@@ -272,6 +272,10 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                  count, gm_plural((double)count));
         return GM_REFUSED;
     }
+    if (name->initial && entry->role == GM_ENTRY_COMPONENT && gm_system_is_field(system)) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a field: its start is no number", brief, name->text);
+        return GM_REFUSED;
+    }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
@@ -334,7 +338,7 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .definition = definition_of,
                              .data = reading,
                              .lines = true,
-                             .initial = reading->initial,
+                             .initial = true,
                              .exact = reading->exact};
 }
 
@@ -409,17 +413,15 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
     stack[depth++] = number;
     while (depth > 0 && !reading->fault.failed) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
-        const bool was_fixed = reading->fixed, was_initial = reading->initial, was_exact = reading->exact;
+        const bool was_fixed = reading->fixed, was_exact = reading->exact;
         const struct gm_span counter = reading->counter;
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->initial = reading->exact =
-            entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
+        reading->exact = entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
         reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;
-        reading->initial = was_initial;
         reading->exact = was_exact;
         reading->counter = counter;
         if (good) {

@@ -55,7 +55,6 @@ struct gm_reading {
     bool fixed;             /* parameters are constants in formulas */
     bool structural;        /* the graph depends on values of parameters */
     bool without_tangents;  /* the motion alone is read */
-    bool initial;           /* NAME(0) has a meaning */
     bool exact;             /* exact(NAME) has a meaning */
     struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
     long counted;
