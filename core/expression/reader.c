@@ -200,19 +200,10 @@ static const char *candidate(size_t i, const void *data)
 /* The name of a function that has another one elsewhere, or NULL. */
 static const char *other_name(const char *word)
 {
-    static const char *const names[][2] = {{"ln", "log"},
-                                           {"arcsin", "asin"},
-                                           {"arccos", "acos"},
-                                           {"arctan", "atan"},
-                                           {"arctan2", "atan2"},
-                                           {"fabs", "abs"},
-                                           {"tg", "tan"},
-                                           {"sh", "sinh"},
-                                           {"ch", "cosh"},
-                                           {"th", "tanh"},
-                                           {"pow", "^"},
-                                           {"log10", "log(x)/log(10)"},
-                                           {"log2", "log(x)/log(2)"}};
+    static const char *const names[][2] = {{"arcsin", "asin"},   {"arccos", "acos"},       {"arctan", "atan"},
+                                           {"arctan2", "atan2"}, {"fabs", "abs"},          {"tg", "tan"},
+                                           {"sh", "sinh"},       {"ch", "cosh"},           {"th", "tanh"},
+                                           {"pow", "^"},         {"log2", "log(x)/log(2)"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(word, names[i][0]) == 0) {
             return names[i][1];
@@ -261,7 +252,10 @@ static enum gm_operation function_of(const char *text, size_t length)
             return i;
         }
     }
-    return GM_CONSTANT;
+    if (is_word("ln", text, length)) {
+        return GM_OPERATION_LOG;
+    }
+    return is_word("heav", text, length) ? GM_OPERATION_HEAVISIDE : GM_CONSTANT;
 }
 
 bool gm_formula_reserves(const char *text, size_t length)
@@ -496,8 +490,134 @@ static gm_node_id read_sum(struct reader *reader, size_t begin, bool is_sum)
     return loop.any ? loop.value : gm_formula_constant(reader->graph, is_sum ? 0 : 1);
 }
 
+static gm_node_id read_condition(struct reader *reader);
+
+/* 1 - a, for a condition */
+static gm_node_id other_than(struct reader *reader, gm_node_id a)
+{
+    return gm_formula_apply(reader->graph, GM_OPERATION_SUBTRACT, gm_formula_constant(reader->graph, 1), a);
+}
+
+/* Takes a word of a condition. */
+static bool take_word(struct reader *reader, const char *word)
+{
+    peek(reader);
+    const size_t length = gm_name_length(reader->text + reader->at, reader->end - reader->at);
+    const bool is_there = is_word(word, reader->text + reader->at, length);
+    reader->at += is_there ? length : 0;
+    return is_there;
+}
+
+/* True if the next parenthesis encloses a condition, not a part of a formula: nothing follows it that compares or
+   computes. */
+static bool is_enclosed(struct reader *reader)
+{
+    const size_t begin = reader->at++;
+    skip(reader, false);
+    reader->at += reader->at < reader->end;
+    const char next = peek(reader);
+    reader->at = begin;
+    return next == '\0' || !strchr("<>=!+-*/^", next);
+}
+
+/* a < b, a <= b, a > b, a >= b; or another condition in parentheses */
+static gm_node_id read_comparison(struct reader *reader)
+{
+    if (peek(reader) == '(' && is_enclosed(reader)) {
+        reader->at++;
+        const gm_node_id node = read_condition(reader);
+        return reader->failed || take(reader, ')') ? node : expected(reader, ")");
+    }
+    const gm_node_id left = read_expression(reader, 0);
+    const char sign = reader->failed ? '<' : peek(reader);
+    const size_t place = reader->at;
+    if (sign == '=' || sign == '!') {
+        return fail(reader, place, "equality of computed numbers is no condition; use an event");
+    }
+    if (sign != '<' && sign != '>') {
+        return fail(reader, place,
+                    "a condition compares two values, as in x > 0: <, <=, > or >= was expected");
+    }
+    reader->at++;
+    const bool equal = reader->at < reader->end && reader->text[reader->at] == '=';
+    reader->at += equal;
+    const gm_node_id right = read_expression(reader, 0);
+    if (!reader->failed && (peek(reader) == '<' || peek(reader) == '>')) {
+        return fail(reader, reader->at, "a condition compares two values: write a < b and b < c");
+    }
+    const bool turned = (sign == '>') != equal; /* a <= b is not b < a */
+    reader->graph->place = (uint32_t)place;
+    const gm_node_id node =
+        gm_formula_apply(reader->graph, GM_OPERATION_BELOW, turned ? right : left, turned ? left : right);
+    return equal ? other_than(reader, node) : node;
+}
+
+/* Conditions with "and" between them, with "not" before each. */
+static gm_node_id read_all(struct reader *reader)
+{
+    gm_node_id all = 0;
+    bool first = true;
+    do {
+        const bool not = take_word(reader, "not");
+        if (++reader->depth > DEEPEST) {
+            return fail(reader, reader->at, "parentheses, powers or signs are nested more than %d deep",
+                        DEEPEST);
+        }
+        const gm_node_id one = read_comparison(reader), node = not ? other_than(reader, one) : one;
+        reader->depth--;
+        all = first ? node : gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY, all, node);
+        first = false;
+    } while (!reader->failed && take_word(reader, "and"));
+    return all;
+}
+
+/* A condition, as a node that is 1 or 0: a and b is a*b, a or b is not (not a and not b). */
+static gm_node_id read_condition(struct reader *reader)
+{
+    gm_node_id any = read_all(reader);
+    while (!reader->failed && take_word(reader, "or")) {
+        const gm_node_id next = read_all(reader);
+        any = other_than(reader, gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY,
+                                                  other_than(reader, any), other_than(reader, next)));
+    }
+    return any;
+}
+
+/* condition, a, b): the sum of two parts, one of which is 0 */
+static gm_node_id read_choice(struct reader *reader, size_t begin)
+{
+    gm_node_id parts[2] = {0, 0};
+    const gm_node_id condition = read_condition(reader);
+    for (int i = 0; i < 2 && !reader->failed; i++) {
+        if (!take(reader, ',')) {
+            return fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)");
+        }
+        parts[i] = read_expression(reader, 0);
+    }
+    if (!reader->failed && !take(reader, ')')) {
+        return peek(reader) == ','
+                   ? fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)")
+                   : expected(reader, ")");
+    }
+    if (reader->failed || reader->graph->failed) {
+        return 0;
+    }
+    reader->graph->place = (uint32_t)begin;
+    const gm_node_id other = other_than(reader, condition);
+    if (reader->graph->nodes[condition].operation == GM_CONSTANT) {
+        return parts[reader->graph->nodes[condition].value == 0];
+    }
+    return gm_formula_apply(reader->graph, GM_OPERATION_ADD,
+                            gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, condition, parts[0]),
+                            gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, other, parts[1]));
+}
+
 static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operation operation)
 {
+    if (operation == GM_OPERATION_CHOSEN) {
+        return read_choice(reader, begin);
+    }
+
     const struct gm_operation_row *row = &gm_operation_rows[operation];
     gm_node_id operands[2] = {0, 0};
     for (unsigned i = 0; i < row->arity && !reader->failed; i++) {
@@ -516,15 +636,17 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
 
-/* Reads all of a span. */
-static gm_node_id read_span(struct reader *reader, struct gm_span span)
+/* Reads all of a span, a formula or a condition. */
+static gm_node_id read_span(struct reader *reader, struct gm_span span, bool is_condition)
 {
     const size_t at = reader->at, end = reader->end;
     reader->at = span.begin;
     reader->end = span.end;
-    const gm_node_id node = read_expression(reader, 0);
+    const gm_node_id node = is_condition ? read_condition(reader) : read_expression(reader, 0);
     const char next = reader->failed || reader->graph->failed ? '\0' : peek(reader);
-    if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
+    if (next == '<' || next == '>') {
+        fail(reader, reader->at, "a condition stands in the first place of if( and in section:");
+    } else if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
         fail(reader, reader->at, "there is no operator here; a product is written with *");
     } else if (next == ')') {
         fail(reader, reader->at, "this parenthesis was never opened");
@@ -551,7 +673,7 @@ static gm_node_id read_argument(struct reader *reader, size_t number)
     const unsigned hidden = reader->hidden;
     reader->call = (struct call *)call->caller;
     reader->hidden = call->hidden | (((1U << reader->scope.index_count) - 1) & ~((1U << call->first) - 1));
-    const gm_node_id node = read_span(reader, argument->text);
+    const gm_node_id node = read_span(reader, argument->text, false);
     reader->hidden = hidden;
     reader->call = call;
     if (reader->fixed == 0) {
@@ -568,7 +690,7 @@ static gm_node_id read_body(struct reader *reader, struct call *call)
     definition->called = true;
     reader->call = call;
     reader->hidden = (1U << call->first) - 1;
-    const gm_node_id node = read_span(reader, definition->body);
+    const gm_node_id node = read_span(reader, definition->body, false);
     for (size_t i = 0; i < definition->count && !reader->failed; i++) {
         read_argument(reader, i); /* an operand that the body does not use may have a fault */
     }
@@ -800,7 +922,7 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
     struct reader reader = {
         .graph = graph, .scope = *scope, .text = text, .at = begin, .end = end, .fault = fault};
     *fault = (struct gm_fault){.offset = begin};
-    *node = read_span(&reader, (struct gm_span){begin, end});
+    *node = read_span(&reader, (struct gm_span){begin, end}, scope->is_condition);
     graph->place = GM_NO_PLACE;
     return !reader.failed && !graph->failed;
 }

@@ -84,6 +84,7 @@ struct gm_scope {
     bool lines;                               /* newlines and comments, # to the end of a line, are blanks */
     bool initial;                             /* NAME(0) has a meaning */
     bool exact;                               /* exact(NAME) has a meaning */
+    bool is_condition;                        /* the whole text is a condition: its node is 1 or 0 */
     bool derives;                             /* `below` is a function: for partial derivatives */
     struct gm_index indices[GM_MOST_INDICES]; /* indices that the caller has bound */
     size_t index_count;

@@ -695,7 +695,7 @@ static void deny_by(struct gm_user_system *system, struct gm_finding *finding, g
     }
 }
 
-/* Finds the first operation of all equations that is not smooth, and the time; written nodes precede derived
+/* Finds the first operation of all equations that is not smooth in the state or the time, and the time; written nodes precede derived
    ones. */
 static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
 {
@@ -709,17 +709,24 @@ static void find_of_parts(struct gm_user_system *system, struct gm_finding *find
         roots[count++] = system->energy;
     }
     gm_node_id *parts = roots ? gm_formula_parts_of(&system->graph, roots, count, &part_count) : NULL;
-    for (size_t k = part_count; parts && k-- > 0;) {
+    bool *varying = calloc(system->variable_count + 1, sizeof *varying);
+    for (size_t i = 0; varying && i < system->initial; i++) {
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    bool *varies = varying ? gm_formula_dependent(&system->graph, varying, system->variable_count) : NULL;
+    for (size_t k = part_count; parts && varies && k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         const bool operates = node->operation > GM_VARIABLE;
-        rough = operates && !gm_operation_rows[node->operation].smooth ? parts[k] : rough;
+        rough = operates && !gm_operation_rows[node->operation].smooth && varies[parts[k]] ? parts[k] : rough;
         time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
     deny_by(system, &findings[GM_FACT_SMOOTH], rough, system->rates);
     deny_by(system, &findings[GM_FACT_AUTONOMOUS], time, system->rates);
-    system->graph.failed |= !parts;
+    system->graph.failed |= !parts || !varies;
     free(roots);
     free(parts);
+    free(varying);
+    free(varies);
 }
 
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])

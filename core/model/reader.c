@@ -414,17 +414,9 @@ static bool read_section(struct gm_reading *reading, const struct gm_system_line
                              "\"alone\" was expected: the section is the usual picture");
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &where, ",", &piece)) {
-        const size_t more = gm_span_until(reading->text, piece, ">"),
-                     less = gm_span_until(reading->text, piece, "<"), sign = more < less ? more : less;
-        if (sign == piece.end) {
-            return gm_fail_first(&reading->fault, piece.begin, "a condition was expected, p_x > 0");
-        }
-        gm_node_id left, right;
-        if (gm_reading_formula(reading, (struct gm_span){piece.begin, sign}, &left) &&
-            gm_reading_formula(reading, (struct gm_span){sign + 1, piece.end}, &right)) {
-            add_node(reading, item,
-                     gm_formula_apply(&reading->system->graph, GM_OPERATION_SUBTRACT,
-                                      sign == more ? left : right, sign == more ? right : left));
+        gm_node_id holds;
+        if (gm_reading_condition(reading, piece, &holds)) {
+            add_node(reading, item, holds);
         }
     }
     return !reading->fault.failed;

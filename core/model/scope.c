@@ -339,7 +339,8 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .data = reading,
                              .lines = true,
                              .initial = true,
-                             .exact = reading->exact};
+                             .exact = reading->exact,
+                             .is_condition = reading->is_condition};
 }
 
 /* Ends an attempt that failed; true if another name must be read first. */
@@ -454,6 +455,20 @@ bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const str
 bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
 {
     return gm_reading_bound(reading, span, NULL, 0, node);
+}
+
+bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
+{
+    bool postponed = true, good = false;
+    while (!reading->fault.failed && !good && postponed) {
+        reading->is_condition = true;
+        good = attempt(reading, span, NULL, 0, node, &postponed);
+        reading->is_condition = false;
+        if (postponed) {
+            gm_reading_define(reading, reading->wanted);
+        }
+    }
+    return good;
 }
 
 bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value)

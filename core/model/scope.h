@@ -56,6 +56,7 @@ struct gm_reading {
     bool structural;        /* the graph depends on values of parameters */
     bool without_tangents;  /* the motion alone is read */
     bool exact;             /* exact(NAME) has a meaning */
+    bool is_condition;      /* the text is a condition */
     struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
     long counted;
     size_t component_count, velocity_count, parameter_count;
@@ -99,6 +100,8 @@ bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definiti
 bool gm_reading_define(struct gm_reading *reading, uint32_t number);
 
 bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
+/* Reads a condition, as a node that is 1 or 0. */
+bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
 /* Reads a formula with an index of the name `bound` and the value `element`; NULL: no index. */
 bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
                       long element, gm_node_id *node);
