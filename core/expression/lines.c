@@ -45,7 +45,7 @@ bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault)
     return true;
 }
 
-/* Refuses a line without a colon, in the notation of other programs where it has that: x' = -x, dx/dt = -x,
+/* Refuses a line without a colon, in the notation of other programs if it is in one: x' = -x, dx/dt = -x,
    wiener w, global 1 x {y = 0}. */
 static bool refuse(const char *text, struct gm_span span, size_t place, struct gm_fault *fault)
 {

@@ -532,7 +532,7 @@ static gm_node_id read_comparison(struct reader *reader)
     const char sign = reader->failed ? '<' : peek(reader);
     const size_t place = reader->at;
     if (sign == '=' || sign == '!') {
-        return fail(reader, place, "equality of computed numbers is no condition; use an event");
+        return fail(reader, place, "equality of computed numbers is not a condition; use an event");
     }
     if (sign != '<' && sign != '>') {
         return fail(reader, place,
@@ -645,7 +645,7 @@ static gm_node_id read_span(struct reader *reader, struct gm_span span, bool is_
     const gm_node_id node = is_condition ? read_condition(reader) : read_expression(reader, 0);
     const char next = reader->failed || reader->graph->failed ? '\0' : peek(reader);
     if (next == '<' || next == '>') {
-        fail(reader, reader->at, "a condition stands in the first place of if( and in section:");
+        fail(reader, reader->at, "a condition belongs in the first place of if( and in section:");
     } else if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
         fail(reader, reader->at, "there is no operator here; a product is written with *");
     } else if (next == ')') {
@@ -745,7 +745,7 @@ static bool take_zero(struct reader *reader)
     return false;
 }
 
-/* Refuses the parenthesis behind a name that is no function. */
+/* Refuses the parenthesis behind a name that is not a function. */
 static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
 {
     const size_t begin = reader->at++;

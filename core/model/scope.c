@@ -273,7 +273,8 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         return GM_REFUSED;
     }
     if (name->initial && entry->role == GM_ENTRY_COMPONENT && gm_system_is_field(system)) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a field: its start is no number", brief, name->text);
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a field: its start is not a number", brief,
+                 name->text);
         return GM_REFUSED;
     }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||

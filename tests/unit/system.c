@@ -580,7 +580,7 @@ static const struct {
     {"q' = -q + 1\n", 1, 1, "q' = -q + 1 is written rate: q = -q + 1"},
     {"dq/dt = -q\n", 1, 1, "dq/dt = -q is written rate: q = -q"},
     {"q'' = -q\n", 1, 1, "x' = -x is written rate: x = -x"},
-    {"field: u\nrate: u = u_xx + u(0)\n", 2, 18, "u is a field: its start is no number"},
+    {"field: u\nrate: u = u_xx + u(0)\n", 2, 18, "u is a field: its start is not a number"},
     {CANONICAL "H: p_q^2/2\nrequire: q\n", 4, 11, "a sentence was expected"},
     {CANONICAL "H: p_q^2/2\nrequire: q; no {qq}\n", 4, 17, "no name qq"},
     {CANONICAL "H: p_q^2/2\nname: a\ntitle: a {q\n", 5, 10, "this brace has no counterpart"},
