@@ -16,7 +16,8 @@
 
 enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
 const char *const gm_typed_keys[] = {"H", "L", "rate", "coordinates", "momenta", NULL};
-const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", "S", "K-matrix", "L-matrix", NULL};
+const char *const gm_replacing_keys[] = {"H", "L",        "V",        "rate", "bracket",
+                                         "S", "K-matrix", "L-matrix", "let",  NULL};
 
 const char *gm_word_after(const char *word, const char *key)
 {
@@ -134,19 +135,33 @@ int gm_typed_file_fault(const struct gm_typed_file *file, const struct gm_fault 
 
 /* ---- words that replace lines of a file ---- */
 
-/* Returns true if a word replaces a line: it has its key and, for a rate or a bracket, the same names
-   before the =. */
+/* The next character of a name, or 0 where it ends. */
+static char next_of_name(const char **text)
+{
+    *text += strspn(*text, " \t");
+    return (char)(**text == '=' || **text == '(' ? '\0' : *(*text)++);
+}
+
+/* Returns true if a word replaces a line: it has its key and, for a rate, a bracket or a let, the same names
+   before the = or the arguments. */
 static bool replaces(const char *word, const char *key, const char *value)
 {
     const char *typed = gm_word_after(word, key);
     char one = typed ? ' ' : '\0', other = one;
-    while (typed && (key[0] == 'r' || key[0] == 'b') && one && one == other) {
-        typed += strspn(typed, " \t");
-        value += strspn(value, " \t");
-        one = (char)(*typed == '=' ? '\0' : *typed++);
-        other = (char)(*value == '=' ? '\0' : *value++);
+    while (typed && strchr("rbl", key[0]) && one && one == other) {
+        one = next_of_name(&typed);
+        other = next_of_name(&value);
     }
     return typed && one == other;
+}
+
+bool gm_typed_file_has(const struct gm_typed_file *file, int word)
+{
+    size_t i = 0;
+    while (i < file->part_count && file->parts[i].from.word != word) {
+        i++;
+    }
+    return file->path ? i < file->part_count : is_typed(file->words[word]);
 }
 
 /* Writes a file's text with the typed lines instead of its own. */
@@ -171,6 +186,12 @@ static void replace_lines(struct gm_arena *arena, void *data)
         }
     }
     put(file, "", file->source + from, file->size - from, "", (struct gm_word_place){.offset = from});
+    for (int i = 1; i < file->count; i++) { /* a new name */
+        const char *value = gm_word_after(file->words[i], "let");
+        if (value && !gm_typed_file_has(file, i)) {
+            put(file, "\nlet: ", value, strlen(value), "\n", (struct gm_word_place){i, strlen("let=")});
+        }
+    }
 }
 
 bool gm_typed_file_replace(struct gm_typed_file *file, char *message)
@@ -178,15 +199,6 @@ bool gm_typed_file_replace(struct gm_typed_file *file, char *message)
     file->text = NULL;
     file->length = 0;
     return run(file, replace_lines, file, message);
-}
-
-bool gm_typed_file_has(const struct gm_typed_file *file, int word)
-{
-    size_t i = 0;
-    while (i < file->part_count && file->parts[i].from.word != word) {
-        i++;
-    }
-    return file->path ? i < file->part_count : is_typed(file->words[word]);
 }
 
 bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)

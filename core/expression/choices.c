@@ -246,9 +246,10 @@ static size_t add_headings(struct heading *list, size_t count, struct heading he
     list[count] = heading;
     rest = assignments(heading.text, rest);
     while (named && gm_span_take(heading.text, &rest, ",", &piece)) {
-        const size_t equals = gm_span_until(heading.text, piece, "=");
+        const size_t equals = gm_span_until(heading.text, piece, "="),
+                     arguments = gm_span_until(heading.text, (struct gm_span){piece.begin, equals}, "(");
         list[count] = heading;
-        list[count].name = gm_span_trimmed(heading.text, (struct gm_span){piece.begin, equals});
+        list[count].name = gm_span_trimmed(heading.text, (struct gm_span){piece.begin, arguments});
         count += equals < piece.end && list[count].name.begin < list[count].name.end;
     }
     return count + !named;

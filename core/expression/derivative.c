@@ -27,11 +27,35 @@ static gm_node_id partial(struct gm_formula *graph, gm_node_id node, int i)
     return result;
 }
 
+/* True for a sum of chosen parts. */
+static bool is_chosen(const struct gm_formula *graph, gm_node_id node)
+{
+    const struct gm_node *here = &graph->nodes[node];
+    return here->operation == GM_OPERATION_CHOSEN ||
+           (here->operation == GM_OPERATION_ADD && is_chosen(graph, here->a) && is_chosen(graph, here->b));
+}
+
+/* The product of a factor and a slope, which need not be finite where the factor is not chosen: a choice encloses
+   the product. */
+static gm_node_id product(struct gm_formula *graph, gm_node_id factor, gm_node_id slope)
+{
+    const struct gm_node here = graph->nodes[factor];
+    if (!is_chosen(graph, factor)) {
+        return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, factor, slope);
+    }
+    const bool sum = here.operation == GM_OPERATION_ADD;
+    const gm_node_id a = sum ? product(graph, here.a, slope) : here.a, b = product(graph, here.b, slope);
+    return gm_formula_apply(graph, here.operation, a, b);
+}
+
 /* sum + factor * d node / d operand i */
 static gm_node_id add_product(struct gm_formula *graph, gm_node_id sum, gm_node_id factor, gm_node_id node,
                               int i)
 {
-    const gm_node_id slope = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, factor, partial(graph, node, i));
+    const bool choice = graph->nodes[node].operation == GM_OPERATION_CHOSEN && i == 1;
+    const gm_node_id slope = choice
+                                 ? gm_formula_apply(graph, GM_OPERATION_CHOSEN, graph->nodes[node].a, factor)
+                                 : product(graph, factor, partial(graph, node, i));
     return sum == GM_NO_NODE ? slope : gm_formula_apply(graph, GM_OPERATION_ADD, sum, slope);
 }
 

@@ -381,6 +381,9 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
     case GM_OPERATION_WHOLE_POWER:
         *simple = gm_is_constant(graph, b, 0) ? gm_formula_constant(graph, 1) : a;
         return gm_is_constant(graph, b, 0) || gm_is_constant(graph, b, 1);
+    case GM_OPERATION_CHOSEN:
+        *simple = gm_is_constant(graph, a, 1) ? b : gm_formula_constant(graph, 0);
+        return is_operation(graph, a, GM_CONSTANT) || gm_is_constant(graph, b, 0);
     default:
         return false;
     }

@@ -127,6 +127,12 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
     case GM_OPERATION_ABS:
         *value = is_square(a) ? a : gm_residue_minus(a);
         break;
+    case GM_OPERATION_SIGN:
+        *value = a == 0 ? 0 : is_square(a) ? 1 : gm_residue_minus(1);
+        break;
+    case GM_OPERATION_HEAVISIDE:
+        *value = is_square(a);
+        break;
     case GM_OPERATION_MIN:
         *value = is_below(seed, a, b) ? a : b;
         break;
@@ -135,6 +141,9 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
         break;
     case GM_OPERATION_BELOW:
         *value = is_below(seed, a, b);
+        break;
+    case GM_OPERATION_CHOSEN:
+        *value = a == 1 ? b : 0;
         break;
     default:
         *value = unrelated(seed, node->operation, a, b);

@@ -45,18 +45,47 @@ bool gm_lines_are_text(const char *text, size_t length, struct gm_fault *fault)
     return true;
 }
 
+/* Refuses a line without a colon, in the notation of other programs if it is in one: x' = -x, dx/dt = -x,
+   wiener w, global 1 x {y = 0}. */
+static bool refuse(const char *text, struct gm_span span, size_t place, struct gm_fault *fault)
+{
+    const size_t equals = gm_span_until(text, span, "=");
+    const char *line = text + span.begin, *newline = memchr(line, '\n', span.end - span.begin);
+    const int length = (int)((newline ? newline : text + span.end) - line);
+    const struct gm_span left = gm_span_trimmed(text, (struct gm_span){span.begin, equals});
+    const bool ratio =
+                   left.end - left.begin > 4 && line[0] == 'd' && memcmp(text + left.end - 3, "/dt", 3) == 0,
+               dash = left.end - left.begin > 1 && text[left.end - 1] == '\'';
+    const struct gm_span name = {left.begin + ratio, left.end - (ratio ? 3 : 1)};
+    char word[16];
+    snprintf(word, sizeof word, "%.*s", (int)gm_name_length(line, (size_t)length), line);
+    if (equals < span.end && (ratio || dash) &&
+        gm_name_length(text + name.begin, name.end - name.begin) == name.end - name.begin) {
+        const char *formula = text + equals;
+        const int rest = (int)(line + length - formula);
+        return gm_fail(fault, span.begin, "%.*s is written rate: %.*s %.*s", length < 100 ? length : 100,
+                       line, (int)(name.end - name.begin), text + name.begin, rest < 100 ? rest : 100,
+                       formula);
+    }
+    if (gm_is_random(word)) {
+        return gm_fail(fault, span.begin, "%s", GM_NO_NOISE);
+    }
+    if (strcmp(word, "global") == 0) {
+        return gm_fail(fault, span.begin, "global is an event of other programs; events are not known");
+    }
+    return dash ? gm_fail(fault, span.begin, "x' = -x is written rate: x = -x")
+                : gm_fail(fault, place,
+                          "a line needs a word and a colon, or a blank in front to continue another");
+}
+
 static bool split(const char *text, struct gm_span span, struct gm_text_line *line, struct gm_fault *fault)
 {
     size_t colon = span.begin;
     while (colon < span.end && text[colon] != ':' && !is_blank(text[colon]) && text[colon] != '#') {
         colon++;
     }
-    if (memchr(text + span.begin, '\'', colon - span.begin)) {
-        return gm_fail(fault, span.begin, "x' = -x is written rate: x = -x");
-    }
     if (colon == span.end || text[colon] != ':') {
-        return gm_fail(fault, colon,
-                       "a line needs a word and a colon, or a blank in front to continue another");
+        return refuse(text, span, colon, fault);
     }
     line->word = (struct gm_span){span.begin, colon};
     line->value = gm_span_trimmed(text, (struct gm_span){colon + 1, span.end});
@@ -112,6 +141,9 @@ bool gm_line_find(const struct gm_line_words *words, const char *text, const str
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), text + line->word.begin);
     *word = gm_line_word(words, text, line->word);
+    if (*word == words->count && gm_is_random(name)) {
+        return gm_fail(fault, line->word.begin, "%s", GM_NO_NOISE);
+    }
     if (*word == words->count) {
         const char *near = gm_nearest(name, words->count, word_at, words);
         return gm_fail(fault, line->word.begin, "%s has no line \"%s\"%s%s", words->kind, name,

@@ -7,11 +7,6 @@
 /* Texts of the form `word: value`, one per line; a line that begins with a blank continues the last one, also
    behind empty lines and comments, and # begins a comment. */
 
-/* Bytes of a text. */
-struct gm_span {
-    size_t begin, end;
-};
-
 struct gm_text_line {
     struct gm_span word, value; /* the value without surrounding blanks and comments */
 };

@@ -29,15 +29,30 @@ static const struct {
     {'^', 14, 13, GM_OPERATION_POWER},
 };
 
+/* A call of a function of the text. */
+struct call {
+    struct gm_definition *definition;
+    const struct call *caller;
+    size_t first;    /* number of indices that are bound outside of the body */
+    unsigned hidden; /* bit k: the caller does not see index k */
+    struct argument {
+        struct gm_span text; /* empty: an unknown number */
+        gm_node_id node;
+        bool read;
+    } arguments[GM_MOST_ARGUMENTS];
+};
+
 struct reader {
     struct gm_formula *graph;
     struct gm_scope scope; /* scope, with the indices of loops */
     const char *text;
     size_t at, end;
-    int depth, fixed; /* depth in parentheses; in brackets and bounds */
-    int64_t operands; /* counted in units of 1 / OF_AN_INDEX */
-    int bounds;       /* depth in bounds of loops */
-    unsigned varying; /* bit k: a bound uses index k, so the rounds of its loop differ */
+    int depth, fixed;  /* depth in parentheses; in brackets and bounds */
+    int64_t operands;  /* counted in units of 1 / OF_AN_INDEX */
+    int bounds;        /* depth in bounds of loops */
+    unsigned varying;  /* bit k: a bound uses index k, so the rounds of its loop differ */
+    unsigned hidden;   /* bit k: index k is of a text around this one */
+    struct call *call; /* the function whose body is read; NULL: none */
     bool failed;
     struct gm_fault *fault;
 };
@@ -185,25 +200,26 @@ static const char *candidate(size_t i, const void *data)
 /* The name of a function that has another one elsewhere, or NULL. */
 static const char *other_name(const char *word)
 {
-    static const char *const names[][2] = {{"ln", "log"},
-                                           {"arcsin", "asin"},
-                                           {"arccos", "acos"},
-                                           {"arctan", "atan"},
-                                           {"arctan2", "atan2"},
-                                           {"fabs", "abs"},
-                                           {"tg", "tan"},
-                                           {"sh", "sinh"},
-                                           {"ch", "cosh"},
-                                           {"th", "tanh"},
-                                           {"pow", "^"},
-                                           {"log10", "log(x)/log(10)"},
-                                           {"log2", "log(x)/log(2)"}};
+    static const char *const names[][2] = {{"arcsin", "asin"},   {"arccos", "acos"},       {"arctan", "atan"},
+                                           {"arctan2", "atan2"}, {"fabs", "abs"},          {"tg", "tan"},
+                                           {"sh", "sinh"},       {"ch", "cosh"},           {"th", "tanh"},
+                                           {"pow", "^"},         {"log2", "log(x)/log(2)"}};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(word, names[i][0]) == 0) {
             return names[i][1];
         }
     }
     return NULL;
+}
+
+bool gm_is_random(const char *word)
+{
+    static const char *const words[] = {"noise", "wiener", "randn", "normal", "ran", "rand", "random"};
+    size_t i = 0;
+    while (i < sizeof words / sizeof *words && strcmp(words[i], word) != 0) {
+        i++;
+    }
+    return i < sizeof words / sizeof *words;
 }
 
 static gm_node_id unknown(struct reader *reader, size_t offset, const char *text, size_t length,
@@ -215,6 +231,9 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
     }
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)(length < 60 ? length : 60), text);
+    if (gm_is_random(word)) {
+        return fail(reader, offset, "%s", GM_NO_NOISE);
+    }
     const char *near = other_name(word);
     near = near ? near : gm_nearest(word, count, candidate, reader);
     return fail(reader, offset, "there is no %s %s%s%.60s", what, word, near ? "; did you mean " : "",
@@ -233,7 +252,10 @@ static enum gm_operation function_of(const char *text, size_t length)
             return i;
         }
     }
-    return GM_CONSTANT;
+    if (is_word("ln", text, length)) {
+        return GM_OPERATION_LOG;
+    }
+    return is_word("heav", text, length) ? GM_OPERATION_HEAVISIDE : GM_CONSTANT;
 }
 
 bool gm_formula_reserves(const char *text, size_t length)
@@ -328,14 +350,15 @@ static long read_whole(struct reader *reader, const char *what)
     return (long)value;
 }
 
-/* Moves to the closing parenthesis of a loop without rounds. */
-static void skip_loop(struct reader *reader)
+/* Moves to the parenthesis that closes the open one, or to a comma before it. */
+static void skip(struct reader *reader, bool to_comma)
 {
-    int depth = 1;
-    while (depth > 0 && peek(reader) != '\0') {
+    for (int depth = 1; peek(reader) != '\0'; reader->at++) {
         const char next = reader->text[reader->at];
         depth += (next == '(') - (next == ')');
-        reader->at += depth > 0;
+        if (depth == 0 || (to_comma && depth == 1 && next == ',')) {
+            return;
+        }
     }
 }
 
@@ -343,7 +366,8 @@ static const struct gm_index *index_of(const struct reader *reader, const char *
 {
     for (size_t i = reader->scope.index_count; i-- > 0;) {
         const struct gm_index *index = &reader->scope.indices[i];
-        if (index->length == length && memcmp(index->text, text, length) == 0) {
+        if (!(reader->hidden & 1U << i) && index->length == length &&
+            memcmp(index->text, text, length) == 0) {
             return index;
         }
     }
@@ -359,6 +383,19 @@ static bool is_head(struct reader *reader)
     const bool is_there = reader->at > begin && peek(reader) == '=';
     reader->at = begin;
     return is_there;
+}
+
+/* The number of the argument of that name in the body that is read, or GM_MOST_ARGUMENTS. */
+static size_t argument_of(const struct reader *reader, const char *text, size_t length)
+{
+    const struct gm_definition *definition = reader->call ? reader->call->definition : NULL;
+    for (size_t i = 0; definition && i < definition->count; i++) {
+        const struct gm_span name = definition->arguments[i];
+        if (name.end - name.begin == length && memcmp(reader->text + name.begin, text, length) == 0) {
+            return i;
+        }
+    }
+    return GM_MOST_ARGUMENTS;
 }
 
 struct loop {
@@ -404,6 +441,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
     if (scope->index_count == GM_MOST_INDICES) {
         fail(reader, begin, "more than %d loops in each other", GM_MOST_INDICES);
     } else if (gm_formula_reserves(name.text, length) || index_of(reader, name.text, length) ||
+               argument_of(reader, name.text, length) < GM_MOST_ARGUMENTS ||
                (scope->find && scope->find(scope->data, &name, &node, sentence) != GM_UNKNOWN)) {
         fail(reader, begin, "%.*s has a meaning already and cannot be the index of a loop",
              (int)(length < 60 ? length : 60), name.text);
@@ -435,7 +473,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
         }
     }
     if (low > high) {
-        skip_loop(reader);
+        skip(reader, false);
     }
 }
 
@@ -452,8 +490,134 @@ static gm_node_id read_sum(struct reader *reader, size_t begin, bool is_sum)
     return loop.any ? loop.value : gm_formula_constant(reader->graph, is_sum ? 0 : 1);
 }
 
+static gm_node_id read_condition(struct reader *reader);
+
+/* 1 - a, for a condition */
+static gm_node_id other_than(struct reader *reader, gm_node_id a)
+{
+    return gm_formula_apply(reader->graph, GM_OPERATION_SUBTRACT, gm_formula_constant(reader->graph, 1), a);
+}
+
+/* Takes a word of a condition. */
+static bool take_word(struct reader *reader, const char *word)
+{
+    peek(reader);
+    const size_t length = gm_name_length(reader->text + reader->at, reader->end - reader->at);
+    const bool is_there = is_word(word, reader->text + reader->at, length);
+    reader->at += is_there ? length : 0;
+    return is_there;
+}
+
+/* True if the next parenthesis encloses a condition, not a part of a formula: nothing follows it that compares or
+   computes. */
+static bool is_enclosed(struct reader *reader)
+{
+    const size_t begin = reader->at++;
+    skip(reader, false);
+    reader->at += reader->at < reader->end;
+    const char next = peek(reader);
+    reader->at = begin;
+    return next == '\0' || !strchr("<>=!+-*/^", next);
+}
+
+/* a < b, a <= b, a > b, a >= b; or another condition in parentheses */
+static gm_node_id read_comparison(struct reader *reader)
+{
+    if (peek(reader) == '(' && is_enclosed(reader)) {
+        reader->at++;
+        const gm_node_id node = read_condition(reader);
+        return reader->failed || take(reader, ')') ? node : expected(reader, ")");
+    }
+    const gm_node_id left = read_expression(reader, 0);
+    const char sign = reader->failed ? '<' : peek(reader);
+    const size_t place = reader->at;
+    if (sign == '=' || sign == '!') {
+        return fail(reader, place, "equality of computed numbers is not a condition; use an event");
+    }
+    if (sign != '<' && sign != '>') {
+        return fail(reader, place,
+                    "a condition compares two values, as in x > 0: <, <=, > or >= was expected");
+    }
+    reader->at++;
+    const bool equal = reader->at < reader->end && reader->text[reader->at] == '=';
+    reader->at += equal;
+    const gm_node_id right = read_expression(reader, 0);
+    if (!reader->failed && (peek(reader) == '<' || peek(reader) == '>')) {
+        return fail(reader, reader->at, "a condition compares two values: write a < b and b < c");
+    }
+    const bool turned = (sign == '>') != equal; /* a <= b is not b < a */
+    reader->graph->place = (uint32_t)place;
+    const gm_node_id node =
+        gm_formula_apply(reader->graph, GM_OPERATION_BELOW, turned ? right : left, turned ? left : right);
+    return equal ? other_than(reader, node) : node;
+}
+
+/* Conditions with "and" between them, with "not" before each. */
+static gm_node_id read_all(struct reader *reader)
+{
+    gm_node_id all = 0;
+    bool first = true;
+    do {
+        const bool not = take_word(reader, "not");
+        if (++reader->depth > DEEPEST) {
+            return fail(reader, reader->at, "parentheses, powers or signs are nested more than %d deep",
+                        DEEPEST);
+        }
+        const gm_node_id one = read_comparison(reader), node = not ? other_than(reader, one) : one;
+        reader->depth--;
+        all = first ? node : gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY, all, node);
+        first = false;
+    } while (!reader->failed && take_word(reader, "and"));
+    return all;
+}
+
+/* A condition, as a node that is 1 or 0: a and b is a*b, a or b is not (not a and not b). */
+static gm_node_id read_condition(struct reader *reader)
+{
+    gm_node_id any = read_all(reader);
+    while (!reader->failed && take_word(reader, "or")) {
+        const gm_node_id next = read_all(reader);
+        any = other_than(reader, gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY,
+                                                  other_than(reader, any), other_than(reader, next)));
+    }
+    return any;
+}
+
+/* condition, a, b): the sum of two parts, one of which is 0 */
+static gm_node_id read_choice(struct reader *reader, size_t begin)
+{
+    gm_node_id parts[2] = {0, 0};
+    const gm_node_id condition = read_condition(reader);
+    for (int i = 0; i < 2 && !reader->failed; i++) {
+        if (!take(reader, ',')) {
+            return fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)");
+        }
+        parts[i] = read_expression(reader, 0);
+    }
+    if (!reader->failed && !take(reader, ')')) {
+        return peek(reader) == ','
+                   ? fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)")
+                   : expected(reader, ")");
+    }
+    if (reader->failed || reader->graph->failed) {
+        return 0;
+    }
+    reader->graph->place = (uint32_t)begin;
+    const gm_node_id other = other_than(reader, condition);
+    if (reader->graph->nodes[condition].operation == GM_CONSTANT) {
+        return parts[reader->graph->nodes[condition].value == 0];
+    }
+    return gm_formula_apply(reader->graph, GM_OPERATION_ADD,
+                            gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, condition, parts[0]),
+                            gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, other, parts[1]));
+}
+
 static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operation operation)
 {
+    if (operation == GM_OPERATION_CHOSEN) {
+        return read_choice(reader, begin);
+    }
+
     const struct gm_operation_row *row = &gm_operation_rows[operation];
     gm_node_id operands[2] = {0, 0};
     for (unsigned i = 0; i < row->arity && !reader->failed; i++) {
@@ -472,17 +636,145 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
 
-/* True if the next parenthesis begins with the time t and has more. */
-static bool is_at_time(const struct reader *reader)
+/* Reads all of a span, a formula or a condition. */
+static gm_node_id read_span(struct reader *reader, struct gm_span span, bool is_condition)
 {
-    size_t at = reader->at + 1;
-    while (at < reader->end && reader->text[at] == ' ') {
-        at++;
+    const size_t at = reader->at, end = reader->end;
+    reader->at = span.begin;
+    reader->end = span.end;
+    const gm_node_id node = is_condition ? read_condition(reader) : read_expression(reader, 0);
+    const char next = reader->failed || reader->graph->failed ? '\0' : peek(reader);
+    if (next == '<' || next == '>') {
+        fail(reader, reader->at, "a condition belongs in the first place of if( and in section:");
+    } else if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
+        fail(reader, reader->at, "there is no operator here; a product is written with *");
+    } else if (next == ')') {
+        fail(reader, reader->at, "this parenthesis was never opened");
+    } else if (next != '\0') {
+        expected(reader, "an operator");
     }
-    if (gm_name_length(reader->text + at, reader->end - at) != 1 || reader->text[at] != 't') {
-        return false;
+    reader->end = end;
+    reader->at = reader->failed ? end : at;
+    return node;
+}
+
+/* Reads an argument of the body's call, where the caller wrote it: once, and again in each index. */
+static gm_node_id read_argument(struct reader *reader, size_t number)
+{
+    struct call *call = reader->call;
+    struct argument *argument = &call->arguments[number];
+    if (argument->read && reader->fixed == 0) {
+        return argument->node;
     }
-    return at + 1 < reader->end && reader->text[at + 1] != ')';
+    if (argument->text.begin == argument->text.end) {
+        return reader->fixed > 0 ? fail(reader, reader->at, "%s", "")
+                                 : gm_formula_constant(reader->graph, NAN);
+    }
+    const unsigned hidden = reader->hidden;
+    reader->call = (struct call *)call->caller;
+    reader->hidden = call->hidden | (((1U << reader->scope.index_count) - 1) & ~((1U << call->first) - 1));
+    const gm_node_id node = read_span(reader, argument->text, false);
+    reader->hidden = hidden;
+    reader->call = call;
+    if (reader->fixed == 0) {
+        argument->node = node;
+        argument->read = true;
+    }
+    return node;
+}
+
+/* Reads the body of a call. */
+static gm_node_id read_body(struct reader *reader, struct call *call)
+{
+    struct gm_definition *definition = call->definition;
+    definition->called = true;
+    reader->call = call;
+    reader->hidden = (1U << call->first) - 1;
+    const gm_node_id node = read_span(reader, definition->body, false);
+    for (size_t i = 0; i < definition->count && !reader->failed; i++) {
+        read_argument(reader, i); /* an operand that the body does not use may have a fault */
+    }
+    reader->hidden = call->hidden;
+    reader->call = (struct call *)call->caller;
+    return node;
+}
+
+/* Reads the operands and ) of a call, then the body. */
+static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_definition *definition)
+{
+    struct call call = {
+        definition, reader->call, reader->scope.index_count, reader->hidden, {{{0, 0}, 0, false}}};
+    const int length = (int)(definition->name.end - definition->name.begin);
+    const char *name = reader->text + definition->name.begin;
+    size_t count = 0;
+    for (bool more = peek(reader) != ')'; more; more = take(reader, ',')) {
+        peek(reader);
+        const size_t operand = reader->at;
+        skip(reader, true);
+        if (operand == reader->at) {
+            return expected(reader, "a value");
+        }
+        if (count < GM_MOST_ARGUMENTS) {
+            call.arguments[count].text = (struct gm_span){operand, reader->at};
+        }
+        count++;
+    }
+    if (!take(reader, ')')) {
+        return expected(reader, ")");
+    }
+    if (count != definition->count) {
+        return fail(reader, begin, "%.*s takes %zu argument%s, not %zu", length, name, definition->count,
+                    definition->count == 1 ? "" : "s", count);
+    }
+    for (const struct call *caller = reader->call; caller; caller = caller->caller) {
+        if (caller->definition == definition) {
+            return fail(reader, begin, "%.*s is defined by itself", length, name);
+        }
+    }
+    return read_body(reader, &call);
+}
+
+/* Takes (0). */
+static bool take_zero(struct reader *reader)
+{
+    const size_t begin = reader->at;
+    if (take(reader, '(') && take(reader, '0') && take(reader, ')')) {
+        return true;
+    }
+    reader->at = begin;
+    return false;
+}
+
+/* Refuses the parenthesis behind a name that is not a function. */
+static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
+{
+    const size_t begin = reader->at++;
+    const int brief = (int)(name->length < 60 ? name->length : 60);
+    struct gm_name start = *name;
+    gm_node_id node;
+    char sentence[GM_FAULT_SENTENCE], *end;
+    start.initial = true;
+    if (!reader->scope.initial ||
+        reader->scope.find(reader->scope.data, &start, &node, sentence) != GM_KNOWN) {
+        return fail(reader, begin, "%.*s is not a function; a product is written with *: %.*s*(", brief,
+                    name->text, brief, name->text);
+    }
+    peek(reader);
+    const char *inside = reader->text + reader->at;
+    skip(reader, false);
+    size_t length = (size_t)(reader->text + reader->at - inside);
+    while (length > 0 && inside[length - 1] == ' ') {
+        length--;
+    }
+    const bool brief_too = length < 40 && !memchr(inside, '\n', length);
+    const char *shown = brief_too ? inside : "...";
+    strtod(inside, &end);
+    return fail(
+        reader, begin,
+        length > 0 && end == inside + length
+            ? "%.*s(%.*s): only %.*s(0), the start, is known"
+            : "%.*s(%.*s) is a delay; delay equations are not solved; a product is written with *: %.*s*(",
+        brief, name->text, brief_too ? (int)length : 3, shown, brief, name->text);
 }
 
 static gm_node_id read_name(struct reader *reader, bool exact);
@@ -522,9 +814,18 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         }
         return sum || product ? read_sum(reader, begin, sum) : read_call(reader, begin, function);
     }
+    struct gm_definition *definition =
+        called && scope->definition ? scope->definition(scope->data, name.text, length) : NULL;
+    if (definition && !exact && !index_of(reader, name.text, length)) {
+        take(reader, '(');
+        return read_defined(reader, begin, definition);
+    }
     gm_node_id node = 0;
     const struct gm_index *index = index_of(reader, name.text, length);
-    if (index || is_word("pi", name.text, length)) {
+    const size_t argument = index ? GM_MOST_ARGUMENTS : argument_of(reader, name.text, length);
+    if (argument < GM_MOST_ARGUMENTS) {
+        node = read_argument(reader, argument);
+    } else if (index || is_word("pi", name.text, length)) {
         node = gm_formula_constant(reader->graph, index ? (double)index->value : M_PI);
         reader->varying |= index && reader->bounds > 0 ? 1U << (index - scope->indices) : 0;
     } else {
@@ -535,11 +836,8 @@ static gm_node_id read_name(struct reader *reader, bool exact)
             if (!reader->failed && !take(reader, ']')) {
                 return expected(reader, "]");
             }
-        } else if (called && scope->initial && !exact && reader->at + 2 < reader->end &&
-                   memcmp(reader->text + reader->at, "(0)", 3) == 0) {
-            name.initial = true;
-            reader->at += 3;
         }
+        name.initial = scope->initial && !exact && take_zero(reader);
         char sentence[GM_FAULT_SENTENCE] = "";
         reader->graph->place = (uint32_t)begin;
         const enum gm_meaning meaning = reader->failed ? GM_KNOWN
@@ -553,16 +851,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
             return fail(reader, begin, "%s", sentence);
         }
     }
-    if (!reader->failed && peek(reader) == '(' && is_at_time(reader)) {
-        return fail(reader, reader->at,
-                    "%.*s(t...) is %.*s at another time: delays are not known; a product is written with *",
-                    brief, name.text, brief, name.text);
-    }
-    if (!reader->failed && peek(reader) == '(') {
-        return fail(reader, reader->at, "%.*s is not a function; a product is written with *: %.*s*(", brief,
-                    name.text, brief, name.text);
-    }
-    return node;
+    return !reader->failed && peek(reader) == '(' ? refuse_call(reader, &name) : node;
 }
 
 static gm_node_id read_operand(struct reader *reader)
@@ -633,17 +922,18 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
     struct reader reader = {
         .graph = graph, .scope = *scope, .text = text, .at = begin, .end = end, .fault = fault};
     *fault = (struct gm_fault){.offset = begin};
-    *node = read_expression(&reader, 0);
-    if (!reader.failed && !graph->failed && peek(&reader) != '\0') {
-        const char next = peek(&reader);
-        if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
-            fail(&reader, reader.at, "there is no operator here; a product is written with *");
-        } else if (next == ')') {
-            fail(&reader, reader.at, "this parenthesis was never opened");
-        } else {
-            expected(&reader, "an operator");
-        }
-    }
+    *node = read_span(&reader, (struct gm_span){begin, end}, scope->is_condition);
+    graph->place = GM_NO_PLACE;
+    return !reader.failed && !graph->failed;
+}
+
+bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_definition *definition,
+                      const struct gm_scope *scope, struct gm_fault *fault)
+{
+    struct reader reader = {.graph = graph, .scope = *scope, .text = text, .fault = fault};
+    struct call call = {.definition = definition};
+    *fault = (struct gm_fault){.offset = definition->body.begin};
+    read_body(&reader, &call);
     graph->place = GM_NO_PLACE;
     return !reader.failed && !graph->failed;
 }

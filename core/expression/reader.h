@@ -11,7 +11,7 @@
    index is computed while reading: it may hold whole numbers, indices of the loops around it, and names with
    a value in the scope. */
 
-enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 1000000000 };
+enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_MOST_ARGUMENTS = 8, GM_LARGEST_INDEX = 1000000000 };
 
 /* A fault, with places in bytes from the start of the text. */
 struct gm_fault {
@@ -58,6 +58,19 @@ struct gm_index {
     long value;
 };
 
+/* Bytes of a text. */
+struct gm_span {
+    size_t begin, end;
+};
+
+/* A function of the text, NAME(arguments) = body. A call reads the body, and in it an argument reads the
+   operand, so that a call makes the nodes of the body written out, in the same order. */
+struct gm_definition {
+    struct gm_span name, arguments[GM_MOST_ARGUMENTS], body;
+    size_t count;
+    bool called;
+};
+
 /* The names that a formula may hold. */
 struct gm_scope {
     enum gm_meaning (*find)(void *data, const struct gm_name *name, gm_node_id *node, char *sentence);
@@ -65,10 +78,13 @@ struct gm_scope {
     const char *(*known)(size_t i, const void *data);
     /* node for the decimal text[0 .. length) with its value; NULL: a constant */
     gm_node_id (*decimal)(void *data, const char *text, size_t length, double value);
+    /* the function of that name, or NULL; the hook may be NULL */
+    struct gm_definition *(*definition)(void *data, const char *name, size_t length);
     void *data;
     bool lines;                               /* newlines and comments, # to the end of a line, are blanks */
     bool initial;                             /* NAME(0) has a meaning */
     bool exact;                               /* exact(NAME) has a meaning */
+    bool is_condition;                        /* the whole text is a condition: its node is 1 or 0 */
     bool derives;                             /* `below` is a function: for partial derivatives */
     struct gm_index indices[GM_MOST_INDICES]; /* indices that the caller has bound */
     size_t index_count;
@@ -79,8 +95,16 @@ struct gm_scope {
 bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, size_t end,
                      const struct gm_scope *scope, gm_node_id *node, struct gm_fault *fault);
 
+/* Reads the body of a function that no formula calls, for its faults: its arguments are unknown numbers. An index
+   that holds one ends the reading, without a fault. */
+bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_definition *definition,
+                      const struct gm_scope *scope, struct gm_fault *fault);
+
 /* True if a name is a function, sum, prod or pi. */
 bool gm_formula_reserves(const char *text, size_t length);
+/* True for a name that other programs give to random numbers. */
+#define GM_NO_NOISE "the equations are deterministic; noise is not known"
+bool gm_is_random(const char *word);
 bool gm_is_letter(char character); /* a letter or _ begins a name */
 /* The length in bytes of the name at text[0 .. length); 0: none begins there. */
 size_t gm_name_length(const char *text, size_t length);

@@ -48,16 +48,37 @@ static size_t written_size(const struct gm_formula *graph, gm_node_id node, cons
     return size;
 }
 
+/* True if a sum is a choice between two values; finds its part where the condition holds, and the other one. */
+static bool is_choice(const struct writer *writer, const struct gm_node *here, const struct gm_node **chosen,
+                      const struct gm_node **other)
+{
+    const struct gm_node *nodes = writer->graph->nodes;
+    *chosen = &nodes[here->a];
+    *other = &nodes[here->b];
+    if ((*chosen)->operation != GM_OPERATION_CHOSEN || (*other)->operation != GM_OPERATION_CHOSEN) {
+        return false;
+    }
+    const struct gm_node *first = &nodes[(*chosen)->a], *second = &nodes[(*other)->a];
+    if (first->operation == GM_OPERATION_SUBTRACT && first->b == (*other)->a) {
+        *chosen = &nodes[here->b];
+        *other = &nodes[here->a];
+        return true;
+    }
+    return second->operation == GM_OPERATION_SUBTRACT && second->b == (*chosen)->a;
+}
+
 static int priority_of(const struct writer *writer, gm_node_id node)
 {
     const struct gm_node *here = &writer->graph->nodes[node];
     if (name_of(writer->naming, node, writer->root)) {
         return WHOLE;
     }
+    const struct gm_node *chosen, *other;
     switch (here->operation) {
     case GM_CONSTANT:
         return signbit(here->value) ? SIGN : WHOLE;
     case GM_OPERATION_ADD:
+        return is_choice(writer, here, &chosen, &other) ? WHOLE : SUM;
     case GM_OPERATION_SUBTRACT:
         return SUM;
     case GM_OPERATION_MULTIPLY:
@@ -126,6 +147,46 @@ static void write_power(const struct writer *writer, const struct gm_node *here)
     fputs(writer->latex ? "}" : "", writer->out);
 }
 
+static void write_condition(const struct writer *writer, gm_node_id node)
+{
+    const struct gm_node *here = &writer->graph->nodes[node];
+    if (here->operation == GM_OPERATION_BELOW) {
+        write_node(writer, here->a);
+        fputs(" < ", writer->out);
+        write_node(writer, here->b);
+    } else if (here->operation == GM_OPERATION_SUBTRACT) { /* from 1 */
+        fputs(writer->latex ? "\\neg\\left(" : "not (", writer->out);
+        write_condition(writer, here->b);
+        fputs(writer->latex ? "\\right)" : ")", writer->out);
+    } else if (here->operation != GM_OPERATION_MULTIPLY) {
+        write_node(writer, node);
+        fputs(" > 0", writer->out);
+    } else {
+        fputs(writer->latex ? "\\left(" : "(", writer->out);
+        write_condition(writer, here->a);
+        fputs(writer->latex ? "\\right) \\wedge \\left(" : ") and (", writer->out);
+        write_condition(writer, here->b);
+        fputs(writer->latex ? "\\right)" : ")", writer->out);
+    }
+}
+
+/* if(condition, a, b) */
+static void write_choice(const struct writer *writer, const struct gm_node *chosen,
+                         const struct gm_node *other)
+{
+    fputs(writer->latex ? "\\operatorname{if}(" : "if(", writer->out);
+    write_condition(writer, chosen->a);
+    fputs(", ", writer->out);
+    write_node(writer, chosen->b);
+    fputs(", ", writer->out);
+    if (other) {
+        write_node(writer, other->b);
+    } else {
+        fputs("0", writer->out);
+    }
+    fputs(")", writer->out);
+}
+
 /* Iverson's bracket, in the derivative of |x|: 1 if true, else 0. */
 static void write_bracket(const struct writer *writer, const struct gm_node *here)
 {
@@ -139,6 +200,10 @@ static void write_bracket(const struct writer *writer, const struct gm_node *her
 static void write_call(const struct writer *writer, const struct gm_node *here)
 {
     const struct gm_operation_row *row = &gm_operation_rows[here->operation];
+    if (!writer->latex && here->operation == GM_OPERATION_BELOW) {
+        write_condition(writer, (gm_node_id)(here - writer->graph->nodes));
+        return;
+    }
     if (writer->latex && here->operation == GM_OPERATION_BELOW) {
         write_bracket(writer, here);
         return;
@@ -196,12 +261,20 @@ static void write_node(const struct writer *writer, gm_node_id node)
         fputs(name, writer->out);
         return;
     }
+    const struct gm_node *chosen, *other;
     switch (here->operation) {
     case GM_CONSTANT:
         write_constant(writer, here->value);
         break;
     case GM_OPERATION_ADD:
-        write_binary(writer, here, " + ", SUM);
+        if (is_choice(writer, here, &chosen, &other)) {
+            write_choice(writer, chosen, other);
+        } else {
+            write_binary(writer, here, " + ", SUM);
+        }
+        break;
+    case GM_OPERATION_CHOSEN:
+        write_choice(writer, here, NULL);
         break;
     case GM_OPERATION_SUBTRACT:
         write_binary(writer, here, " - ", SUM);

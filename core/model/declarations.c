@@ -618,14 +618,108 @@ bool gm_declared_relations(struct gm_reading *reading)
     return !reading->fault.failed;
 }
 
+/* True if a line defines a function. */
+static bool is_function(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const size_t name = line->value.begin + gm_name_length(reading->text + line->value.begin,
+                                                           line->value.end - line->value.begin);
+    return line->word == GM_WORD_LET && name > line->value.begin &&
+           reading->text[gm_span_trimmed(reading->text, (struct gm_span){name, line->value.end}).begin] ==
+               '(';
+}
+
+/* NAME(argument, ...) = body */
+static bool add_function(struct gm_reading *reading, struct gm_span rest)
+{
+    struct gm_target target;
+    struct gm_span left, argument;
+    if (!gm_reading_reserve(reading, (void **)&reading->definitions, reading->definition_count,
+                            sizeof *reading->definitions) ||
+        !gm_reading_target(reading, &rest, &target) || !gm_span_take(reading->text, &rest, "=", &left)) {
+        return false;
+    }
+    struct gm_definition *definition = &reading->definitions[reading->definition_count];
+    *definition = (struct gm_definition){.name = target.name, .body = gm_span_trimmed(reading->text, rest)};
+    const size_t close = gm_span_until(reading->text, (struct gm_span){left.begin + 1, left.end}, ")");
+    if (close + 1 != left.end || definition->body.begin == definition->body.end) {
+        return gm_fail_first(&reading->fault, close, "%s was expected",
+                             close >= left.end      ? ")"
+                             : close + 1 < left.end ? "="
+                                                    : "a formula");
+    }
+    left = gm_span_trimmed(reading->text, (struct gm_span){left.begin + 1, close});
+    while (gm_span_take(reading->text, &left, ",", &argument)) {
+        const char *name = reading->text + argument.begin;
+        const size_t length = gm_name_length(name, argument.end - argument.begin);
+        const int brief = (int)(length < 60 ? length : 60);
+        bool twice = false;
+        for (size_t i = 0; i < definition->count; i++) {
+            const struct gm_span other = definition->arguments[i];
+            twice |=
+                other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0;
+        }
+        if (length == 0 || argument.begin + length < argument.end || gm_formula_reserves(name, length)) {
+            return gm_fail_first(&reading->fault, argument.begin, "the name of an argument was expected");
+        }
+        if (twice) {
+            return gm_fail_first(&reading->fault, argument.begin, "%.*s is an argument twice", brief, name);
+        }
+        if (definition->count == GM_MOST_ARGUMENTS) {
+            return gm_fail_first(&reading->fault, argument.begin, "a function has at most %d arguments",
+                                 GM_MOST_ARGUMENTS);
+        }
+        definition->arguments[definition->count++] = argument;
+    }
+    if (definition->count == 0) {
+        return gm_fail_first(&reading->fault, close, "the name of an argument was expected");
+    }
+    reading->definition_count++;
+    return true;
+}
+
+bool gm_declared_functions(struct gm_reading *reading)
+{
+    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+        if (is_function(reading, &reading->lines[i])) {
+            add_function(reading, reading->lines[i].value);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* Adds the names of functions. */
+static bool add_functions(struct gm_reading *reading)
+{
+    for (size_t i = 0; i < reading->definition_count && !reading->fault.failed; i++) {
+        const struct gm_target target = {.name = reading->definitions[i].name};
+        const struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_FUNCTION),
+                              *other = gm_reading_entry(reading, entry.name, entry.length, false, 0);
+        const int brief = (int)(entry.length < 60 ? entry.length : 60);
+        if (gm_formula_reserves(entry.name, entry.length)) {
+            gm_fail_first(&reading->fault, entry.place, "%.*s is a function of the program", brief,
+                          entry.name);
+        } else if (other && other->role == GM_ENTRY_COMPONENT) {
+            gm_fail_first(&reading->fault, entry.place, "%.*s is a component (%.*s(0) is its start)", brief,
+                          entry.name, brief, entry.name);
+        } else {
+            gm_reading_add(reading, entry);
+        }
+    }
+    return !reading->fault.failed;
+}
+
 bool gm_declared_lets(struct gm_reading *reading)
 {
+    if (!add_functions(reading)) {
+        return false;
+    }
     for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
         const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
         struct gm_target target;
         struct gm_span value = reading->lines[i].value;
         value.end = observed ? gm_span_until(reading->text, value, ";") : value.end;
         if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
+            is_function(reading, &reading->lines[i]) ||
             (observed && gm_span_until(reading->text, value, "..") < value.end) || /* a line with a counter */
             !gm_reading_assignment(reading, value, &target) ||
             (observed && target.index.begin < target.index.end)) {

@@ -8,6 +8,8 @@
 
 /* Finds the kind of the system, and checks that every line belongs to it. */
 bool gm_declared_kind(struct gm_reading *reading);
+/* Finds the lets with arguments, which every formula may call. */
+bool gm_declared_functions(struct gm_reading *reading);
 bool gm_declared_parameters(struct gm_reading *reading);
 /* Declares components, velocities and the time; the variables then have the order of struct
    gm_system_variable. */

@@ -28,7 +28,7 @@ static const struct {
     [GM_FACT_VOLUME] = {"volume", "no rate contains its own variable",
                         "contains the variable whose rate it is"},
     [GM_FACT_DIVERGENCE_FREE] = {"divergence-free", "the divergence is 0", "is the divergence"},
-    [GM_FACT_SMOOTH] = {"smooth", "no min, max, abs or mod", "is not smooth"},
+    [GM_FACT_SMOOTH] = {"smooth", "no corner and no jump", "is not smooth"},
     [GM_FACT_AUTONOMOUS] = {"autonomous", "the time does not occur", "contains the time"},
     [GM_FACT_FAST_LINEAR] = {"fast-linear", "H = |p|^2/2 + omega^2 q^2/2 + U(q)",
                              "gives no coordinate a frequency of its own"},
@@ -695,12 +695,11 @@ static void deny_by(struct gm_user_system *system, struct gm_finding *finding, g
     }
 }
 
-/* Finds the first operation of all equations that is not smooth, and the time; written nodes precede derived
-   ones. */
-static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
+/* All that the equations depend on, ascending; freed by the caller. */
+static gm_node_id *parts_of_equations(const struct gm_user_system *system, size_t *part_count)
 {
-    size_t count = 0, part_count = 0;
-    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, *roots = malloc((system->n + 1) * sizeof *roots);
+    size_t count = 0;
+    gm_node_id *roots = malloc((system->n + 1) * sizeof *roots), *parts = NULL;
     for (size_t i = 0; roots && i < system->n; i++) {
         roots[count] = system->rates[i];
         count += roots[count] != GM_NO_NODE;
@@ -708,18 +707,47 @@ static void find_of_parts(struct gm_user_system *system, struct gm_finding *find
     if (roots && system->kind != GM_RATES) {
         roots[count++] = system->energy;
     }
-    gm_node_id *parts = roots ? gm_formula_parts_of(&system->graph, roots, count, &part_count) : NULL;
-    for (size_t k = part_count; parts && k-- > 0;) {
+    *part_count = 0;
+    if (roots) {
+        parts = gm_formula_parts_of(&system->graph, roots, count, part_count);
+    }
+    free(roots);
+    return parts;
+}
+
+/* A flag for each node that is not smooth in the state or the time; freed by the caller. */
+static bool *find_switches(const struct gm_user_system *system)
+{
+    const struct gm_formula *graph = &system->graph;
+    bool *varying = calloc(system->variable_count + 1, sizeof *varying);
+    for (size_t i = 0; varying && i < system->initial; i++) {
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    bool *found = varying ? gm_formula_dependent(graph, varying, system->variable_count) : NULL;
+    for (gm_node_id i = 0; found && i < graph->count; i++) {
+        const enum gm_operation operation = graph->nodes[i].operation;
+        found[i] = found[i] && operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
+    }
+    free(varying);
+    return found;
+}
+
+/* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
+static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
+{
+    size_t count = 0;
+    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, *parts = parts_of_equations(system, &count);
+    bool *switches = find_switches(system);
+    for (size_t k = count; parts && switches && k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
-        const bool operates = node->operation > GM_VARIABLE;
-        rough = operates && !gm_operation_rows[node->operation].smooth ? parts[k] : rough;
+        rough = switches[parts[k]] ? parts[k] : rough;
         time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
     deny_by(system, &findings[GM_FACT_SMOOTH], rough, system->rates);
     deny_by(system, &findings[GM_FACT_AUTONOMOUS], time, system->rates);
-    system->graph.failed |= !parts;
-    free(roots);
+    system->graph.failed |= !parts || !switches;
     free(parts);
+    free(switches);
 }
 
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])
@@ -788,6 +816,40 @@ static void write_place(const struct gm_user_system *system, gm_node_id term, bo
     }
 }
 
+/* True if the value of a switch jumps, not only a derivative. */
+static bool jumps(enum gm_operation operation)
+{
+    return operation != GM_OPERATION_ABS && operation != GM_OPERATION_MIN && operation != GM_OPERATION_MAX;
+}
+
+/* Adds the other switches that the text has, with their places. Returns false when out of memory. */
+static bool add_switches(const struct gm_user_system *system, gm_node_id first, char **reason)
+{
+    enum { MOST = 16 }; /* switches that are named */
+    const struct gm_naming naming = gm_system_naming(system);
+    size_t count = 0, named = 0;
+    gm_node_id *parts = parts_of_equations(system, &count);
+    bool *switches = find_switches(system), good = parts && switches;
+    for (size_t k = 0; good && k < count; k++) {
+        const gm_node_id node = parts[k];
+        if (!switches[node] || system->graph.places[node] == GM_NO_PLACE || node == first ||
+            named++ >= MOST) {
+            continue;
+        }
+        char place[80], *text = gm_formula_text(&system->graph, node, &naming), *before = *reason;
+        write_place(system, node, false, place, sizeof place);
+        good =
+            asprintf(reason, "%s; %s%s: %s", before, text ? text : "a long term", place,
+                     jumps(system->graph.nodes[node].operation) ? "it jumps" : "its derivative jumps") >= 0;
+        *reason = good ? *reason : NULL;
+        free(before);
+        free(text);
+    }
+    free(parts);
+    free(switches);
+    return good;
+}
+
 char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, const struct gm_finding *finding)
 {
     char *reason = NULL, *text = NULL;
@@ -809,8 +871,16 @@ char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, con
         text = gm_formula_text(&system->graph, finding->term, &naming);
         char place[80];
         write_place(system, finding->term, in_rate && system->kind != GM_RATES, place, sizeof place);
-        made = asprintf(&reason, "%s%s %s%s%s", text ? text : "a long term", place, why, where, component);
+        const bool value = jumps(system->graph.nodes[finding->term].operation);
+        made = asprintf(&reason, "%s%s %s%s%s%s", text ? text : "a long term", place, why, where, component,
+                        fact != GM_FACT_SMOOTH ? ""
+                        : value                ? ": it jumps"
+                                               : ": its derivative jumps");
     }
     free(text);
+    if (made >= 0 && fact == GM_FACT_SMOOTH && !add_switches(system, finding->term, &reason)) {
+        free(reason);
+        return NULL;
+    }
     return made < 0 ? NULL : reason;
 }

@@ -15,7 +15,7 @@ enum gm_fact {
     GM_FACT_QUADRATIC,       /* the rates are polynomials of degree 2 */
     GM_FACT_VOLUME,          /* no rate contains its own variable: exact flows without divergence */
     GM_FACT_DIVERGENCE_FREE, /* the sum of d rate / d component is 0 */
-    GM_FACT_SMOOTH,          /* no min, max, abs, mod */
+    GM_FACT_SMOOTH,          /* no corner and no jump */
     GM_FACT_AUTONOMOUS,      /* t does not occur */
     /* H = |p|^2/2 + sum of omega_i^2 q_i^2 / 2 + U(q); nodes: all omega_i, all -dU/dq_i */
     GM_FACT_FAST_LINEAR,

@@ -214,9 +214,9 @@ static bool read_braces(struct gm_reading *reading, struct gm_system_item *item,
     const bool alone = is_key && formula.begin == formula.end;
     formula.begin += is_key && !alone && reading->text[formula.begin] == '*';
     gm_node_id node = GM_NO_NODE;
-    reading->initial = reading->exact = true;
+    reading->exact = true;
     const bool good = alone || gm_reading_formula(reading, formula, &node);
-    reading->initial = reading->exact = false;
+    reading->exact = false;
     if (!good) {
         return false;
     }

@@ -126,12 +126,11 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
-        reading->initial = word == GM_WORD_EXACT || word == GM_WORD_START;
         reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system);
         if (gm_reading_assignment(reading, piece, &target)) {
             gm_reading_elements(reading, &target, assign, &assignment);
         }
-        reading->initial = reading->exact = false;
+        reading->exact = false;
     }
     return !reading->fault.failed;
 }
@@ -276,9 +275,9 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     if (named && named->place != target.name.begin) {
         return gm_reading_fail_twice(reading, target.name.begin, named);
     }
-    reading->initial = reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
+    reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
     const bool good = named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value);
-    reading->initial = reading->exact = false;
+    reading->exact = false;
     if (!good) {
         return false;
     }
@@ -322,9 +321,9 @@ static bool read_level(struct gm_reading *reading, const struct gm_system_line *
     if (item->in_section && !section) {
         return gm_fail_first(&reading->fault, line->value.begin, "there is no line \"section\"");
     }
-    reading->initial = reading->exact = true;
+    reading->exact = true;
     const bool good = add_formula(reading, item, piece);
-    reading->initial = reading->exact = false;
+    reading->exact = false;
     if (good && !gm_span_take(reading->text, &rest, ";", &piece)) {
         return gm_fail_first(&reading->fault, piece.end, "a text was expected: level: F; the exact orbit");
     }
@@ -415,17 +414,9 @@ static bool read_section(struct gm_reading *reading, const struct gm_system_line
                              "\"alone\" was expected: the section is the usual picture");
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &where, ",", &piece)) {
-        const size_t more = gm_span_until(reading->text, piece, ">"),
-                     less = gm_span_until(reading->text, piece, "<"), sign = more < less ? more : less;
-        if (sign == piece.end) {
-            return gm_fail_first(&reading->fault, piece.begin, "a condition was expected, p_x > 0");
-        }
-        gm_node_id left, right;
-        if (gm_reading_formula(reading, (struct gm_span){piece.begin, sign}, &left) &&
-            gm_reading_formula(reading, (struct gm_span){sign + 1, piece.end}, &right)) {
-            add_node(reading, item,
-                     gm_formula_apply(&reading->system->graph, GM_OPERATION_SUBTRACT,
-                                      sign == more ? left : right, sign == more ? right : left));
+        gm_node_id holds;
+        if (gm_reading_condition(reading, piece, &holds)) {
+            add_node(reading, item, holds);
         }
     }
     return !reading->fault.failed;
@@ -995,8 +986,8 @@ static bool read_system(struct gm_reading *reading)
     if (!gm_lines_are_text(reading->text, reading->length, &fault)) {
         return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
     }
-    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_parameters(reading) ||
-        !gm_declared_state(reading) || !gm_declared_relations(reading) ||
+    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_functions(reading) ||
+        !gm_declared_parameters(reading) || !gm_declared_state(reading) || !gm_declared_relations(reading) ||
         !all_nodes(reading, &system->rates, system->n)) {
         return false;
     }
@@ -1023,6 +1014,11 @@ static bool read_system(struct gm_reading *reading)
     for (size_t i = 0; i < reading->line_count; i++) {
         if (!read_counted(reading, &reading->lines[i])) {
             return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
+        }
+    }
+    for (size_t i = 0; i < reading->definition_count; i++) {
+        if (!reading->definitions[i].called && !gm_reading_check(reading, &reading->definitions[i])) {
+            return false;
         }
     }
     return check_space(reading) && is_complete(reading) && name_parts(reading);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/expression/nearest.h"
+#include "core/expression/number.h"
 
 enum {
     ONCE = GM_LINE_ONCE,
@@ -265,6 +266,17 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                  entry->name, entry->name);
         return GM_REFUSED;
     }
+    if (entry->role == GM_ENTRY_FUNCTION) {
+        const size_t count = gm_reading_definition(reading, name->text, name->length)->count;
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a function of %zu argument%s", brief, name->text,
+                 count, gm_plural((double)count));
+        return GM_REFUSED;
+    }
+    if (name->initial && entry->role == GM_ENTRY_COMPONENT && gm_system_is_field(system)) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a field: its start is not a number", brief,
+                 name->text);
+        return GM_REFUSED;
+    }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
@@ -304,16 +316,48 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
+struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name, size_t length)
+{
+    for (size_t i = 0; i < reading->definition_count; i++) {
+        const struct gm_span other = reading->definitions[i].name;
+        if (other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0) {
+            return &reading->definitions[i];
+        }
+    }
+    return NULL;
+}
+
+static struct gm_definition *definition_of(void *data, const char *name, size_t length)
+{
+    return gm_reading_definition(data, name, length);
+}
+
+static struct gm_scope scope_of(struct gm_reading *reading)
+{
+    return (struct gm_scope){.find = find,
+                             .known = known,
+                             .definition = definition_of,
+                             .data = reading,
+                             .lines = true,
+                             .initial = true,
+                             .exact = reading->exact,
+                             .is_condition = reading->is_condition};
+}
+
+/* Ends an attempt that failed; true if another name must be read first. */
+static bool is_postponed(struct gm_reading *reading, const struct gm_fault *fault)
+{
+    if (reading->system->graph.failed) {
+        return gm_fail_memory(&reading->fault);
+    }
+    return fault->sentence[0] == '\0' || gm_fail_first(&reading->fault, fault->offset, "%s", fault->sentence);
+}
+
 /* Makes one attempt; false without a fault if another name must be read first. */
 static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
                     long element, gm_node_id *node, bool *postponed)
 {
-    struct gm_scope scope = {.find = find,
-                             .known = known,
-                             .data = reading,
-                             .lines = true,
-                             .initial = reading->initial,
-                             .exact = reading->exact};
+    struct gm_scope scope = scope_of(reading);
     if (bound && bound->begin < bound->end) {
         scope.indices[scope.index_count++] =
             (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
@@ -324,15 +368,18 @@ static bool attempt(struct gm_reading *reading, struct gm_span span, const struc
                               reading->counter.end - reading->counter.begin, reading->counted};
     }
     struct gm_fault fault;
-    *postponed = false;
-    if (gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
-        return true;
-    }
-    if (reading->system->graph.failed) {
-        return gm_fail_memory(&reading->fault);
-    }
-    *postponed = fault.sentence[0] == '\0';
-    return *postponed ? false : gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    const bool good =
+        gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault);
+    *postponed = !good && is_postponed(reading, &fault);
+    return good;
+}
+
+bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definition)
+{
+    const struct gm_scope scope = scope_of(reading);
+    struct gm_fault fault;
+    return gm_formula_check(&reading->system->graph, reading->text, definition, &scope, &fault) ||
+           is_postponed(reading, &fault);
 }
 
 static bool is_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
@@ -368,17 +415,15 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
     stack[depth++] = number;
     while (depth > 0 && !reading->fault.failed) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
-        const bool was_fixed = reading->fixed, was_initial = reading->initial, was_exact = reading->exact;
+        const bool was_fixed = reading->fixed, was_exact = reading->exact;
         const struct gm_span counter = reading->counter;
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->initial = reading->exact =
-            entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
+        reading->exact = entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
         reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;
-        reading->initial = was_initial;
         reading->exact = was_exact;
         reading->counter = counter;
         if (good) {
@@ -411,6 +456,20 @@ bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const str
 bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
 {
     return gm_reading_bound(reading, span, NULL, 0, node);
+}
+
+bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
+{
+    bool postponed = true, good = false;
+    while (!reading->fault.failed && !good && postponed) {
+        reading->is_condition = true;
+        good = attempt(reading, span, NULL, 0, node, &postponed);
+        reading->is_condition = false;
+        if (postponed) {
+            gm_reading_define(reading, reading->wanted);
+        }
+    }
+    return good;
 }
 
 bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value)

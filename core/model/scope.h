@@ -21,7 +21,8 @@ enum gm_entry_role {
     GM_ENTRY_VELOCITY,
     GM_ENTRY_PARAMETER,
     GM_ENTRY_TIME,
-    GM_ENTRY_CHOICE, /* choice of words */
+    GM_ENTRY_CHOICE,   /* choice of words */
+    GM_ENTRY_FUNCTION, /* with arguments */
     GM_ENTRY_NAMED,
     GM_ENTRY_OBSERVED /* named by its own line, which is read later */
 };
@@ -54,11 +55,13 @@ struct gm_reading {
     bool fixed;             /* parameters are constants in formulas */
     bool structural;        /* the graph depends on values of parameters */
     bool without_tangents;  /* the motion alone is read */
-    bool initial;           /* NAME(0) has a meaning */
     bool exact;             /* exact(NAME) has a meaning */
+    bool is_condition;      /* the text is a condition */
     struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
     long counted;
     size_t component_count, velocity_count, parameter_count;
+    struct gm_definition *definitions; /* the functions of the text */
+    size_t definition_count;
     const struct gm_system_value *values; /* given by the caller */
     size_t value_count;
     struct gm_first_fault fault;
@@ -88,10 +91,17 @@ struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *
                                   bool indexed, long index);
 /* Adds a copy of the entry; its name may be a part of the text. */
 bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry);
+/* The function of that name, or NULL. */
+struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name,
+                                            size_t length);
+/* Reads the body of a function that no formula has called, for its faults. */
+bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definition);
 /* Reads a parameter or a let, after all names that it needs. */
 bool gm_reading_define(struct gm_reading *reading, uint32_t number);
 
 bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
+/* Reads a condition, as a node that is 1 or 0. */
+bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
 /* Reads a formula with an index of the name `bound` and the value `element`; NULL: no index. */
 bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
                       long element, gm_node_id *node);

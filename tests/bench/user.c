@@ -289,6 +289,56 @@ static void against_pendulum_by_hand(void)
     gm_lane_close(lane);
 }
 
+/* ---- two springs, one on either side ---- */
+
+static void springs_force(const double y[2], double f[2])
+{
+    f[0] = y[1];
+    f[1] = -(y[0] > 0 ? 4 : 1) * y[0];
+}
+
+static void springs_rk4(double y[2], double h, long steps)
+{
+    for (long step = 0; step < steps; step++) {
+        double k[4][2], at[2];
+        springs_force(y, k[0]);
+        for (int s = 1; s < 4; s++) {
+            for (int c = 0; c < 2; c++) {
+                at[c] = y[c] + (s < 3 ? h / 2 : h) * k[s - 1][c];
+            }
+            springs_force(at, k[s]);
+        }
+        for (int c = 0; c < 2; c++) {
+            y[c] += h / 6 * (k[0][c] + 2 * k[1][c] + 2 * k[2][c] + k[3][c]);
+        }
+    }
+}
+
+/* if() compiled, beside C for it: the ratio is to be 1.1 at most. */
+static void against_springs_by_hand(void)
+{
+    enum { STEPS = 400000 };
+    static const double start[] = {0.3, 1};
+    char *words[] = {"system", "H=p^2/2 + if(q > 0, 4, 1)*q^2/2", "q=0.3", "p=1", "scheme=rk4", "dt=0.01"};
+    struct gm_lane *lane = open_lane(GM_COUNT(words), words);
+    double native[ROUNDS], hand[ROUNDS], ratio[ROUNDS];
+    for (int round = 0; lane && round < ROUNDS; round++) {
+        double y[2];
+        native[round] = step_of(&lane->problem, lane->scheme, start, STEPS);
+        memcpy(y, start, sizeof y);
+        const double before = seconds();
+        springs_rk4(y, 0.01, STEPS);
+        const double took = 1e9 * (seconds() - before) / STEPS;
+        hand[round] = isfinite(y[0]) ? took : NAN; /* y is needed */
+        ratio[round] = native[round] / hand[round];
+    }
+    if (lane) {
+        printf("two springs, rk4: %s %.1f ns, by hand %.1f, ratio %.2f\n", gm_engine_of(lane),
+               median(native, ROUNDS), median(hand, ROUNDS), median(ratio, ROUNDS));
+    }
+    gm_lane_close(lane);
+}
+
 /* A sum of so many terms, each of which has an angle of its own. */
 static void read_large(size_t terms)
 {
@@ -347,6 +397,7 @@ int main(int argc, char *argv[])
     gm_system_close(&system);
     free(start);
     against_pendulum_by_hand();
+    against_springs_by_hand();
     against_bodies_by_hand();
     read_large(10000);
     return EXIT_SUCCESS;

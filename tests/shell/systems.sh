@@ -197,7 +197,7 @@ misplaced '4:8: level: t is not shown' 'level: t; grey'
 misplaced '3:8: p_x has no value at the start' '' 'x = 1'
 misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
 misplaced '4:14: there is no function log10; did you mean log(x)/log(10)' 'observe: r = log10(x)'
-misplaced '4:15: x(t...) is x at another time: delays are not known' 'observe: r = x(t - 17)/2'
+misplaced '4:15: x(t - 17) is a delay; delay equations are not solved' 'observe: r = x(t - 17)/2'
 # a start that is not admitted is refused with the file's own sentence, and one that is admitted runs
 printf 'name: A pit\ntitle: A pit of {k}\ncoordinates: x\nparameter: k = 2\nH: p_x^2/2 + k*x^2/2\nstart: x = 1, p_x = 0\n' >pit.system
 printf 'require: k - x^2; x=%s is outside of a pit of {k:/}\nobserve: r = x; while x; missing x is below 0\n' '{x}' >>pit.system

@@ -568,7 +568,19 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nobserve: r = exact()\n", 4, 20, "a component, as in exact(x), was expected"},
     {CANONICAL "H: p_q^2/2\nobserve: r = exact(q\n", 4, 21, "ends where ) was expected"},
     {CANONICAL "H: p_q^2/2\nlet: r = exact(q)\n", 4, 10, "no function exact"},
-    {CANONICAL "H: p_q^2/2 + q(0)\n", 3, 15, "q is not a function"},
+    {CANONICAL "H: p_q^2/2 + q(t - 17)\n", 3, 15,
+     "q(t - 17) is a delay; delay equations are not solved; a product is written with *: q*("},
+    {CANONICAL "H: p_q^2/2 + q( 3 )\n", 3, 15, "q(3): only q(0), the start, is known"},
+    {CANONICAL "H: p_q^2/2 + t(0)\n", 3, 14, "t is not a component: it has no value at the start"},
+    {CANONICAL "H: p_q^2/2 + k(2)\nparameter: k = 1\n", 3, 15, "k is not a function"},
+    {CANONICAL "H: p_q^2/2 + randn(1)*q\n", 3, 14, "the equations are deterministic; noise is not known"},
+    {CANONICAL "H: p_q^2/2\nnoise: q = 1\n", 4, 1, "the equations are deterministic; noise is not known"},
+    {CANONICAL "H: p_q^2/2\nwiener w\n", 4, 1, "the equations are deterministic; noise is not known"},
+    {CANONICAL "H: p_q^2/2\nglobal 1 q {q = 1}\n", 4, 1, "events are not known"},
+    {"q' = -q + 1\n", 1, 1, "q' = -q + 1 is written rate: q = -q + 1"},
+    {"dq/dt = -q\n", 1, 1, "dq/dt = -q is written rate: q = -q"},
+    {"q'' = -q\n", 1, 1, "x' = -x is written rate: x = -x"},
+    {"field: u\nrate: u = u_xx + u(0)\n", 2, 18, "u is a field: its start is not a number"},
     {CANONICAL "H: p_q^2/2\nrequire: q\n", 4, 11, "a sentence was expected"},
     {CANONICAL "H: p_q^2/2\nrequire: q; no {qq}\n", 4, 17, "no name qq"},
     {CANONICAL "H: p_q^2/2\nname: a\ntitle: a {q\n", 5, 10, "this brace has no counterpart"},
@@ -615,6 +627,23 @@ static const struct {
     {"coordinates: q\nH: p_q^2/2\nstart: p_q = 0, q = r\nlet: r = 2*q\n", 3, 17,
      "the start of q needs that of q"},
     {"coordinates: q\nH: p_q^2/2\nstart: q = p_q, p_q = sqrt(-1)\n", 3, 23, "p_q is not finite at the start"},
+    {CANONICAL "H: p_q^2 + f(q, 1)\nlet: f(v) = v\n", 3, 12, "f takes 1 argument, not 2"},
+    {CANONICAL "H: p_q^2 + f()\nlet: f(v) = v\n", 3, 12, "f takes 1 argument, not 0"},
+    {CANONICAL "H: p_q^2 + f\nlet: f(v) = v\n", 3, 12, "f is a function of 1 argument"},
+    {CANONICAL "H: p_q^2 + f(q,)\nlet: f(v, w) = v\n", 3, 16, "a value was expected, not \")\""},
+    {CANONICAL "H: p_q^2 + f(q, r)\nlet: f(v, w) = v\n", 3, 17, "no name r"},
+    {CANONICAL "H: p_q^2\nlet: f(q) = f(q) + 1\n", 4, 13, "f is defined by itself"},
+    {CANONICAL "H: p_q^2 + f(q)\nlet: f(v) = g(v)\nlet: g(w) = f(w)\n", 5, 13, "f is defined by itself"},
+    {CANONICAL "H: p_q^2\nlet: sin(q) = q\n", 4, 6, "sin is a function of the program"},
+    {CANONICAL "H: p_q^2\nlet: f(v, v) = v\n", 4, 11, "v is an argument twice"},
+    {CANONICAL "H: p_q^2\nlet: q(v) = v\n", 4, 6, "q is a component (q(0) is its start)"},
+    {CANONICAL "H: p_q^2\nlet: f(a, b, c, d, e, g, h, i, j) = a\n", 4, 32, "at most 8 arguments"},
+    {CANONICAL "H: p_q^2\nlet: f() = 1\n", 4, 8, "the name of an argument was expected"},
+    {CANONICAL "H: p_q^2\nlet: f(v) + 1 = v\n", 4, 9, "= was expected"},
+    {CANONICAL "H: p_q^2\nlet: f(v) = v\nlet: f(w) = w\n", 5, 6, "f is defined twice"},
+    {CANONICAL "H: p_q^2\nlet: f(v) = v + r\n", 4, 17, "no name r"},
+    {CANONICAL "H: p_q^2\nlet: f(v) = sum(v = 1 .. 2, v)\n", 4, 17, "cannot be the index of a loop"},
+    {CANONICAL "H: p_q^2 + sum(i = 1 .. 2, f(i))\nlet: f(v) = v*i\n", 4, 15, "no name i"},
 };
 
 /* Of a name that is defined twice the first place is told, too; what is wrong in itself has none. */
@@ -643,6 +672,47 @@ static void first_places_are_told(void **unused)
     assert_false(open_text(&system, CANONICAL "H: qq\n", &fault));
     assert_int_equal(fault.earlier, 0);
     gm_system_close(&system);
+}
+
+/* A call makes the rates of its body written out, and arguments are indices where the body has them in one. */
+static void calls_are_written_out(void **unused)
+{
+    static const char *const pairs[][2] = {
+        {"rate: x = f(y - x) + f(x), y = -f(f(x*y))/9\nlet: f(v) = a*v*exp(-v^2) + x\nparameter: a = 2\n",
+         "rate: x = (a*(y - x)*exp(-(y - x)^2) + x) + (a*x*exp(-x^2) + x),\n"
+         "  y = -(a*(a*(x*y)*exp(-(x*y)^2) + x)*exp(-(a*(x*y)*exp(-(x*y)^2) + x)^2) + x)/9\n"
+         "parameter: a = 2\n"},
+        {"coordinates: x[1..3]\nparameter: N = 3\nlet: d(i, j) = (x[i] - x[j])^2 + c(i)/j\nlet: c(n) = "
+         "sum(k = 1 .. n, k)\nH: sum(i = 1 .. N, j = i+1 .. N, 1/d(i, j) + d(1, N))\n",
+         "coordinates: x[1..3]\nparameter: N = 3\nH: sum(i = 1 .. N, j = i+1 .. N, 1/((x[i] - x[j])^2 +\n"
+         "  sum(k = 1 .. i, k)/j) + ((x[1] - x[N])^2 + sum(k = 1 .. 1, k)/N))\n"},
+    };
+    (void)unused;
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
+        struct gm_user_system systems[2];
+        double values[2][400], variables[40];
+        for (size_t v = 0; v < GM_COUNT(variables); v++) {
+            variables[v] = 0.3 + 0.17 * (double)v;
+        }
+        for (size_t k = 0; k < 2; k++) {
+            struct gm_fault fault;
+            char text[500];
+            snprintf(text, sizeof text, "%sstart: %s\n", pairs[i][k],
+                     i == 0 ? "x = 1, y = 2" : "x[i] = i, p_x[i] = 0");
+            if (!open_text(&systems[k], text, &fault)) {
+                fail_msg("%s: %s", text, fault.sentence);
+            }
+            assert_true(systems[k].graph.count <= GM_COUNT(values[k]));
+            gm_formula_evaluate(&systems[k].graph, systems[k].graph.count, variables, values[k]);
+        }
+        assert_int_equal(systems[0].n, systems[1].n);
+        for (size_t c = 0; c < systems[0].n; c++) {
+            const double one = values[0][systems[0].rates[c]], other = values[1][systems[1].rates[c]];
+            assert_true(isfinite(one) && memcmp(&one, &other, sizeof one) == 0);
+        }
+        gm_system_close(&systems[0]);
+        gm_system_close(&systems[1]);
+    }
 }
 
 /* Other lines, also those before, may name what is observed, as they name a let. */
@@ -703,7 +773,8 @@ int main(void)
         cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
         cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
         cmocka_unit_test(lines_are_counted),           cmocka_unit_test(first_places_are_told),
-        cmocka_unit_test(observed_names_are_known),    cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(calls_are_written_out),       cmocka_unit_test(observed_names_are_known),
+        cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

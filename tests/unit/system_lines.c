@@ -160,6 +160,20 @@ static void exact_solutions_are_values(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* x(0) in rates and lets is the start of the run, not of the file. */
+static void starts_are_known(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of("components: x[1..2]\nrate: x[1] = x[2](0), x[2] = a\nlet: a = x[1]( 0 )\n"
+                 "start: x[1] = 1, x[2] = 2\nobserve: off = x[1] - x[1](0)\ndt: 1\n");
+    struct gm_lane *lane = running(scene, "x[1]=3", "rk4", 2);
+    assert_true(gm_run_state(lane->run)[0] == 7 && gm_run_state(lane->run)[1] == 8);
+    assert_true(test_observed(lane, "off") == 4);
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+}
+
 static void requirements_refuse(void **unused)
 {
     (void)unused;
@@ -597,6 +611,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(options_describe_observables),
         cmocka_unit_test(exact_solutions_are_values),
+        cmocka_unit_test(starts_are_known),
         cmocka_unit_test(requirements_refuse),
         cmocka_unit_test(derived_starts_follow),
         cmocka_unit_test(sights_are_live),

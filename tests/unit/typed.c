@@ -125,10 +125,12 @@ static void formulas(void **unused)
     (void)unused;
     struct gm_arguments found = {0};
     assert_true(gm_typed_file_formulas(
-        "title: H: no\nH: p^2/2 # kinetic\n  + q^2/2\nrate: x = -x\n  # alone\nstart: q = 1\n", &found));
-    assert_int_equal(found.count, 2);
+        "title: H: no\nH: p^2/2 # kinetic\n  + q^2/2\nrate: x = -x\n  # alone\nlet: f(v) = v\nstart: q = 1\n",
+        &found));
+    assert_int_equal(found.count, 3);
     assert_string_equal(found.words[0], "H=p^2/2 + q^2/2");
     assert_string_equal(found.words[1], "rate=x = -x");
+    assert_string_equal(found.words[2], "let=f(v) = v");
     gm_arguments_close(&found);
 }
 

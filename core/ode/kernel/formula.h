@@ -32,6 +32,15 @@ GM_INLINE real K(larger)(real a, real b)
 {
     return K(pick)(a > b, a, b);
 }
+GM_INLINE real K(sign)(real a)
+{
+    const real zero = K(constant)(0), one = K(constant)(1);
+    return K(pick)(a > zero, one, zero) - K(pick)(a < zero, one, zero);
+}
+GM_INLINE real K(chosen)(real a, real b)
+{
+    return K(pick)(a > K(constant)(0.5), b, K(constant)(0));
+}
 GM_INLINE real K(below)(real a, real b)
 {
     return K(pick)(a < b, K(constant)(1), K(constant)(0));

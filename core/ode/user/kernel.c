@@ -46,6 +46,8 @@ static bool spell(enum gm_operation operation, const char *words[3])
         {GM_OPERATION_MIN, {"K(smaller)(", ", ", ")"}},
         {GM_OPERATION_MAX, {"K(larger)(", ", ", ")"}},
         {GM_OPERATION_BELOW, {"K(below)(", ", ", ")"}},
+        {GM_OPERATION_SIGN, {"K(sign)(", NULL, ")"}},
+        {GM_OPERATION_CHOSEN, {"K(chosen)(", ", ", ")"}},
     };
     static const char *const others[GM_OPERATIONS] = {
 #define GM_OPERATION(constant, ...) [GM_OPERATION_##constant] = "K(value_" #constant ")(",
