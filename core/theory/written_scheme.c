@@ -119,19 +119,18 @@ static enum gm_written_kind kind_of(const char *text, size_t length)
     return kind;
 }
 
-/* The length of the name or path of a scheme before a parenthesis; 0: there is none. */
-static size_t called_length(const char *text, size_t length)
+bool gm_written_is_kind(const char *name)
+{
+    return kind_of(name, strlen(name)) < GM_WRITTEN_KINDS;
+}
+
+size_t gm_written_word_name(const char *text, size_t length)
 {
     size_t end = 0;
-    while (end < length && (isalnum((unsigned char)text[end]) || strchr("-_./", text[end])) && text[end]) {
+    while (end < length && (isalnum((unsigned char)text[end]) || (text[end] && strchr("-_./", text[end])))) {
         end++;
     }
     return end < length && text[end] == '(' ? end : 0;
-}
-
-bool gm_written_is_word(const char *text, size_t length)
-{
-    return called_length(text, length) > 0;
 }
 
 static const char *kind_name(size_t i, const void *data)
@@ -215,7 +214,7 @@ static size_t closing(const char *text, struct gm_span span)
 static bool read_word(struct reading *reading, struct gm_span span)
 {
     const char *text = reading->text;
-    const size_t open = span.begin + called_length(text + span.begin, span.end - span.begin);
+    const size_t open = span.begin + gm_written_word_name(text + span.begin, span.end - span.begin);
     const size_t close = closing(text, (struct gm_span){open, span.end});
     if (close == span.end) {
         return gm_fail_first(&reading->fault, open, "this parenthesis is not closed");
@@ -762,7 +761,7 @@ static bool read(struct reading *reading, struct gm_span span)
     if (!gm_lines_are_text(reading->text + span.begin, span.end - span.begin, &fault)) {
         return gm_fail_first(&reading->fault, span.begin + fault.offset, "%s", fault.sentence);
     }
-    const bool is_word = gm_written_is_word(reading->text + span.begin, span.end - span.begin);
+    const bool is_word = gm_written_word_name(reading->text + span.begin, span.end - span.begin) > 0;
     if (!(is_word ? read_word(reading, span) : read_file(reading, span)) || !check_lines(reading, span)) {
         return false;
     }

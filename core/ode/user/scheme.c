@@ -726,6 +726,17 @@ struct named {
     const struct gm_scheme **at;
 };
 
+bool gm_user_scheme_is_word(const char *text, size_t length)
+{
+    char name[256];
+    const size_t letters = gm_written_word_name(text, length);
+    if (letters == 0 || letters >= sizeof name) {
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)letters, text);
+    return gm_written_is_kind(name) || gm_word_ends(name, ".scheme") || gm_scheme_find(name);
+}
+
 /* The scheme that a piece of the text names. */
 static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span)
 {
@@ -736,7 +747,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, struct gm_
     }
     const char *name = gm_arena_keep(making->arena, gm_span_words(text, span), free);
     char sentence[GM_FAULT_SENTENCE] = "";
-    if (gm_written_is_word(text + span.begin, span.end - span.begin)) {
+    if (gm_user_scheme_is_word(text + span.begin, span.end - span.begin)) {
         return &make(making, span, name, NULL)->row;
     }
     if (gm_word_ends(name, ".scheme")) {
