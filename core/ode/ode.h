@@ -134,11 +134,11 @@ struct gm_semilinear {
 
 /* Parts of the field that have names. */
 struct gm_parts {
-    const char *const *names; /* NULL-terminated: those that the file gives, then those of the structure */
+    const char *const *names; /* NULL-terminated: the file's own, then those of the structure */
     size_t given;             /* the number of the first */
     bool timed;               /* the last component is the time, which no part moves */
-    /* Writes the rates of a part as formulas of the components, n. Returns false if there is none, or when out of
-       memory (graph->failed). */
+    /* Writes the rates of a part as formulas of the components, n. Returns false if no part has this
+       name, or when out of memory (graph->failed). */
     bool (*rates)(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
                   gm_node_id *rates);
     /* Returns NULL if these parts sum to the field, else the reason in words, in the arena's body. */

@@ -83,8 +83,8 @@ const char *gm_written_kind_name(enum gm_written_kind kind);
 
 bool gm_written_is_kind(const char *name);
 
-/* Returns the length of the name, of a kind or of a splitting, that begins a word before its parenthesis; 0: the text
-   is none. */
+/* Returns the length of the name, of a kind or of a splitting, that begins a word before its parenthesis; 0: it
+   begins none. */
 size_t gm_written_word_name(const char *text, size_t length);
 
 /* Reads text[begin .. end): a word, or else the lines of a file. False with a fault, whose sentence is empty

@@ -223,9 +223,9 @@ def faults_are_told(path):
             "rk4(A, B)": "column 1: rk4 is not a splitting",
             "strang(A, C)": "A + C is not H, H - A - C = ",
             "strang(A, kinetik)": "did you mean kinetic",
-            "strang(A, kinetic)": "that of a has, beside A + kinetic, -u (-0.2 at the start)",
+            "strang(A, kinetic)": "the rate of a has, beside A + kinetic, -u (-0.2 at the start)",
             "strang(E, B)": "E by gauss4",
-            "strang(A by verlet, B)": "a scheme for any field",
+            "strang(A by verlet, B)": "a scheme for any field, of at most 64 components, not A by verlet",
             "composition(strang(A, C); 1)": "A + C is not H"}.items():
         told = run(path, "scheme=" + scheme, "until=1")
         check(isinstance(told, str) and words in told, f"{scheme}: {told}")

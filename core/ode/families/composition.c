@@ -186,7 +186,7 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
     return progress;
 }
 
-/* What a problem lacks for a part of the steps. */
+/* Returns the first thing that a problem lacks for a part of the steps. */
 static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     const struct gm_substeps *substeps = scheme->coefficients;

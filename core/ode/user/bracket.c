@@ -176,8 +176,8 @@ static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *mod
             }
         }
     }
-    return gm_flow_derive(arena, &model->pieces[model->piece_count++], graph, rates, n,
-                          system->variable_count);
+    return gm_linear_flow_derive(arena, &model->pieces[model->piece_count++], graph, rates, n,
+                                 system->variable_count);
 }
 
 static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *model,
@@ -234,7 +234,7 @@ void gm_user_bracket_open(struct gm_arena *arena, struct gm_user_bracket *bracke
     gm_tape_keep(arena, &bracket->matrix,
                  gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values));
     for (size_t i = 0; i < model->piece_count; i++) {
-        const struct gm_flow *piece = &model->pieces[i];
+        const struct gm_linear_flow *piece = &model->pieces[i];
         gm_tape_keep(
             arena, &bracket->pieces[i],
             gm_tape_open(&bracket->pieces[i], graph, piece->nodes, n + piece->slopes.count, n, values));
@@ -245,5 +245,5 @@ void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, d
 {
     double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], scratch[3 * GM_NEWTON_LARGEST];
     gm_tape_values(&bracket->pieces[piece], y, values, 1);
-    gm_flow_advance(&bracket->model->pieces[piece], h, values, scratch, y);
+    gm_linear_flow_advance(&bracket->model->pieces[piece], h, values, scratch, y);
 }

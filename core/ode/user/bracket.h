@@ -4,7 +4,7 @@
 #define GM_CORE_ODE_USER_BRACKET_H
 
 #include "core/model/system.h"
-#include "core/ode/families/splitting/flow.h"
+#include "core/ode/families/splitting/linear_flow.h"
 
 /* The formulas of a bracket, derived once for all values of the parameters. */
 struct gm_user_bracket_model {
@@ -15,7 +15,7 @@ struct gm_user_bracket_model {
     bool axes;
     /* A piece of the energy is a function of components that commute, {y_i, y_j} = 0, and so rest in its flow; the
        others move linearly. */
-    struct gm_flow *pieces;
+    struct gm_linear_flow *pieces;
     size_t piece_count; /* 0: the energy does not split into such pieces */
 };
 /* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its

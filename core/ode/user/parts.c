@@ -68,6 +68,16 @@ static void all_rates(const struct gm_user_model *model, const double *values, s
     }
 }
 
+/* Returns true unless a fact excludes such a part; the terms of degree 1 are looked for when they are asked for. */
+static bool may_have(const struct gm_user_model *model, const double *values, enum structural which)
+{
+    const struct gm_user_system *system = model->system;
+    const bool written = system->kind == GM_CANONICAL || system->kind == GM_RATES;
+    return which >= KEPLER   ? gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)
+           : which >= LINEAR ? written && !system->timed
+                             : written && gm_user_model_splits(model, values);
+}
+
 /* Writes a part of the structure. Returns false if the system has no such structure. */
 static bool structural_rates(const struct gm_user_model *model, const double *values, enum structural which,
                              struct gm_formula *graph, gm_node_id *rates)
@@ -76,10 +86,7 @@ static bool structural_rates(const struct gm_user_model *model, const double *va
     const bool fast = gm_user_model_holds(model, values, GM_FACT_FAST_LINEAR);
     const bool kepler = which >= KEPLER, linear = !kepler && which >= LINEAR, second = which % 2 == 1;
     const struct gm_finding *finding = &model->findings[kepler ? GM_FACT_KEPLER_SPLIT : GM_FACT_FAST_LINEAR];
-    if (kepler ? !gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)
-        : linear
-            ? model->system->timed || (model->system->kind != GM_RATES && model->system->kind != GM_CANONICAL)
-            : !gm_user_model_splits(model, values) || model->system->kind == GM_LAGRANGIAN) {
+    if (!may_have(model, values, which)) {
         return false;
     }
     const gm_node_id zero = gm_formula_constant(graph, 0);
@@ -144,17 +151,11 @@ bool gm_user_parts_open(struct gm_arena *arena, const struct gm_user_model *mode
         }
     }
     parts->given = count;
-    struct gm_formula graph;
-    gm_formula_open(&graph);
-    gm_node_id *rates = gm_arena_take(arena, model->components + 1, sizeof *rates);
     for (enum structural which = 0; which < STRUCTURAL && written; which++) {
-        if (!item_of(system, structural[which]) && structural_rates(model, values, which, &graph, rates)) {
+        if (!item_of(system, structural[which]) && may_have(model, values, which)) {
             names[count++] = structural[which];
         }
     }
-    const bool failed = graph.failed;
-    gm_formula_close(&graph);
-    gm_arena_need(arena, !failed);
     parts->names = names;
     parts->timed = system->timed;
     return count > 0;
@@ -216,7 +217,8 @@ const char *gm_user_parts_differ(const struct gm_user_model *model, const double
     const char *sum = sum_of(arena, names, count, " + ");
     return energy == GM_NO_NODE
                ? gm_arena_print(
-                     arena, "parts that sum to the rates: that of %s has, beside %s, %s (%.6g at the start)",
+                     arena,
+                     "parts that sum to the rates: the rate of %s has, beside %s, %s (%.6g at the start)",
                      system->variables[wrong].name, sum, difference, at[shown])
                : gm_arena_print(arena, "parts that sum to H: %s is not H, H - %s = %s (%.6g at the start)",
                                 sum, sum_of(arena, names, count, " - "), difference, at[shown]);

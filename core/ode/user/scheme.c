@@ -967,8 +967,8 @@ static struct gm_theory theory_of_bases(const struct making *making, const struc
     return theory;
 }
 
-/* Claims of a splitting by parts if theory does not apply: those of its base, or what its list says. A palindrome is
-   symmetric. */
+/* Claims of a splitting by parts if theory does not apply: the base's, or what follows from its list. A palindrome
+   is symmetric. */
 static struct gm_theory theory_of_parts(const struct making *making, const struct gm_parts_row *row,
                                         const struct named *base)
 {

@@ -5,7 +5,7 @@
    of the parts that a row names, or of all pieces that a system has. A part that is not solved may take steps of
    another scheme. The time is moved by the first part that does not hold it.
 
-   With a corrector the flow of |B'|^2/2 in M^-1 over c h^3, B' = dB/dq and p M^-1 p/2 in A, is added at both ends.
+   With a corrector the flow of p' = B'' M^-1 B' over c h^3, B' = dB/dq and p M^-1 p/2 in A, is added at both ends.
    G. Strang, SIAM J. Numer. Anal. 5 (1968) 506; R.I. McLachlan & G.R.W. Quispel, Acta Numerica 11 (2002) 341;
    J. Laskar & P. Robutel, Celest. Mech. Dyn. Astron. 80 (2001) 39. */
 #include "core/ode/families/splitting/parts.h"
@@ -20,13 +20,13 @@
 #include "core/expression/reader.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/splitting/flow.h"
 #include "core/ode/families/splitting/kepler.h"
+#include "core/ode/families/splitting/linear_flow.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
 
-/* What computes the flow of a part, with the words for it. */
+/* The ways in which the flow of a part is computed, with the words for them. */
 enum how { KICK, ROTATION, KEPLER, SHEAR, SERIES, EXPONENTIAL, VOLUME, BRACKET, STEPS, HOWS };
 static const char *const words[HOWS] = {
     [KICK] = "a kick",
@@ -40,7 +40,7 @@ static const char *const words[HOWS] = {
 struct part {
     enum how how;
     bool timed; /* it holds the time */
-    struct gm_flow flow;
+    struct gm_linear_flow flow;
     struct gm_tape tape;
     /* KICK: the force on the momenta */
     void (*force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
@@ -114,7 +114,7 @@ static void open_steps(struct work *work, struct part *part, const char *name, c
     const size_t n = work->problem->n;
     const struct gm_scheme *by = part->by;
     if (!gm_scheme_composes(by) || by->needs & ~(unsigned)GM_NEEDS_JACOBIAN || n > GM_NEWTON_LARGEST) {
-        gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components: %s by %s is none",
+        gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s",
                         GM_NEWTON_LARGEST, name, by->name);
     }
     gm_sparse_keep(work->arena, &part->jacobian,
@@ -150,7 +150,7 @@ static const char *other_names(const struct work *work, const char *name)
     }
     const char *near = gm_nearest(name, count, name_of, parts->names);
     return near ? gm_arena_print(work->arena, "did you mean %s", near)
-                : gm_arena_print(work->arena, count ? "there are %s" : "there are none", all);
+                : gm_arena_print(work->arena, count ? "there are %s" : "this system has no parts%s", all);
 }
 
 static const gm_node_id *rates_of(struct work *work, const char *name)
@@ -171,7 +171,7 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
 static void open_formula(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
 {
     const size_t n = work->problem->n;
-    if (!gm_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
+    if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
         gm_arena_refuse(
             work->arena,
             "a known flow of %.40s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
@@ -254,38 +254,38 @@ static void list_pieces(struct work *work)
     }
 }
 
-/* Opens the flow of |B'|^2/2 as the last part, and adds it at both ends. */
+/* Opens the flow of p' = D g M^-1 g, g = -B', as the last part, and adds it at both ends. */
 static void open_corrector(struct work *work, size_t number)
 {
     struct gm_formula *graph = &work->graph;
     const size_t n = work->problem->n, half = n / 2;
-    const gm_node_id *a = rates_of(work, work->row->list[0].name),
-                     *b = rates_of(work, work->row->list[1].name);
-    gm_node_id *rates = gm_arena_take(work->arena, n + 1, sizeof *rates),
-               *masses = gm_arena_take(work->arena, n, sizeof *masses), sum = gm_formula_constant(graph, 0);
+    const struct gm_named_part *list = work->row->list;
+    const gm_node_id *a = rates_of(work, list[0].name), *g = rates_of(work, list[1].name),
+                     zero = gm_formula_constant(graph, 0);
+    gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
+               *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
     bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = true;
     for (size_t i = 0; i < n; i++) {
         momenta[i] = i >= half && i < 2 * half;
+        along[i] = rates[i] = zero;
     }
     for (size_t i = 0; i < half; i++) {
         gm_arena_need(work->arena, gm_gradient(graph, a[i], momenta, n, masses));
-        good = good && gm_is_constant(graph, b[i], 0) && !gm_formula_holds(graph, b[half + i], momenta, n);
-        for (size_t k = 0; k < half; k++) {
-            const gm_node_id mass = masses[half + k];
-            good = good && graph->nodes[mass].operation == GM_CONSTANT;
-            sum = gm_sum(graph, sum, gm_product(graph, mass, gm_product(graph, b[half + i], b[half + k])));
+        good = good && gm_is_constant(graph, g[i], 0) && !gm_formula_holds(graph, g[half + i], momenta, n);
+        for (size_t k = half; k < 2 * half; k++) {
+            good = good && graph->nodes[masses[k]].operation == GM_CONSTANT;
+            along[i] = gm_sum(graph, along[i], gm_product(graph, masses[k], g[k]));
         }
     }
-    gm_arena_need(work->arena, gm_gradient(graph, sum, NULL, n, masses));
-    for (size_t i = 0; i < n; i++) {
-        rates[i] = momenta[i] ? gm_product(graph, gm_formula_constant(graph, 0.5), masses[i - half])
-                              : gm_formula_constant(graph, 0);
+    for (size_t i = half; i < 2 * half; i++) {
+        rates[i] = gm_derivative_along(graph, g[i], along, n);
     }
+    gm_arena_need(work->arena, !graph->failed);
     if (!good) {
         gm_arena_refuse(work->arena,
                         "for its corrector a part %s that is quadratic in the momenta, and a part %s of "
                         "coordinates alone",
-                        work->row->list[0].name, work->row->list[1].name);
+                        list[0].name, list[1].name);
     }
     open_formula(work, &work->parts[number], "the corrector", rates);
     const struct flow end = {.part = number, .fraction = work->row->corrector, .cubed = true};
@@ -300,6 +300,9 @@ static void list_parts(struct work *work)
     const struct gm_parts *parts = gm_ode_of(work->problem)->parts;
     const char *names[GM_MOST_PARTS];
     size_t count = 0, timed = 0;
+    if (row->corrector != 0 && work->problem->n > GM_NEWTON_LARGEST) {
+        gm_arena_refuse(work->arena, "for its corrector at most %d components", GM_NEWTON_LARGEST);
+    }
     work->parts = gm_arena_take(work->arena, row->parts + 1, sizeof *work->parts);
     work->flows = gm_arena_take(work->arena, GM_SPLITTING_PIECES + 2, sizeof *work->flows);
     work->part_count = row->parts;
@@ -514,7 +517,7 @@ static bool advance_member(const struct gm_task *task, struct work *work, size_t
         if (!known) {
             gm_tape_values(&part->tape, y, work->values, 1);
         }
-        gm_flow_advance(&part->flow, h, work->values, work->scratch, y);
+        gm_linear_flow_advance(&part->flow, h, work->values, work->scratch, y);
     }
     work->known = shear && last;
     if (work->known) {

@@ -4,7 +4,7 @@
    in parts of h in which the series falls off at once. Drifts and kicks have A = 0. If A is constant, one
    exponential serves all steps, by scaling and squaring, exp(A) = exp(A/2^k)^(2^k), of the balanced matrix:
    C. Moler & C. Van Loan, SIAM Rev. 45 (2003) 3. */
-#include "core/ode/families/splitting/flow.h"
+#include "core/ode/families/splitting/linear_flow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,8 +12,8 @@
 
 #include "core/basics.h"
 
-bool gm_flow_derive(struct gm_arena *arena, struct gm_flow *flow, struct gm_formula *graph,
-                    const gm_node_id *rates, size_t n, size_t variables)
+bool gm_linear_flow_derive(struct gm_arena *arena, struct gm_linear_flow *flow, struct gm_formula *graph,
+                           const gm_node_id *rates, size_t n, size_t variables)
 {
     bool *moving = gm_arena_take(arena, variables, sizeof *moving),
          *components = gm_arena_take(arena, variables, sizeof *components), linear = true;
@@ -21,7 +21,7 @@ bool gm_flow_derive(struct gm_arena *arena, struct gm_flow *flow, struct gm_form
         moving[i] = !gm_is_constant(graph, rates[i], 0);
         components[i] = true;
     }
-    *flow = (struct gm_flow){.n = n, .constant = true};
+    *flow = (struct gm_linear_flow){.n = n, .constant = true};
     gm_arena_need(arena, !graph->failed);
     gm_sparse_keep(arena, &flow->slopes,
                    gm_sparse_jacobian(graph, rates, n, moving, variables, &flow->slopes));
@@ -40,7 +40,8 @@ bool gm_flow_derive(struct gm_arena *arena, struct gm_flow *flow, struct gm_form
 }
 
 /* out := factor A in */
-static void apply(const struct gm_flow *flow, const double *A, double factor, const double *in, double *out)
+static void apply(const struct gm_linear_flow *flow, const double *A, double factor, const double *in,
+                  double *out)
 {
     memset(out, 0, flow->n * sizeof *out);
     for (size_t i = 0; i < flow->slopes.count; i++) {
@@ -49,7 +50,7 @@ static void apply(const struct gm_flow *flow, const double *A, double factor, co
 }
 
 /* Largest sum of a row's magnitudes. */
-static double norm_of(const struct gm_flow *flow, const double *A, double *sums)
+static double norm_of(const struct gm_linear_flow *flow, const double *A, double *sums)
 {
     double largest = 0;
     memset(sums, 0, flow->n * sizeof *sums);
@@ -62,7 +63,8 @@ static double norm_of(const struct gm_flow *flow, const double *A, double *sums)
     return largest;
 }
 
-void gm_flow_advance(const struct gm_flow *flow, double h, double *values, double *scratch, double *y)
+void gm_linear_flow_advance(const struct gm_linear_flow *flow, double h, double *values, double *scratch,
+                            double *y)
 {
     enum { MOST_PARTS = 1000, TERMS = 30 };
     const size_t n = flow->n;
