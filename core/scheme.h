@@ -136,6 +136,9 @@ struct gm_family {
        the two levels of the state. */
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory);
+    /* Returns a further thing that a problem with the needed facets lacks, in words, or NULL. NULL: it needs no
+       more. */
+    const char *(*lacks)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 

@@ -26,6 +26,7 @@
 #include "core/model/invariants.h"
 #include "core/model/recognition.h"
 #include "core/model/symmetries.h"
+#include "core/ode/families/splitting/parts.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
@@ -370,6 +371,25 @@ static void print_fact(struct gm_row *unused, const char *word, const char *of, 
     gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
 }
 
+/* Calls `put` for every part that has a name, with the way in which its flow is computed. */
+static void each_part(const struct report *report,
+                      void (*put)(struct gm_row *row, const char *name, const char *flow), struct gm_row *row)
+{
+    const struct gm_ode *ode = gm_system_is_field(&report->system) ? NULL : gm_ode_of(&report->problem);
+    for (const char *const *name = ode && ode->parts ? ode->parts->names : NULL; name && *name; name++) {
+        const char *flow = gm_part_flow(&report->problem, *name);
+        if (flow || (size_t)(name - ode->parts->names) < ode->parts->given) {
+            put(row, *name, flow ? flow : "no flow of its own: a scheme moves it");
+        }
+    }
+}
+
+static void print_part(struct gm_row *unused, const char *name, const char *flow)
+{
+    (void)unused;
+    gm_print_wrapped(flow, printf("  %-16s ", name), 19);
+}
+
 static void print_facts(const struct report *report)
 {
     printf("\nstructure\n");
@@ -478,6 +498,11 @@ static void put_fact(struct gm_row *row, const char *word, const char *of, bool 
     gm_row_close(&fact);
 }
 
+static void put_part(struct gm_row *row, const char *name, const char *flow)
+{
+    gm_row_text(row, name, flow);
+}
+
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
@@ -489,6 +514,9 @@ static void print_json(const struct report *report, const struct gm_file *file)
     struct gm_row structure = gm_row_open(&row, "structure", '}');
     each_fact(report, put_fact, &structure);
     gm_row_close(&structure);
+    struct gm_row parts = gm_row_open(&row, "parts", '}');
+    each_part(report, put_part, &parts);
+    gm_row_close(&parts);
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
@@ -901,6 +929,10 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
         print_kept(report);
         if (options->longer) {
             print_facts(report);
+            if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
+                printf("\nparts\n");
+                each_part(report, print_part, NULL);
+            }
             print_schemes(report);
         }
     }

@@ -13,6 +13,7 @@
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
 #include "core/memory.h"
+#include "core/ode/user/scheme.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -25,7 +26,7 @@ static bool is_path(const char *name)
    composition(verlet; g, 1 - 2*g, g). */
 static bool is_user(const char *name)
 {
-    return is_path(name) || gm_written_is_word(name, strlen(name));
+    return is_path(name) || gm_user_scheme_is_word(name, strlen(name));
 }
 
 enum { DEEPEST = 8 };

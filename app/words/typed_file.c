@@ -14,8 +14,8 @@
 #include "core/model/scope.h"
 #include "render/message.h"
 
-enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
-const char *const gm_typed_keys[] = {"H", "L", "rate", "coordinates", "momenta", NULL};
+enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_PART, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
+const char *const gm_typed_keys[] = {"H", "L", "rate", "part", "coordinates", "momenta", NULL};
 const char *const gm_replacing_keys[] = {"H", "L",        "V",        "rate", "bracket",
                                          "S", "K-matrix", "L-matrix", "let",  NULL};
 
@@ -45,7 +45,7 @@ static bool is_typed(const char *word)
 bool gm_typed_is_formula(const char *word)
 {
     const char *value;
-    return key_of(word, gm_typed_keys, &value) < FORMULA_COORDINATES;
+    return key_of(word, gm_typed_keys, &value) < FORMULA_PART;
 }
 
 /* ---- a text and where its parts are from ---- */

@@ -204,7 +204,8 @@ static bool generate(struct gm_reading *reading, struct gm_entry *entry, const s
     const struct gm_user_system *system = reading->system;
     struct gm_system_item *item = data;
     if (entry->role != GM_ENTRY_COMPONENT || entry->number >= item->count) {
-        return gm_fail_first(&reading->fault, target->name.begin, "a symmetry moves %s, not %.*s",
+        return gm_fail_first(&reading->fault, target->name.begin, "a %s moves %s, not %.*s",
+                             gm_system_words[item->word].word,
                              system->kind <= GM_LAGRANGIAN ? "coordinates" : "components",
                              (int)(entry->length < 60 ? entry->length : 60), entry->name);
     }
@@ -283,11 +284,27 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     }
     for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
         const struct gm_system_item *other = &reading->system->items[i];
-        if (gm_system_is_observed(other) && strcmp(other->name, item->name) == 0) {
+        if ((gm_system_is_observed(other) || other->word == GM_WORD_PART) &&
+            strcmp(other->name, item->name) == 0) {
             return gm_fail_first(&reading->fault, target.name.begin, "%.60s is given twice", item->name);
         }
     }
     return gm_options_read(reading, item, rest);
+}
+
+/* part: A = formula, B = formula; of rates: A; x = formula, y = formula */
+static bool read_part(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    const bool rates = reading->system->kind == GM_RATES;
+    if (rates && gm_span_until(reading->text, rest, ";") == rest.end) {
+        return gm_fail_first(&reading->fault, rest.begin,
+                             "a part of rates is a name, a semicolon and its rates");
+    }
+    while (!rates && !reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        read_named(reading, &(struct gm_system_line){line->word, line->place, piece});
+    }
+    return rates ? read_symmetry(reading, line) : !reading->fault.failed;
 }
 
 /* require: F; sentence */

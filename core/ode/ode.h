@@ -7,6 +7,7 @@
 #include "core/expression/graph.h"
 #include "core/kind.h"
 
+struct gm_arena; /* core/arena.h */
 struct gm_loops; /* core/ode/kernel/loops.h */
 
 /* Ordinary differential equations y' = f(y) and the structure that they may have. All arrays are
@@ -131,6 +132,20 @@ struct gm_semilinear {
     void (*nonlinear)(const struct gm_problem *problem, const double *y, double *rest);
 };
 
+/* Parts of the field that have names. */
+struct gm_parts {
+    const char *const *names; /* NULL-terminated: the file's own, then those of the structure */
+    size_t given;             /* the number of the first */
+    bool timed;               /* the last component is the time, which no part moves */
+    /* Writes the rates of a part as formulas of the components, n. Returns false if no part has this
+       name, or when out of memory (graph->failed). */
+    bool (*rates)(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                  gm_node_id *rates);
+    /* Returns NULL if these parts sum to the field, else the reason in words, in the arena's body. */
+    const char *(*differ)(const struct gm_problem *problem, const char *const *names, size_t count,
+                          struct gm_arena *arena);
+};
+
 /* The facets of a system. For a constant n, `loops` has loops over the problem's kernels. For an n chosen at
    run time (vortices) it has none, and a family steps through gm_field if it can. */
 enum gm_ode_facet {
@@ -158,6 +173,7 @@ enum gm_ode_facet {
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
     GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
     GM_NEEDS_MAGNETIC = 1u << 23,
+    GM_NEEDS_PARTS = 1u << 24, /* parts with names */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -179,6 +195,7 @@ struct gm_ode {
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;
+    const struct gm_parts *parts;
     /* Makes the parts that schemes with these needs (GM_NEEDS_...) use and that are otherwise made at first
        use; NULL: nothing to make. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);

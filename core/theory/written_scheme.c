@@ -3,6 +3,7 @@
    the operations that every formula has, and as balls, which know what was written. */
 #include "core/theory/written_scheme.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,8 +21,11 @@ enum {
     SPLITTING = 1 << GM_WRITTEN_SPLITTING,
     PROCESSED = 1 << GM_WRITTEN_PROCESSED,
     ADJOINT = 1 << GM_WRITTEN_ADJOINT,
+    SPLIT = 1 << GM_WRITTEN_SPLIT,
+    CALLED = 1 << GM_WRITTEN_CALLED,
+    OF_PARTS = 1 << GM_WRITTEN_LIE | 1 << GM_WRITTEN_STRANG | SPLIT | CALLED,
     TABLEAUS = ONE_TABLEAU | PARTITIONED | NYSTROM,
-    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT
+    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT | OF_PARTS
 };
 
 static const struct gm_line_word words[GM_SCHEME_WORDS] = {
@@ -65,6 +69,10 @@ static const struct {
     [GM_WRITTEN_SPLITTING] = {"splitting", 2, 2, {GM_SCHEME_WORD_DRIFTS, GM_SCHEME_WORD_KICKS}},
     [GM_WRITTEN_PROCESSED] = {"processed", 2, 2, {GM_SCHEME_WORD_KERNEL, GM_SCHEME_WORD_PROCESSOR}},
     [GM_WRITTEN_ADJOINT] = {"adjoint", 1, 1, {GM_SCHEME_WORD_BASE}},
+    [GM_WRITTEN_LIE] = {"lie", 1, 1, {GM_SCHEME_WORD_PARTS}},
+    [GM_WRITTEN_STRANG] = {"strang", 1, 1, {GM_SCHEME_WORD_PARTS}},
+    [GM_WRITTEN_SPLIT] = {"split", 2, 2, {GM_SCHEME_WORD_PARTS, GM_SCHEME_WORD_STEPS}},
+    [GM_WRITTEN_CALLED] = {"called", 2, 2, {GM_SCHEME_WORD_PARTS, GM_SCHEME_WORD_BASE}},
 };
 
 /* A number, or a let, before it is computed. */
@@ -111,19 +119,18 @@ static enum gm_written_kind kind_of(const char *text, size_t length)
     return kind;
 }
 
-static size_t kind_length(const char *text, size_t length)
+bool gm_written_is_kind(const char *name)
 {
-    size_t end = 0;
-    while (end < length && ((text[end] >= 'a' && text[end] <= 'z') || text[end] == '-')) {
-        end++;
-    }
-    return end;
+    return kind_of(name, strlen(name)) < GM_WRITTEN_KINDS;
 }
 
-bool gm_written_is_word(const char *text, size_t length)
+size_t gm_written_word_name(const char *text, size_t length)
 {
-    const size_t end = kind_length(text, length);
-    return end < length && text[end] == '(' && kind_of(text, end) < GM_WRITTEN_KINDS;
+    size_t end = 0;
+    while (end < length && (isalnum((unsigned char)text[end]) || (text[end] && strchr("-_./", text[end])))) {
+        end++;
+    }
+    return end < length && text[end] == '(' ? end : 0;
 }
 
 static const char *kind_name(size_t i, const void *data)
@@ -167,7 +174,7 @@ static bool find_kind(struct reading *reading, struct gm_span name)
     return gm_fail_first(&reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
                          near ? "; did you mean "
                               : "; there are runge-kutta, explicit, partitioned, nystrom, "
-                                "composition, splitting, processed, adjoint",
+                                "composition, splitting, processed, adjoint, lie, strang, split",
                          near ? near : "");
 }
 
@@ -207,7 +214,7 @@ static size_t closing(const char *text, struct gm_span span)
 static bool read_word(struct reading *reading, struct gm_span span)
 {
     const char *text = reading->text;
-    const size_t open = span.begin + kind_length(text + span.begin, span.end - span.begin);
+    const size_t open = span.begin + gm_written_word_name(text + span.begin, span.end - span.begin);
     const size_t close = closing(text, (struct gm_span){open, span.end});
     if (close == span.end) {
         return gm_fail_first(&reading->fault, open, "this parenthesis is not closed");
@@ -218,7 +225,11 @@ static bool read_word(struct reading *reading, struct gm_span span)
     struct gm_span rest = {open + 1, close}, segment;
     struct gm_fault fault;
     int positional = 0;
-    find_kind(reading, (struct gm_span){span.begin, open});
+    reading->scheme->kind = kind_of(text + span.begin, open - span.begin);
+    if (reading->scheme->kind == GM_WRITTEN_KINDS) {
+        reading->scheme->kind = GM_WRITTEN_CALLED;
+        take_line(reading, GM_SCHEME_WORD_BASE, span.begin, (struct gm_span){span.begin, open});
+    }
     while (!reading->fault.failed && gm_span_take(text, &rest, ";", &segment)) {
         const size_t name = gm_name_length(text + segment.begin, segment.end - segment.begin);
         const size_t colon = segment.begin + name;
@@ -750,7 +761,7 @@ static bool read(struct reading *reading, struct gm_span span)
     if (!gm_lines_are_text(reading->text + span.begin, span.end - span.begin, &fault)) {
         return gm_fail_first(&reading->fault, span.begin + fault.offset, "%s", fault.sentence);
     }
-    const bool is_word = gm_written_is_word(reading->text + span.begin, span.end - span.begin);
+    const bool is_word = gm_written_word_name(reading->text + span.begin, span.end - span.begin) > 0;
     if (!(is_word ? read_word(reading, span) : read_file(reading, span)) || !check_lines(reading, span)) {
         return false;
     }

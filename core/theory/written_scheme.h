@@ -16,6 +16,10 @@ enum gm_written_kind {
     GM_WRITTEN_SPLITTING,
     GM_WRITTEN_PROCESSED,
     GM_WRITTEN_ADJOINT,
+    GM_WRITTEN_LIE, /* of parts of the system; so below */
+    GM_WRITTEN_STRANG,
+    GM_WRITTEN_SPLIT,
+    GM_WRITTEN_CALLED, /* the splitting `base` of these parts: saba2(A, B) */
     GM_WRITTEN_KINDS
 };
 
@@ -77,8 +81,11 @@ struct gm_written_scheme {
 /* Returns the name of a kind: "runge-kutta". */
 const char *gm_written_kind_name(enum gm_written_kind kind);
 
-/* Returns true if a text is a word: it begins with a kind and a parenthesis. */
-bool gm_written_is_word(const char *text, size_t length);
+bool gm_written_is_kind(const char *name);
+
+/* Returns the length of the name, of a kind or of a splitting, that begins a word before its parenthesis; 0: it
+   begins none. */
+size_t gm_written_word_name(const char *text, size_t length);
 
 /* Reads text[begin .. end): a word, or else the lines of a file. False with a fault, whose sentence is empty
    where memory was refused; to be closed in both cases. The text outlives it. `decimals` may be NULL. */

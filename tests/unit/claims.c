@@ -23,7 +23,7 @@
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/families/splitting/splitting.h"
+#include "core/ode/families/splitting/parts.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -467,10 +467,12 @@ static void a_wrong_digit_of_a_bracket_splitting(void **unused)
     static const char *const names[] = {"bracket-splitting4", "bracket-splitting6"};
     for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_scheme wrong = changed(names[i]);
-        struct gm_composition digit = *(const struct gm_composition *)wrong.coefficients;
+        struct gm_parts_row row = *(const struct gm_parts_row *)wrong.coefficients;
+        struct gm_composition digit = *row.of_pieces;
         digit.gammas[0] += 1e-3;
         digit.gammas[1] -= 1e-3;
-        wrong.coefficients = &digit;
+        row.of_pieces = &digit;
+        wrong.coefficients = &row;
         const struct gm_certificate certificate = gm_certify(&wrong);
         assert_true(!certificate.order_holds && !certificate.holds);
         assert_true(certificate.claims[1].holds && certificate.claims[17].holds &&

@@ -44,7 +44,8 @@ static unsigned facets(const struct gm_problem *problem)
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
-           (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) |
+           (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->parts ? GM_NEEDS_PARTS : 0) |
+           (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) |
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
 
@@ -96,6 +97,7 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_HAMILTONIAN, "a Hamiltonian", "Hamiltonian systems"},
     {GM_NEEDS_ENERGY, "an energy of the whole state", "systems with an energy"},
     {GM_NEEDS_QUADRATIC, "a quadratic field", "quadratic vector fields"},
+    {GM_NEEDS_PARTS, "a field that is a sum of named parts", "systems with these parts"},
     {GM_NEEDS_JACOBIAN, "a Jacobian that is written out", "systems whose Jacobian is written out"},
     {0},
 };

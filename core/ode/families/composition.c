@@ -186,11 +186,23 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
     return progress;
 }
 
+/* Returns the first thing that a problem lacks for a part of the steps. */
+static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_substeps *substeps = scheme->coefficients;
+    const char *lack = NULL;
+    for (int i = 0; i < substeps->count && !lack; i++) {
+        const struct gm_scheme *part = substeps->at[i].scheme;
+        lack = part->family->lacks ? part->family->lacks(part, problem) : NULL;
+    }
+    return lack;
+}
+
 #define COMPOSITION(passive)                                                                                 \
     {                                                                                                        \
         .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums,                     \
         .loop = gm_composition_loop, .carries_passive = passive, .workspace_open = workspace_open,           \
-        .workspace_close = gm_composition_close, .workspace_reset = workspace_reset,                         \
+        .workspace_close = gm_composition_close, .workspace_reset = workspace_reset, .lacks = lacks,         \
     }
 const struct gm_family gm_family_composition = COMPOSITION(false);
 const struct gm_family gm_family_composition_carrying = COMPOSITION(true);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A program that the build runs: writes schemes of share/schemes as rows of the families that advance them, and the
    texts of other rows.
-   Usage: write_schemes implicit|splitting|compositions OUT.def NAME.scheme ...
+   Usage: write_schemes implicit|splitting|corrected|compositions OUT.def NAME.scheme ...
           write_schemes texts OUT.h schemes.text
    Each row is
        GM_SCHEME_ROW(identifier, coefficients) GM_SCHEME_TEXTS(identifier, members of struct gm_scheme)
@@ -52,6 +52,9 @@ static void put_pieces(FILE *out, const struct gm_written_scheme *scheme)
                 (kick ? kicks : drifts)->numbers[i / 2].value);
     }
     fputs("}}", out);
+    if (scheme->lines[GM_SCHEME_WORD_CORRECTOR].said) {
+        fprintf(out, ", .corrector = %a", scheme->lines[GM_SCHEME_WORD_CORRECTOR].numbers[0].value);
+    }
 }
 
 /* The steps of a symmetric composition, as far as the middle one. */
@@ -101,8 +104,8 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
     return scheme->lines[word].said && gm_span_is(scheme->text, scheme->lines[word].value, text);
 }
 
-enum family { IMPLICIT, SPLITTING, COMPOSITIONS, TEXTS, FAMILIES };
-static const char *const families[FAMILIES] = {"implicit", "splitting", "compositions", "texts"};
+enum family { IMPLICIT, SPLITTING, CORRECTED, COMPOSITIONS, TEXTS, FAMILIES };
+static const char *const families[FAMILIES] = {"implicit", "splitting", "corrected", "compositions", "texts"};
 
 /* The name of a scheme as an identifier. */
 static char *identifier_of(char identifier[64], const char *name, size_t length)
@@ -147,7 +150,8 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
         put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
         fputs(")\n", out);
     }
-    if (family != (splitting ? SPLITTING : IMPLICIT)) {
+    const struct gm_written_line *corrector = &scheme->lines[GM_SCHEME_WORD_CORRECTOR];
+    if (family != (corrector->said ? CORRECTED : splitting ? SPLITTING : IMPLICIT)) {
         return true;
     }
     fprintf(out, "GM_SCHEME_ROW(%s, ", identifier);
@@ -157,14 +161,15 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
         fputs(".stages = 1, .a = {{0.5}}, .b = {1}, .composition = &(const struct gm_composition)", out);
         put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
     } else if (splitting) {
+        fputs(corrector->said ? ".row" : "", out);
         put_pieces(out, scheme);
     } else {
         put_tableau(out, scheme);
     }
     fprintf(out, ")\nGM_SCHEME_TEXTS(%s, .name = \"%s\", .order = %d, .claims = %#x", identifier, name,
             scheme->order, claims);
-    fputs(splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
-    fputs(scheme->nystrom ? " | GM_NEEDS_NYSTROM" : "", out);
+    fputs(corrector->said ? ", .needs = GM_NEEDS_PARTS" : splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
+    fputs(scheme->nystrom || corrector->said ? " | GM_NEEDS_NYSTROM" : "", out);
     put_line(out, scheme, GM_SCHEME_WORD_TITLE, "title");
     put_line(out, scheme, GM_SCHEME_WORD_FORMULA, "formula");
     put_line(out, scheme, GM_SCHEME_WORD_REFERENCE, "reference");

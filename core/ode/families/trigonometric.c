@@ -4,7 +4,6 @@
    phi and a diagonal, functions of x = h omega; the filter psi of the literature is a sinc(x), and a method
    is symplectic if a = phi:
                                     phi        a                        psi
-       impulse (Verlet-I, r-RESPA)  1          1                        sinc(x)
        mollified impulse            sinc(x)    sinc(x)                  sinc^2(x)
        Gautschi                     1          sinc^2(x/2) / sinc(x)    sinc^2(x/2)
    The memory is g(phi q) at the end of the step, which the next one begins with. Hairer, Lubich & Wanner
@@ -17,8 +16,8 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
 
-enum filter { IMPULSE, MOLLIFIED, GAUTSCHI };
-static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GAUTSCHI;
+enum filter { MOLLIFIED, GAUTSCHI };
+static const enum filter mollified = MOLLIFIED, gautschi = GAUTSCHI;
 
 static double sinc(double x)
 {
@@ -30,7 +29,7 @@ static void filters(enum filter filter, double x, double *phi, double *a)
 {
     const double half = sinc(x / 2);
     *phi = filter == MOLLIFIED ? sinc(x) : 1;
-    *a = filter == IMPULSE ? 1 : filter == MOLLIFIED ? sinc(x) : half * half / sinc(x);
+    *a = filter == MOLLIFIED ? sinc(x) : half * half / sinc(x);
 }
 
 /* g(phi q) of member `member` of m, into g[component * stride] */
@@ -113,7 +112,6 @@ static enum gm_status start(const struct gm_task *task)
 #define TRIGONOMETRIC .family = &gm_family_trigonometric, .needs = GM_NEEDS_FAST_LINEAR
 
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_impulse2, .coefficients = &impulse, TRIGONOMETRIC},
     {GM_TEXTS_mollified2, .coefficients = &mollified, TRIGONOMETRIC},
     {GM_TEXTS_gautschi2, .coefficients = &gautschi, TRIGONOMETRIC},
 };

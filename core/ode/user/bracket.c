@@ -164,13 +164,10 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
 static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
                        struct gm_user_system *system, const size_t *group, size_t which)
 {
-    struct gm_user_piece *piece = &model->pieces[model->piece_count++];
     struct gm_formula *graph = &system->graph;
     const size_t n = system->n;
-    bool *moving = gm_arena_take(arena, system->variable_count, sizeof *moving), linear = true;
     gm_node_id *rates = gm_arena_take(arena, n + 1, sizeof *rates);
     for (size_t i = 0; i < n; i++) {
-        moving[i] = group[i] != which;
         rates[i] = gm_formula_constant(graph, 0);
         for (size_t k = 0; k < n; k++) {
             if (group[k] == which) {
@@ -179,16 +176,8 @@ static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *mod
             }
         }
     }
-    gm_arena_need(arena, !graph->failed);
-    gm_sparse_keep(arena, &piece->slopes,
-                   gm_sparse_jacobian(graph, rates, n, moving, system->variable_count, &piece->slopes));
-    piece->nodes = gm_sparse_nodes(arena, rates, n, &piece->slopes);
-    const bool *dependent =
-        gm_arena_keep(arena, gm_formula_dependent(graph, moving, system->variable_count), free);
-    for (size_t i = 0; i < piece->slopes.count; i++) {
-        linear = linear && !dependent[piece->slopes.entries[i].node];
-    }
-    return linear;
+    return gm_linear_flow_derive(arena, &model->pieces[model->piece_count++], graph, rates, n,
+                                 system->variable_count);
 }
 
 static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *model,
@@ -245,74 +234,16 @@ void gm_user_bracket_open(struct gm_arena *arena, struct gm_user_bracket *bracke
     gm_tape_keep(arena, &bracket->matrix,
                  gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values));
     for (size_t i = 0; i < model->piece_count; i++) {
-        const struct gm_user_piece *piece = &model->pieces[i];
+        const struct gm_linear_flow *piece = &model->pieces[i];
         gm_tape_keep(
             arena, &bracket->pieces[i],
             gm_tape_open(&bracket->pieces[i], graph, piece->nodes, n + piece->slopes.count, n, values));
     }
 }
 
-/* out := factor A in */
-static void apply(const struct gm_sparse *slopes, const double *A, double factor, const double *in, size_t n,
-                  double *out)
-{
-    memset(out, 0, n * sizeof *out);
-    for (size_t i = 0; i < slopes->count; i++) {
-        out[slopes->entries[i].row] += factor * A[i] * in[slopes->entries[i].column];
-    }
-}
-
-/* Largest sum of a row's magnitudes. */
-static double norm_of(const struct gm_sparse *slopes, const double *A, size_t n)
-{
-    double sums[GM_NEWTON_LARGEST] = {0}, largest = 0;
-    for (size_t i = 0; i < slopes->count; i++) {
-        sums[slopes->entries[i].row] += fabs(A[i]);
-    }
-    for (size_t i = 0; i < n; i++) {
-        largest = gm_larger(largest, sums[i]);
-    }
-    return largest;
-}
-
-/* y' = r + A (y - y_0), r and A constant: y - y_0 = h r + h^2 A r / 2 + ..., in parts of h in which this falls off at
-   once. */
 void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, double h, double *y)
 {
-    enum { MOST_PARTS = 1000, TERMS = 30 };
-    const struct gm_sparse *slopes = &bracket->model->pieces[piece].slopes;
-    const size_t n = bracket->model->system->n;
-    double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], *r = values, *A = values + n;
+    double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], scratch[3 * GM_NEWTON_LARGEST];
     gm_tape_values(&bracket->pieces[piece], y, values, 1);
-    const double parts = 1 + floor(fabs(h) * norm_of(slopes, A, n)), step = h / parts;
-    if (!(parts <= MOST_PARTS)) {
-        y[0] = NAN;
-        return;
-    }
-    for (int part = 0; part < (int)parts; part++) {
-        double term[GM_NEWTON_LARGEST], next[GM_NEWTON_LARGEST], moved[GM_NEWTON_LARGEST];
-        double size = 0, last = INFINITY;
-        for (size_t i = 0; i < n; i++) {
-            moved[i] = term[i] = step * r[i];
-            size += fabs(term[i]);
-        }
-        for (int k = 2; k < TERMS && slopes->count > 0 && last > 0x1p-60 * size; k++) {
-            apply(slopes, A, step / k, term, n, next);
-            last = 0;
-            for (size_t i = 0; i < n; i++) {
-                term[i] = next[i];
-                moved[i] += next[i];
-                last += fabs(next[i]);
-            }
-        }
-        for (size_t i = 0; i < n; i++) {
-            y[i] += moved[i];
-        }
-        if (part + 1 < (int)parts) {
-            apply(slopes, A, 1, moved, n, next);
-            for (size_t i = 0; i < n; i++) {
-                r[i] += next[i];
-            }
-        }
-    }
+    gm_linear_flow_advance(&bracket->model->pieces[piece], h, values, scratch, y);
 }

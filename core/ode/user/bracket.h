@@ -4,14 +4,7 @@
 #define GM_CORE_ODE_USER_BRACKET_H
 
 #include "core/model/system.h"
-#include "core/tape.h"
-
-/* A piece of the energy, a function of components that commute, {y_i, y_j} = 0, and so are fixed in its flow.
-   The others move linearly. */
-struct gm_user_piece {
-    gm_node_id *nodes;       /* the rates, n, and the slopes */
-    struct gm_sparse slopes; /* d rates[row] / d y of the moving components, functions of the fixed ones */
-};
+#include "core/ode/families/splitting/linear_flow.h"
 
 /* The formulas of a bracket, derived once for all values of the parameters. */
 struct gm_user_bracket_model {
@@ -20,7 +13,9 @@ struct gm_user_bracket_model {
     double turning;       /* turning, spins and axes are the fields of struct gm_poisson */
     size_t spins;
     bool axes;
-    struct gm_user_piece *pieces;
+    /* A piece of the energy is a function of components that commute, {y_i, y_j} = 0, and so rest in its flow; the
+       others move linearly. */
+    struct gm_linear_flow *pieces;
     size_t piece_count; /* 0: the energy does not split into such pieces */
 };
 /* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its

@@ -217,7 +217,7 @@ static void put_numbers(FILE *stream, const char *text, size_t end, const struct
 static void write(struct polishing *polishing, const struct gm_written_scheme *written)
 {
     const struct gm_user_scheme_source *source = polishing->source;
-    const bool is_word = gm_written_is_word(source->text, source->length);
+    const bool is_word = gm_written_word_name(source->text, source->length) > 0;
     size_t size = 0, count = 0;
     const struct gm_decimal *numbers = polished(polishing, &count);
     FILE *stream = open_memstream(&polishing->text, &size);

@@ -15,6 +15,7 @@
 #include "core/ode/trace_free.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/lazy_tape.h"
+#include "core/ode/user/parts.h"
 #include "core/ode/variational/manifold.h"
 #include "core/quantity.h"
 #include "core/tape.h"
@@ -30,6 +31,7 @@ struct own {
     struct gm_hamiltonian hamiltonian;
     struct gm_volume volume;
     struct gm_magnetic magnetic;
+    struct gm_parts parts;
     struct gm_tape drift, turning; /* functions of places and of the time */
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
@@ -226,6 +228,20 @@ static void perturbing_force(const struct gm_problem *problem, const double *q, 
 static void potential(const struct gm_problem *problem, double q, double values[3])
 {
     gm_tape_values(&own_of(problem)->potential, &q, values, 1);
+}
+
+static bool part_rates(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                       gm_node_id *rates)
+{
+    const struct own *self = own_of(problem);
+    return gm_user_part_rates(self->model, self->values, name, graph, rates);
+}
+
+static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
+                                struct gm_arena *arena)
+{
+    const struct own *self = own_of(problem);
+    return gm_user_parts_differ(self->model, self->values, names, count, arena);
 }
 
 static struct gm_late_tape late_tape(const struct own *self, const gm_node_id *nodes, size_t count,
@@ -572,6 +588,10 @@ static void open_problem(struct gm_arena *arena, void *data)
     open_action(self);
     open_monitor(self);
     open_poisson(self, problem);
+    self->parts = (struct gm_parts){.rates = part_rates, .differ = parts_differ};
+    if (system->tangents == 0 && !constrained && gm_user_parts_open(arena, model, values, &self->parts)) {
+        self->ode.parts = &self->parts;
+    }
     if (self->ode.linear && !self->ode.volume && is_trace_free(self, problem)) {
         self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
         self->ode.volume = &self->volume;

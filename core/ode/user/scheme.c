@@ -25,7 +25,7 @@
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/families/runge_kutta/nystrom.h"
 #include "core/ode/families/runge_kutta/partitioned.h"
-#include "core/ode/families/splitting/splitting.h"
+#include "core/ode/families/splitting/parts.h"
 #include "core/schemes.h"
 #include "core/theory/theory.h"
 
@@ -250,18 +250,24 @@ static bool add_piece(struct pieces *pieces, enum gm_piece piece, double value, 
     return true;
 }
 
-static struct own *of_pieces(const struct making *making, const struct pieces *pieces, unsigned needs)
+/* Returns the row of drifts and kicks; with `parts`, pieces are these parts by their numbers. */
+static struct own *of_pieces(const struct making *making, const struct pieces *pieces, unsigned needs,
+                             const struct gm_parts_row *parts)
 {
-    struct own *self = open_user(making, sizeof(struct gm_splitting_row));
-    struct gm_splitting_row *row = self->coefficients;
-    self->row.family = &gm_family_splitting;
-    self->row.needs = GM_NEEDS_SPLIT | needs;
-    row->splitting.count = pieces->count;
+    struct own *self = open_user(making, sizeof(struct gm_parts_row));
+    struct gm_parts_row *row = self->coefficients;
+    *row = parts ? *parts : (struct gm_parts_row){.parts = 0};
+    struct gm_splitting *splitting = &row->row.splitting;
+    bool exact = pieces->count <= MOST_STAGES && row->corrector == 0 && (!parts || parts->parts == 2);
+    self->row.family = parts ? &gm_family_parts : &gm_family_splitting;
+    self->row.needs = (parts ? GM_NEEDS_PARTS : GM_NEEDS_SPLIT) | needs;
+    splitting->count = pieces->count;
     for (int i = 0; i < pieces->count; i++) {
-        row->splitting.pieces[i].piece = pieces->at[i].piece;
-        row->splitting.pieces[i].fraction = pieces->at[i].fraction.value;
+        splitting->pieces[i].piece = pieces->at[i].piece;
+        splitting->pieces[i].fraction = pieces->at[i].fraction.value;
+        exact = exact && !row->list[pieces->at[i].piece].by;
     }
-    if (pieces->count > MOST_STAGES) {
+    if (!exact) {
         return self;
     }
     /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
@@ -274,6 +280,36 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
         }
     }
     return self;
+}
+
+/* The parts of a scheme of the family of splittings by parts; NULL: it has drifts and kicks. */
+static const struct gm_parts_row *parts_of(const struct gm_scheme *scheme)
+{
+    return scheme->family == &gm_family_parts ? scheme->coefficients : NULL;
+}
+
+static bool has_coefficients(const struct gm_scheme *scheme)
+{
+    return scheme->exact || scheme->family->coefficients_open;
+}
+
+/* Adds the pieces of a splitting, each times a fraction, forwards or backwards. */
+static bool add_pieces(const struct making *making, struct pieces *pieces, const struct gm_scheme *scheme,
+                       const struct gm_written_number *fraction, bool backwards)
+{
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
+    struct gm_coefficients *exact = has_coefficients(scheme) ? take_coefficients(making, 1) : NULL;
+    bool good = true;
+    gm_arena_need(making->arena, !exact || gm_scheme_coefficients_open(scheme, exact));
+    for (int k = 0; k < table->count; k++) {
+        const int i = backwards ? table->count - 1 - k : k;
+        const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
+        const struct gm_ball ball = exact ? exact->b[side][i] : gm_ball_written(table->pieces[i].fraction);
+        good = good && add_piece(pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
+                                 gm_ball_multiply(ball, fraction->ball));
+    }
+    return good;
 }
 
 static struct own *make_splitting(const struct making *making, const struct gm_written_scheme *written)
@@ -290,7 +326,140 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
             add_piece(&pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
         }
     }
-    return of_pieces(making, &pieces, written->nystrom ? GM_NEEDS_NYSTROM : 0);
+    const struct gm_written_line *corrector = &written->lines[GM_SCHEME_WORD_CORRECTOR];
+    const struct gm_parts_row corrected = {.parts = 2,
+                                           .list = {{"kinetic", NULL}, {"potential", NULL}},
+                                           .corrector = corrector->said ? corrector->numbers[0].value : 0};
+    return of_pieces(making, &pieces, written->nystrom || corrector->said ? GM_NEEDS_NYSTROM : 0,
+                     corrector->said ? &corrected : NULL);
+}
+
+/* ---- splittings by parts ---- */
+
+static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
+static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span);
+
+/* Reads NAME, or NAME by SCHEME. */
+static struct gm_named_part read_part(const struct making *making, struct gm_span piece)
+{
+    static const char by[] = " by ";
+    const char *text = making->source->text,
+               *found = memmem(text + piece.begin, piece.end - piece.begin, by, 4);
+    struct gm_named_part part = {.by = NULL};
+    if (found) {
+        const size_t end = (size_t)(found - text);
+        part.by = scheme_of(making, gm_span_trimmed(text, (struct gm_span){end + sizeof by - 1, piece.end}));
+        piece = gm_span_trimmed(text, (struct gm_span){piece.begin, end});
+    }
+    part.name = gm_arena_keep(making->arena, gm_span_words(text, piece), free);
+    return part;
+}
+
+static void read_parts(const struct making *making, struct gm_span rest, struct gm_parts_row *row)
+{
+    struct gm_span piece;
+    for (; gm_span_take(making->source->text, &rest, ",", &piece); row->parts++) {
+        if (row->parts == GM_MOST_PARTS / 2) {
+            fail(making, piece.begin, "a splitting has at most %d parts", GM_MOST_PARTS / 2);
+        }
+        row->list[row->parts] = read_part(making, piece);
+        for (size_t i = 0; i < row->parts; i++) {
+            if (strcmp(row->list[i].name, row->list[row->parts].name) == 0) {
+                fail(making, piece.begin, "the part %.40s is given twice", row->list[i].name);
+            }
+        }
+    }
+}
+
+/* A part's steps sum to 1. */
+static void check_parts(const struct making *making, const struct gm_parts_row *row,
+                        const struct pieces *pieces, size_t place)
+{
+    for (size_t k = 0; k < row->parts; k++) {
+        double sum = 0;
+        for (int i = 0; i < pieces->count; i++) {
+            sum += (size_t)pieces->at[i].piece == k ? pieces->at[i].fraction.value : 0;
+        }
+        if (fabs(sum - 1) > 1e-3) {
+            fail(making, place, "the steps of %.40s sum to %.15g, not to 1", row->list[k].name, sum);
+        }
+    }
+}
+
+/* The palindrome of half steps; in its second half a part by a scheme takes steps of the adjoint. */
+static void put_strang(const struct making *making, struct gm_parts_row *row, struct pieces *pieces,
+                       size_t place)
+{
+    const struct gm_ball half = gm_ball_divide(gm_ball_of(1), gm_ball_of(2));
+    const size_t count = row->parts;
+    size_t mirrored[GM_MOST_PARTS];
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_scheme *by = row->list[k].by;
+        mirrored[k] = k;
+        if (by && !(by->claims & GM_SYMMETRIC)) {
+            struct own *adjoint = adjoint_of(making, by, place);
+            adjoint->row.name = by->name;
+            mirrored[k] = row->parts++;
+            row->list[mirrored[k]] = (struct gm_named_part){row->list[k].name, &adjoint->row};
+        }
+        add_piece(pieces, (enum gm_piece)k, 0.5, half);
+    }
+    for (size_t k = count; k-- > 0;) {
+        add_piece(pieces, (enum gm_piece)mirrored[k], 0.5, half);
+    }
+}
+
+/* lie, strang and split, and splittings that are called with parts. */
+static struct own *make_parts(const struct making *making, const struct gm_written_scheme *written,
+                              const struct gm_scheme *base)
+{
+    const struct gm_written_line *parts = &written->lines[GM_SCHEME_WORD_PARTS],
+                                 *steps = &written->lines[GM_SCHEME_WORD_STEPS];
+    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)};
+    struct pieces pieces = {0};
+    struct gm_parts_row row = {.parts = 0};
+    const size_t place = parts->value.begin;
+    read_parts(making, parts->value, &row);
+    if (base) {
+        const struct gm_parts_row *named = parts_of(base);
+        const size_t wanted = named ? named->parts : 2;
+        if ((!named && base->family != &gm_family_splitting) || wanted == 0) {
+            fail(making, written->lines[GM_SCHEME_WORD_BASE].value.begin,
+                 "%.60s is not a splitting of named parts", base->name);
+        }
+        if (row.parts != wanted) {
+            fail(making, place, "%.60s splits into %zu parts, not into %zu", base->name, wanted, row.parts);
+        }
+        row.corrector = named ? named->corrector : 0;
+        add_pieces(making, &pieces, base, &one, false);
+    } else if (written->kind == GM_WRITTEN_SPLIT) {
+        for (int i = 0; i < steps->columns; i++) {
+            add_piece(&pieces, (enum gm_piece)((size_t)i % row.parts), steps->numbers[i].value,
+                      steps->numbers[i].ball);
+        }
+        check_parts(making, &row, &pieces, steps->value.begin);
+    } else if (row.parts == 1 && strcmp(row.list[0].name, "pieces") == 0) {
+        row =
+            (struct gm_parts_row){.of_pieces = written->kind == GM_WRITTEN_LIE ? NULL : &gm_composition_none};
+    } else if (row.parts == 1) {
+        fail(making, place, "%s splits into 2 parts or more, not into %.40s alone",
+             gm_written_kind_name(written->kind), row.list[0].name);
+    } else if (written->kind == GM_WRITTEN_STRANG) {
+        put_strang(making, &row, &pieces, place);
+    } else {
+        for (size_t k = 0; k < row.parts; k++) {
+            add_piece(&pieces, (enum gm_piece)k, 1, one.ball);
+        }
+    }
+    const bool turned = row.parts == 2 && strcmp(row.list[0].name, "potential") == 0;
+    if (row.parts == 2 && row.corrector == 0 && !row.list[0].by && !row.list[1].by &&
+        strcmp(row.list[turned].name, "kinetic") == 0 && strcmp(row.list[!turned].name, "potential") == 0) {
+        for (int i = 0; i < pieces.count; i++) {
+            pieces.at[i].piece = (pieces.at[i].piece == GM_KICK) != turned ? GM_KICK : GM_DRIFT;
+        }
+        return of_pieces(making, &pieces, 0, NULL);
+    }
+    return of_pieces(making, &pieces, 0, &row);
 }
 
 /* ---- compositions ---- */
@@ -304,33 +473,33 @@ struct substeps {
     } at[GM_MOST_SUBSTEPS];
 };
 
-/* The pieces of substeps that are all splittings. */
+/* The pieces of substeps that are all splittings into the same parts. */
 static struct own *flatten(const struct making *making, const struct substeps *substeps, size_t place)
 {
     struct pieces pieces = {0};
     unsigned needs = 0;
-    struct gm_coefficients *exact = take_coefficients(making, (size_t)substeps->count);
     for (int k = 0; k < substeps->count; k++) {
-        const struct gm_written_number *fraction = &substeps->at[k].fraction;
-        const struct gm_scheme *scheme = substeps->at[k].scheme;
-        struct gm_splitting made;
-        const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
-        gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &exact[k]));
-        needs |= scheme->needs;
-        for (int i = 0; i < table->count; i++) {
-            const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-            if (!add_piece(&pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
-                           gm_ball_multiply(exact[k].b[side][i], fraction->ball))) {
-                fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
-            }
+        needs |= substeps->at[k].scheme->needs;
+        if (!add_pieces(making, &pieces, substeps->at[k].scheme, &substeps->at[k].fraction, false)) {
+            fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
         }
     }
-    return of_pieces(making, &pieces, needs);
+    return of_pieces(making, &pieces, needs, parts_of(substeps->at[0].scheme));
 }
 
-static bool has_coefficients(const struct gm_scheme *scheme)
+/* True if the flows of two splittings are of the same parts, each by its exact flow. */
+static bool splits_alike(const struct gm_scheme *a, const struct gm_scheme *b)
 {
-    return scheme->exact || scheme->family->coefficients_open;
+    const struct gm_parts_row *one = parts_of(a), *other = parts_of(b);
+    if (a->family != b->family || (a->family != &gm_family_splitting && !one)) {
+        return false;
+    }
+    bool same = !one || (one->parts > 0 && one->parts == other->parts && one->corrector == 0 &&
+                         other->corrector == 0);
+    for (size_t i = 0; one && same && i < one->parts; i++) {
+        same = strcmp(one->list[i].name, other->list[i].name) == 0 && one->list[i].by == other->list[i].by;
+    }
+    return same;
 }
 
 /* Composes the exact coefficients of substeps. Does nothing if a substep has none, or they are too many. */
@@ -363,7 +532,7 @@ static struct own *compose(const struct making *making, const struct substeps *s
     unsigned needs = 0;
     for (int i = 0; i < substeps->count; i++) {
         const struct gm_scheme *scheme = substeps->at[i].scheme;
-        splittings = splittings && scheme->family == &gm_family_splitting;
+        splittings = splittings && splits_alike(substeps->at[0].scheme, scheme);
         carrying = carrying && scheme->family->carries_passive;
         needs |= scheme->needs;
     }
@@ -399,17 +568,23 @@ static struct own *same(const struct making *making, const struct gm_scheme *sch
     return self;
 }
 
+/* The pieces in the opposite order, and the adjoints of the schemes that parts take steps of. */
 static struct own *adjoint_splitting(const struct making *making, const struct gm_scheme *scheme,
-                                     const struct gm_coefficients *exact)
+                                     size_t place)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
+    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)};
     struct pieces pieces = {0};
-    for (int i = table->count - 1; i >= 0; i--) {
-        const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-        add_piece(&pieces, table->pieces[i].piece, table->pieces[i].fraction, exact->b[side][i]);
+    const struct gm_parts_row *parts = parts_of(scheme);
+    struct gm_parts_row row = parts ? *parts : (struct gm_parts_row){.parts = 0};
+    for (size_t i = 0; i < row.parts; i++) {
+        if (row.list[i].by) {
+            struct own *adjoint = adjoint_of(making, row.list[i].by, place);
+            adjoint->row.name = row.list[i].by->name;
+            row.list[i].by = &adjoint->row;
+        }
     }
-    return of_pieces(making, &pieces, scheme->needs);
+    add_pieces(making, &pieces, scheme, &one, true);
+    return of_pieces(making, &pieces, scheme->needs, parts ? &row : NULL);
 }
 
 static struct own *adjoint_tableau(const struct making *making, const struct tableau *tableau)
@@ -453,8 +628,6 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
     return self;
 }
 
-static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
-
 /* The adjoints of the parts, in the opposite order. */
 static struct own *adjoint_composition(const struct making *making, const struct gm_scheme *scheme,
                                        size_t place)
@@ -486,6 +659,9 @@ static struct own *adjoint_composition(const struct making *making, const struct
 /* Makes the adjoint of a scheme made of coefficients alone. */
 static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
+    if (scheme->family == &gm_family_splitting || (parts_of(scheme) && parts_of(scheme)->parts > 0)) {
+        return adjoint_splitting(making, scheme, place);
+    }
     if (!has_coefficients(scheme)) {
         fail(making, place,
              "the adjoint of %.60s is unknown: it is neither a Runge-Kutta method nor a splitting",
@@ -494,9 +670,6 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
     struct gm_coefficients *exact = take_coefficients(making, 1);
     struct tableau tableau;
     gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, exact));
-    if (scheme->family == &gm_family_splitting) {
-        return adjoint_splitting(making, scheme, exact);
-    }
     if (scheme->family == &gm_family_nystrom) {
         return adjoint_nystrom(making, scheme, exact);
     }
@@ -554,6 +727,17 @@ struct named {
     const struct gm_scheme **at;
 };
 
+bool gm_user_scheme_is_word(const char *text, size_t length)
+{
+    char name[256];
+    const size_t letters = gm_written_word_name(text, length);
+    if (letters == 0 || letters >= sizeof name) {
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)letters, text);
+    return gm_written_is_kind(name) || gm_word_ends(name, ".scheme") || gm_scheme_find(name);
+}
+
 /* The scheme that a piece of the text names. */
 static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span)
 {
@@ -564,7 +748,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, struct gm_
     }
     const char *name = gm_arena_keep(making->arena, gm_span_words(text, span), free);
     char sentence[GM_FAULT_SENTENCE] = "";
-    if (gm_written_is_word(text + span.begin, span.end - span.begin)) {
+    if (gm_user_scheme_is_word(text + span.begin, span.end - span.begin)) {
         return &make(making, span, name, NULL)->row;
     }
     if (gm_word_ends(name, ".scheme")) {
@@ -702,6 +886,17 @@ static char *title_of(const struct making *making, const struct gm_written_schem
         return gm_arena_print(making->arena, "splitting (%s / %s)",
                               numbers_of(&lines[GM_SCHEME_WORD_DRIFTS], numbers),
                               numbers_of(&lines[GM_SCHEME_WORD_KICKS], others));
+    case GM_WRITTEN_LIE:
+    case GM_WRITTEN_STRANG:
+    case GM_WRITTEN_SPLIT:
+    case GM_WRITTEN_CALLED: {
+        const struct gm_scheme *base =
+            schemes[GM_SCHEME_WORD_BASE].count ? schemes[GM_SCHEME_WORD_BASE].at[0] : NULL;
+        const char *parts = gm_arena_keep(
+            making->arena, gm_span_words(written->text, lines[GM_SCHEME_WORD_PARTS].value), free);
+        return gm_arena_print(making->arena, "%s of %s",
+                              base ? base->title : gm_written_kind_name(written->kind), parts);
+    }
     default:
         return gm_arena_print(making->arena, "own %s, %d stage%s (b: %s)",
                               gm_written_kind_name(written->kind), stages, gm_plural(stages),
@@ -775,6 +970,29 @@ static struct gm_theory theory_of_bases(const struct making *making, const struc
     return theory;
 }
 
+/* Claims of a splitting by parts if theory does not apply: the base's, or what follows from its list. A palindrome
+   is symmetric. */
+static struct gm_theory theory_of_parts(const struct making *making, const struct gm_parts_row *row,
+                                        const struct named *base)
+{
+    const unsigned claims = base->count > 0 ? base->at[0]->claims : 0;
+    struct gm_theory theory = {.symmetric = true, .symplectic = true};
+    const struct gm_splitting *list = &row->row.splitting;
+    for (int i = 0, last = list->count - 1; i <= last; i++) {
+        const struct gm_named_part *here = &row->list[list->pieces[i].piece],
+                                   *there = &row->list[list->pieces[last - i].piece];
+        theory.symplectic = theory.symplectic && (!here->by || here->by->claims & GM_SYMPLECTIC);
+        theory.symmetric =
+            theory.symmetric && strcmp(here->name, there->name) == 0 &&
+            fabs(list->pieces[i].fraction - list->pieces[last - i].fraction) < 1e-15 &&
+            (here->by && there->by ? are_adjoint(making, here->by, there->by) : here->by == there->by);
+    }
+    theory.symmetric = row->parts > 0 ? theory.symmetric : row->of_pieces != NULL;
+    theory.order = base->count > 0 ? base->at[0]->order : 1 + theory.symmetric;
+    theory.symmetric = theory.symmetric || claims & GM_SYMMETRIC;
+    return theory;
+}
+
 /* Fills order and claims that the text does not give from theory; without theory they follow from the
    parts. A scheme that is already open under this name with the same text passes on its order and claims. */
 static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
@@ -807,6 +1025,9 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     }
     if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
+    }
+    if (!row->exact && parts_of(row)) {
+        theory = theory_of_parts(making, parts_of(row), &schemes[GM_SCHEME_WORD_BASE]);
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known && theory.order == 0; word++) {
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
@@ -852,6 +1073,12 @@ static struct own *make_written(const struct making *making, const struct gm_wri
         break;
     case GM_WRITTEN_ADJOINT:
         own = adjoint_of(making, bases->at[0], written->lines[GM_SCHEME_WORD_BASE].value.begin);
+        break;
+    case GM_WRITTEN_LIE:
+    case GM_WRITTEN_STRANG:
+    case GM_WRITTEN_SPLIT:
+    case GM_WRITTEN_CALLED:
+        own = make_parts(making, written, bases->count > 0 ? bases->at[0] : NULL);
         break;
     case GM_WRITTEN_KINDS:
         break;

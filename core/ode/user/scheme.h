@@ -18,6 +18,9 @@ struct gm_user_scheme_source {
     struct gm_decimals *decimals; /* the decimals of the text are written here; NULL: nowhere */
 };
 
+/* Returns true if a text is a word: a kind, or a scheme that exists, and a parenthesis. */
+bool gm_user_scheme_is_word(const char *text, size_t length);
+
 /* Makes the scheme; theory fills an order or claims that the text does not give. Returns NULL with a fault,
    whose sentence is empty when out of memory. */
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,

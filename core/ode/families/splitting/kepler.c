@@ -1,25 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Splitting of the perturbed Kepler problem, H = (|p|^2/2 - 1/|q|) + W(q):
-       p += h/2 F_W(q);   (q, p) := exact Kepler flow over h;   p += h/2 F_W(q),   F_W = -grad W.
-   J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528.
-
-   The Kepler flow in universal variables: r0 = |q|, alpha = 2/r0 - |p|^2, G_k(s) = s^k c_k(alpha s^2), and s
+/* The motion of H = |p|^2/2 - 1/|q| in universal variables: r0 = |q|, alpha = 2/r0 - |p|^2, G_k(s) = s^k c_k(alpha s^2), and s
    the root of
        r0 G1 + (q . p) G2 + G3 = h,
    whose left side grows with the derivative r = r0 G0 + (q . p) G1 + G2, the distance at the end:
        q1 = f  q + g  p,   f  = 1 - G2/r0,      g  = h - G3
        p1 = f' q + g' p,   f' = -G1/(r r0),     g' = 1 - G2/r
-   K. Stumpff (1956); J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9. The memory is the
-   perturbing force at the end of the step, which the next one begins with. */
+   K. Stumpff (1956); J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9. */
 #include "core/ode/families/splitting/kepler.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/linear/settled.h"
 
 /* s^k c_k(alpha s^2), k = 0..3, c_k(z) = 1/k! - z/(k + 2)! + z^2/(k + 4)! - ... (K. Stumpff) */
 static void stumpff(double alpha, double s, double G[4])
@@ -100,39 +91,3 @@ bool gm_kepler_flow(double h, double y[4])
     }
     return true;
 }
-
-static enum gm_status step(const struct gm_task *task, struct gm_members *members,
-                           struct gm_progress *progress)
-{
-    double *y = members->y, *force = members->memory;
-    for (int c = 0; c < 2; c++) {
-        y[2 + c] += task->dt / 2 * force[c];
-    }
-    if (!gm_kepler_flow(task->dt, y)) {
-        progress->unsolved.obstacle = GM_NOT_FINITE;
-        return GM_NO_CONVERGENCE;
-    }
-    gm_ode_of(task->problem)->kepler_split->perturbing_force(task->problem, y, force, 1);
-    progress->evaluations++;
-    for (int c = 0; c < 2; c++) {
-        y[2 + c] += task->dt / 2 * force[c];
-    }
-    return GM_OK;
-}
-
-static enum gm_status start(const struct gm_task *task)
-{
-    const struct gm_problem *problem = task->problem;
-    gm_ode_of(problem)->kepler_split->perturbing_force(problem, task->y, task->memory_out, problem->m);
-    return GM_OK;
-}
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_wisdom_holman2, .family = &gm_family_kepler, .needs = GM_NEEDS_KEPLER_SPLIT},
-};
-
-const struct gm_family gm_family_kepler = {
-    .title = "Kepler splitting",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = 2, .evaluated_at_start = true),
-    .start = start,
-};

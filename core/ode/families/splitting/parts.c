@@ -1,0 +1,664 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Splittings of f = f_1 + ... + f_k into parts with exact flows F_i: a list of F_i(c h), as
+       lie(A, B)       F_B(h) F_A(h)
+       strang(A, B)    F_A(h/2) F_B(h) F_A(h/2)
+   of the parts that a row names, or of all pieces that a system has. A part that is not solved may take steps of
+   another scheme. The time is moved by the first part that does not hold it.
+
+   With a corrector the flow of p' = B'' M^-1 B' over c h^3, B' = dB/dq and p M^-1 p/2 in A, is added at both ends.
+   G. Strang, SIAM J. Numer. Anal. 5 (1968) 506; R.I. McLachlan & G.R.W. Quispel, Acta Numerica 11 (2002) 341;
+   J. Laskar & P. Robutel, Celest. Mech. Dyn. Astron. 80 (2001) 39. */
+#include "core/ode/families/splitting/parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/basics.h"
+#include "core/expression/nearest.h"
+#include "core/expression/reader.h"
+#include "core/ode/families/composition.h"
+#include "core/ode/families/families.h"
+#include "core/ode/families/splitting/kepler.h"
+#include "core/ode/families/splitting/linear_flow.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode_scheme_texts.h"
+
+/* The ways in which the flow of a part is computed, with the words for them. */
+enum how { KICK, ROTATION, KEPLER, SHEAR, SERIES, EXPONENTIAL, VOLUME, BRACKET, STEPS, HOWS };
+static const char *const words[HOWS] = {
+    [KICK] = "a kick",
+    [ROTATION] = "linear: a rotation of each coordinate and its momentum",
+    [KEPLER] = "Kepler's motion, in universal variables",
+    [SHEAR] = "a shear: what moves depends on what rests",
+    [SERIES] = "linear in what moves: a series",
+    [EXPONENTIAL] = "linear: exp(h L)",
+};
+
+struct part {
+    enum how how;
+    bool timed; /* it holds the time */
+    struct gm_linear_flow flow;
+    struct gm_tape tape;
+    /* KICK: the force on the momenta */
+    void (*force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
+    /* STEPS: the part as a problem, and the scheme */
+    const struct gm_scheme *by;
+    struct gm_problem problem;
+    struct gm_ode ode;
+    struct gm_loops loops;
+    struct gm_sparse jacobian;
+    struct gm_tape slopes;
+    void *workspace;
+};
+
+struct flow {
+    size_t part;
+    double fraction;
+    bool cubed; /* over fraction h^3 */
+    /* of exp(fraction h L), with its constant as the last column */
+    struct entry {
+        size_t row, column;
+        double value;
+    } * entries;
+    size_t count;
+};
+
+struct work {
+    struct gm_arena *arena;
+    struct gm_formula graph;
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    const struct gm_parts_row *row;
+    struct part *parts;
+    size_t part_count, carrier; /* carrier: the part that moves the time */
+    struct flow *flows;
+    size_t flow_count;
+    double dt; /* of the matrices */
+    /* values: of a part's tape. If a step begins with the flow it ends with, they are known at the state `kept`. */
+    double *values, *scratch, *moved, *kept, *member, *matrix;
+    bool known;
+};
+
+/* ---- parts as formulas ---- */
+
+static void part_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_tape_values(&((const struct part *)problem->parameters)->tape, y, f, m);
+}
+
+static void part_jacobian(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    const struct part *part = problem->parameters;
+    double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
+    gm_tape_values(&part->slopes, y, values, 1);
+    memset(matrix, 0, problem->n * problem->n * sizeof *matrix);
+    for (size_t i = 0; i < part->jacobian.count; i++) {
+        matrix[part->jacobian.entries[i].row * problem->n + part->jacobian.entries[i].column] = values[i];
+    }
+}
+
+static void close_steps(void *data)
+{
+    struct part *part = data;
+    if (part->workspace) {
+        part->by->family->workspace_close(part->workspace);
+    }
+}
+
+/* Opens a part that takes steps of a scheme, which may need a Jacobian and no other structure. */
+static void open_steps(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
+{
+    const size_t n = work->problem->n;
+    const struct gm_scheme *by = part->by;
+    if (!gm_scheme_composes(by) || by->needs & ~(unsigned)GM_NEEDS_JACOBIAN || n > GM_NEWTON_LARGEST) {
+        gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s",
+                        GM_NEWTON_LARGEST, name, by->name);
+    }
+    gm_sparse_keep(work->arena, &part->jacobian,
+                   gm_sparse_jacobian(&work->graph, rates, n, NULL, n, &part->jacobian));
+    const gm_node_id *slopes = gm_sparse_nodes(work->arena, NULL, 0, &part->jacobian);
+    gm_tape_keep(work->arena, &part->tape, gm_tape_open(&part->tape, &work->graph, rates, n, n, NULL));
+    gm_tape_keep(work->arena, &part->slopes,
+                 gm_tape_open(&part->slopes, &work->graph, slopes, part->jacobian.count, n, NULL));
+    part->how = STEPS;
+    part->loops = (struct gm_loops){.field = part_field, .jacobian = part_jacobian};
+    part->problem = (struct gm_problem){
+        .name = name, .kind = &gm_kind_ode, .n = n, .m = 1, .parameters = part, .facets = &part->ode};
+    for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
+        part->ode.loops[isa] = &part->loops;
+    }
+    gm_arena_keep(work->arena, part, close_steps);
+    gm_arena_need(work->arena, gm_scheme_workspace_open(by, &part->problem, &part->workspace));
+}
+
+static const char *name_of(size_t i, const void *names)
+{
+    return ((const char *const *)names)[i];
+}
+
+/* The names of all parts, or the nearest one, in words. */
+static const char *other_names(const struct work *work, const char *name)
+{
+    const struct gm_parts *parts = gm_ode_of(work->problem)->parts;
+    size_t count = 0;
+    const char *all = "";
+    for (; parts->names[count]; count++) {
+        all = gm_arena_print(work->arena, "%s%s%s", all, count ? ", " : "", parts->names[count]);
+    }
+    const char *near = gm_nearest(name, count, name_of, parts->names);
+    return near ? gm_arena_print(work->arena, "did you mean %s", near)
+                : gm_arena_print(work->arena, count ? "there are %s" : "this system has no parts%s", all);
+}
+
+static const gm_node_id *rates_of(struct work *work, const char *name)
+{
+    const struct gm_parts *parts = gm_ode_of(work->problem)->parts;
+    gm_node_id *rates = gm_arena_take(work->arena, work->problem->n + 1, sizeof *rates);
+    if (!parts) {
+        gm_arena_refuse(work->arena, "a field that is a sum of named parts");
+    }
+    const bool found = parts->rates(work->problem, name, &work->graph, rates);
+    gm_arena_need(work->arena, !work->graph.failed);
+    if (!found) {
+        gm_arena_refuse(work->arena, "a part %.40s; %s", name, other_names(work, name));
+    }
+    return rates;
+}
+
+static void open_formula(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
+{
+    const size_t n = work->problem->n;
+    if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
+        gm_arena_refuse(
+            work->arena,
+            "a known flow of %.40s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
+            "gauss4",
+            name, name);
+    }
+    const size_t slopes = part->flow.slopes.count;
+    gm_tape_keep(work->arena, &part->tape,
+                 gm_tape_open(&part->tape, &work->graph, part->flow.nodes, n + slopes, n, NULL));
+    part->how = slopes == 0 ? SHEAR : part->flow.constant && n <= GM_NEWTON_LARGEST ? EXPONENTIAL : SERIES;
+}
+
+/* Opens a part by its name: what the structure's facets solve, unless the file gives the name, or a formula. */
+static void open_part(struct work *work, struct part *part, const struct gm_named_part *named)
+{
+    const struct gm_ode *ode = gm_ode_of(work->problem);
+    const char *name = named->name;
+    bool given = named->by != NULL;
+    for (size_t i = 0; ode->parts && i < ode->parts->given; i++) {
+        given = given || strcmp(ode->parts->names[i], name) == 0;
+    }
+    part->by = named->by;
+    if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
+        part->how = KEPLER;
+    } else if (!given && ode->kepler_split && strcmp(name, "interaction") == 0) {
+        part->force = ode->kepler_split->perturbing_force;
+    } else if (!given && ode->fast_linear && strcmp(name, "linear") == 0) {
+        part->how = ROTATION;
+    } else if (!given && ode->fast_linear && strcmp(name, "rest") == 0) {
+        part->force = ode->fast_linear->slow_force;
+    } else {
+        const gm_node_id *rates = rates_of(work, name);
+        bool *time = gm_arena_take(work->arena, work->problem->n, sizeof *time);
+        time[work->problem->n - 1] = ode->parts->timed;
+        for (size_t i = 0; i < work->problem->n; i++) {
+            part->timed = part->timed || gm_formula_holds(&work->graph, rates[i], time, work->problem->n);
+        }
+        (named->by ? open_steps : open_formula)(work, part, name, rates);
+    }
+}
+
+/* ---- the list of flows ---- */
+
+/* Neighbours of one part are one flow. */
+static void add_flow(struct work *work, size_t part, double fraction)
+{
+    struct flow *last = work->flow_count > 0 ? &work->flows[work->flow_count - 1] : NULL;
+    if (last && last->part == part && work->parts[part].how != STEPS) {
+        last->fraction += fraction;
+    } else {
+        work->flows[work->flow_count++] = (struct flow){.part = part, .fraction = fraction};
+    }
+}
+
+/* The pieces of the system's own, which the facets solve. */
+static void list_pieces(struct work *work)
+{
+    const struct gm_ode *ode = gm_ode_of(work->problem);
+    const struct gm_composition *steps = work->row->of_pieces;
+    const bool bracket = ode->poisson && ode->poisson->pieces > 0;
+    const bool volume = work->scheme->needs & GM_NEEDS_VOLUME || !bracket;
+    if (volume && !ode->volume) {
+        gm_arena_refuse(work->arena, "pieces whose flows are exact");
+    }
+    const size_t count = work->part_count = volume ? ode->volume->pieces : ode->poisson->pieces;
+    work->parts = gm_arena_take(work->arena, count, sizeof *work->parts);
+    work->flows =
+        gm_arena_take(work->arena, steps ? 2 * count * (size_t)steps->steps : count, sizeof *work->flows);
+    for (size_t i = 0; i < count; i++) {
+        work->parts[i].how = volume ? VOLUME : BRACKET;
+    }
+    for (size_t i = 0; i < count && !steps; i++) {
+        add_flow(work, i, 1);
+    }
+    for (int k = 0; steps && k < steps->steps; k++) {
+        const double half = gm_composition_fraction(steps, k) / 2;
+        for (size_t i = 0; i < 2 * count; i++) {
+            add_flow(work, i < count ? i : 2 * count - 1 - i, half);
+        }
+    }
+}
+
+/* Opens the flow of p' = D g M^-1 g, g = -B', as the last part, and adds it at both ends. */
+static void open_corrector(struct work *work, size_t number)
+{
+    struct gm_formula *graph = &work->graph;
+    const size_t n = work->problem->n, half = n / 2;
+    const struct gm_named_part *list = work->row->list;
+    const gm_node_id *a = rates_of(work, list[0].name), *g = rates_of(work, list[1].name),
+                     zero = gm_formula_constant(graph, 0);
+    gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
+               *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
+    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = true;
+    for (size_t i = 0; i < n; i++) {
+        momenta[i] = i >= half && i < 2 * half;
+        along[i] = rates[i] = zero;
+    }
+    for (size_t i = 0; i < half; i++) {
+        gm_arena_need(work->arena, gm_gradient(graph, a[i], momenta, n, masses));
+        good = good && gm_is_constant(graph, g[i], 0) && !gm_formula_holds(graph, g[half + i], momenta, n);
+        for (size_t k = half; k < 2 * half; k++) {
+            good = good && graph->nodes[masses[k]].operation == GM_CONSTANT;
+            along[i] = gm_sum(graph, along[i], gm_product(graph, masses[k], g[k]));
+        }
+    }
+    for (size_t i = half; i < 2 * half; i++) {
+        rates[i] = gm_derivative_along(graph, g[i], along, n);
+    }
+    gm_arena_need(work->arena, !graph->failed);
+    if (!good) {
+        gm_arena_refuse(work->arena,
+                        "for its corrector a part %s that is quadratic in the momenta, and a part %s of "
+                        "coordinates alone",
+                        list[0].name, list[1].name);
+    }
+    open_formula(work, &work->parts[number], "the corrector", rates);
+    const struct flow end = {.part = number, .fraction = work->row->corrector, .cubed = true};
+    memmove(work->flows + 1, work->flows, work->flow_count * sizeof *work->flows);
+    work->flows[0] = work->flows[work->flow_count + 1] = end;
+    work->flow_count += 2;
+}
+
+static void list_parts(struct work *work)
+{
+    const struct gm_parts_row *row = work->row;
+    const struct gm_parts *parts = gm_ode_of(work->problem)->parts;
+    const char *names[GM_MOST_PARTS];
+    size_t count = 0, timed = 0;
+    if (row->corrector != 0 && work->problem->n > GM_NEWTON_LARGEST) {
+        gm_arena_refuse(work->arena, "for its corrector at most %d components", GM_NEWTON_LARGEST);
+    }
+    work->parts = gm_arena_take(work->arena, row->parts + 1, sizeof *work->parts);
+    work->flows = gm_arena_take(work->arena, GM_SPLITTING_PIECES + 2, sizeof *work->flows);
+    work->part_count = row->parts;
+    work->carrier = row->parts;
+    for (size_t i = 0; i < row->parts; i++) {
+        size_t same = 0;
+        open_part(work, &work->parts[i], &row->list[i]);
+        while (same < count && strcmp(names[same], row->list[i].name) != 0) {
+            same++;
+        }
+        names[same] = row->list[i].name;
+        timed += same == count && work->parts[i].timed;
+        count += same == count;
+        work->carrier = work->carrier == row->parts && !work->parts[i].timed ? i : work->carrier;
+    }
+    const char *difference = parts ? parts->differ(work->problem, names, count, work->arena) : NULL;
+    if (difference) {
+        gm_arena_refuse(work->arena, "%s", difference);
+    }
+    if (timed > 1 || (timed > 0 && work->carrier == row->parts)) {
+        gm_arena_refuse(work->arena, "the time in one part, and another part that moves it");
+    }
+    for (int i = 0; i < row->row.splitting.count; i++) {
+        add_flow(work, (size_t)row->row.splitting.pieces[i].piece, row->row.splitting.pieces[i].fraction);
+    }
+    if (row->corrector != 0) {
+        open_corrector(work, row->parts);
+    }
+}
+
+static void close_graph(void *graph)
+{
+    gm_formula_close(graph);
+}
+
+static void open_work(struct gm_arena *arena, void *data)
+{
+    struct work *work = data;
+    const size_t n = work->problem->n;
+    size_t largest = n;
+    gm_formula_open(&work->graph);
+    gm_arena_keep(arena, &work->graph, close_graph);
+    (work->row->parts > 0 ? list_parts : list_pieces)(work);
+    for (size_t i = 0; i < work->flow_count; i++) {
+        const struct part *part = &work->parts[work->flows[i].part];
+        const size_t most = part->how == EXPONENTIAL ? n * (n + 1) : part->how == ROTATION ? 2 * n : 0;
+        work->flows[i].entries = gm_arena_take(arena, most, sizeof *work->flows[i].entries);
+        largest = n + part->flow.slopes.count > largest ? n + part->flow.slopes.count : largest;
+    }
+    work->values = gm_arena_take(arena, largest + 6 * n, sizeof *work->values);
+    work->scratch = work->values + largest;
+    work->moved = work->scratch + 3 * n;
+    work->kept = work->moved + n;
+    work->member = work->kept + n;
+    const bool dense = n <= GM_NEWTON_LARGEST;
+    work->matrix = gm_arena_take(arena, dense ? 3 * (n + 1) * (n + 1) : 0, sizeof *work->matrix);
+}
+
+/* NULL: the sentence is the reason. */
+static struct work *open_by(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            char sentence[GM_FAULT_SENTENCE])
+{
+    struct work *work = calloc(1, sizeof *work);
+    if (!work) {
+        return NULL;
+    }
+    *work = (struct work){.arena = gm_arena_open(),
+                          .problem = problem,
+                          .scheme = scheme,
+                          .row = scheme->coefficients,
+                          .dt = NAN};
+    if (!gm_arena_run(work->arena, open_work, work)) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s", gm_arena_reason(work->arena));
+        gm_arena_close(work->arena);
+        free(work);
+        return NULL;
+    }
+    return work;
+}
+
+static void workspace_close(void *data)
+{
+    struct work *work = data;
+    if (work) {
+        gm_arena_close(work->arena);
+    }
+    free(work);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    char sentence[GM_FAULT_SENTENCE];
+    return open_by(problem, scheme, sentence);
+}
+
+static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    static _Thread_local char sentence[GM_FAULT_SENTENCE];
+    if (scheme->needs & ~(unsigned)(GM_NEEDS_PARTS | GM_NEEDS_NYSTROM)) { /* facets that solve all parts */
+        return NULL;
+    }
+    struct work *work = open_by(problem, scheme, sentence);
+    const bool good = work != NULL;
+    workspace_close(work);
+    return good ? NULL : sentence;
+}
+
+/* ---- steps ---- */
+
+static void put_entry(struct flow *flow, size_t row, size_t column, double value)
+{
+    if (value != 0) {
+        flow->entries[flow->count++] = (struct entry){row, column, value};
+    }
+}
+
+/* The flow over h of a linear part. */
+static void make_matrix(struct work *work, struct flow *flow, double h)
+{
+    const struct gm_problem *problem = work->problem;
+    const struct part *part = &work->parts[flow->part];
+    const size_t n = problem->n, half = n / 2, size = n + 1;
+    double *A = work->matrix, *E = A + size * size;
+    flow->count = 0;
+    if (part->how == ROTATION) {
+        for (size_t i = 0; i < half; i++) {
+            const double omega = gm_ode_of(problem)->fast_linear->frequency(problem, i), x = h * omega;
+            put_entry(flow, i, i, cos(x));
+            put_entry(flow, i, half + i, fabs(x) < 1e-4 ? h * (1 - x * x / 6) : sin(x) / omega);
+            put_entry(flow, half + i, i, -omega * sin(x));
+            put_entry(flow, half + i, half + i, cos(x));
+        }
+        return;
+    }
+    memset(A, 0, size * size * sizeof *A);
+    memset(work->moved, 0, n * sizeof *work->moved);
+    for (size_t j = size; j-- > 0;) { /* the constant, then the columns of L */
+        work->moved[j < n ? j : 0] = j < n;
+        gm_tape_values(&part->tape, work->moved, work->values, 1);
+        for (size_t i = 0; i < n; i++) {
+            A[i * size + j] = h * work->values[i] - (j < n ? A[i * size + n] : 0);
+        }
+        work->moved[j < n ? j : 0] = 0;
+    }
+    gm_exponential(size, A, E, E + size * size);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < size; j++) {
+            put_entry(flow, i, j, E[i * size + j]);
+        }
+    }
+}
+
+/* Makes a step of the part's own scheme. */
+static bool advance_steps(const struct gm_task *task, struct work *work, struct part *part, double h,
+                          double *y, struct gm_progress *progress)
+{
+    struct gm_task substep = *task;
+    gm_loop *advance = gm_scheme_loop(part->by, &part->problem);
+    substep.problem = &part->problem;
+    substep.scheme = part->by;
+    substep.workspace = part->workspace;
+    substep.steps = 1;
+    substep.dt = h;
+    substep.y = y;
+    substep.out = work->moved;
+    substep.carry = NULL;
+    const struct gm_progress made = advance(&substep);
+    progress->solves += made.solves;
+    progress->iterations += made.iterations;
+    progress->unsolved = made.unsolved;
+    memcpy(y, work->moved, work->problem->n * sizeof *y);
+    return made.done == 1;
+}
+
+/* The flow of one member; false: it is not found. */
+static bool advance_member(const struct gm_task *task, struct work *work, size_t number, double h, double *y,
+                           struct gm_progress *progress)
+{
+    const struct gm_problem *problem = work->problem;
+    struct flow *flow = &work->flows[number];
+    struct part *part = &work->parts[flow->part];
+    const size_t n = problem->n, half = n / 2;
+    const bool shear = part->how == SHEAR || part->how == KICK, first = number == 0 && problem->m == 1,
+               last = number + 1 == work->flow_count && flow->part == work->flows[0].part && problem->m == 1;
+    const bool known = shear && first && work->known && memcmp(work->kept, y, n * sizeof *y) == 0;
+    switch (part->how) {
+    case KEPLER:
+        return gm_kepler_flow(h, y);
+    case BRACKET:
+        gm_ode_of(problem)->poisson->flow(problem, flow->part, h, y);
+        return true;
+    case STEPS:
+        return advance_steps(task, work, part, h, y, progress);
+    case ROTATION:
+    case EXPONENTIAL:
+        memset(work->moved, 0, n * sizeof *work->moved);
+        for (size_t i = 0; i < flow->count; i++) {
+            const struct entry *entry = &flow->entries[i];
+            work->moved[entry->row] += entry->value * (entry->column < n ? y[entry->column] : 1);
+        }
+        memcpy(y, work->moved, n * sizeof *y);
+        return true;
+    case KICK:
+        if (!known) {
+            part->force(problem, y, work->values, 1);
+        }
+        for (size_t i = 0; i < half; i++) {
+            y[half + i] += h * work->values[i];
+        }
+        break;
+    default:
+        if (!known) {
+            gm_tape_values(&part->tape, y, work->values, 1);
+        }
+        gm_linear_flow_advance(&part->flow, h, work->values, work->scratch, y);
+    }
+    work->known = shear && last;
+    if (work->known) {
+        memcpy(work->kept, y, n * sizeof *y);
+    }
+    return true;
+}
+
+/* The flow of all members. */
+static bool advance_flow(const struct gm_task *task, struct work *work, size_t number, double *y,
+                         struct gm_progress *progress)
+{
+    const struct gm_problem *problem = work->problem;
+    const struct flow *flow = &work->flows[number];
+    const size_t n = problem->n, m = problem->m;
+    const double h = flow->fraction * (flow->cubed ? task->dt * task->dt * task->dt : task->dt);
+    bool good = true;
+    if (work->parts[flow->part].how == VOLUME) {
+        gm_ode_of(problem)->volume->flow(problem, flow->part, h, y, m);
+    } else if (m == 1) {
+        good = advance_member(task, work, number, h, y, progress);
+    }
+    for (size_t l = 0; l < m && m > 1 && good && work->parts[flow->part].how != VOLUME; l++) {
+        for (size_t c = 0; c < n; c++) {
+            work->member[c] = y[c * m + l];
+        }
+        good = advance_member(task, work, number, h, work->member, progress);
+        for (size_t c = 0; c < n; c++) {
+            y[c * m + l] = work->member[c];
+        }
+    }
+    const bool timed = gm_ode_of(problem)->parts && gm_ode_of(problem)->parts->timed && work->row->parts > 0;
+    for (size_t l = 0; l < m && timed && flow->part == work->carrier; l++) {
+        y[(n - 1) * m + l] += h;
+    }
+    return good;
+}
+
+/* a NaN compares false */
+static bool is_within(const double *y, size_t count, double limit)
+{
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        good &= y[i] <= limit && y[i] >= -limit;
+    }
+    return good;
+}
+
+/* One evaluation is a flow of the last part. */
+static struct gm_progress loop(const struct gm_task *task)
+{
+    struct work *work = task->workspace;
+    const size_t count = task->problem->n * task->problem->m;
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(task->out, task->y, count * sizeof(double));
+    for (size_t i = 0; i < work->flow_count && work->dt != task->dt; i++) {
+        const enum how how = work->parts[work->flows[i].part].how;
+        if (how == ROTATION || how == EXPONENTIAL) {
+            make_matrix(work, &work->flows[i], work->flows[i].fraction * task->dt);
+        }
+    }
+    work->dt = task->dt;
+    for (; progress.done < task->steps; progress.done++) {
+        for (size_t i = 0; i < work->flow_count; i++) {
+            if (!advance_flow(task, work, i, task->out, &progress)) {
+                progress.unsolved.obstacle = GM_NOT_FINITE;
+                progress.status = GM_NO_CONVERGENCE;
+                return progress;
+            }
+            progress.evaluations += work->flows[i].part + 1 == work->part_count ? task->problem->m : 0;
+        }
+        if (!is_within(task->out, count, task->limit)) {
+            progress.status = GM_BLOW_UP;
+            return progress;
+        }
+    }
+    return progress;
+}
+
+/* ---- rows ---- */
+
+/* The body of gm_part_flow: opens the only part. */
+static void open_one(struct gm_arena *arena, void *data)
+{
+    struct work *work = data;
+    gm_formula_open(&work->graph);
+    gm_arena_keep(arena, &work->graph, close_graph);
+    open_part(work, work->parts, &work->row->list[0]);
+}
+
+const char *gm_part_flow(const struct gm_problem *problem, const char *name)
+{
+    const struct gm_parts_row row = {.list = {{name, NULL}}};
+    struct part part = {.how = KICK};
+    struct work work = {.arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part};
+    const bool known = gm_arena_run(work.arena, open_one, &work);
+    gm_arena_close(work.arena);
+    return known ? words[part.how] : NULL;
+}
+
+#define PARTS .family = &gm_family_parts, .needs
+#define GM_SCHEME_ROW(identifier, ...)                                                                       \
+    static const struct gm_parts_row identifier = {                                                          \
+        .parts = 2, .list = {{"kinetic", NULL}, {"potential", NULL}}, __VA_ARGS__};
+#define GM_SCHEME_TEXTS(identifier, ...)
+#include "core/corrected_schemes.def"
+#undef GM_SCHEME_ROW
+#undef GM_SCHEME_TEXTS
+static const struct gm_parts_row interaction_kepler = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+                                                       .parts = 2,
+                                                       .list = {{"interaction", NULL}, {"kepler", NULL}}},
+                                 rest_linear = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+                                                .parts = 2,
+                                                .list = {{"rest", NULL}, {"linear", NULL}}},
+                                 once = {.parts = 0}, twice = {.of_pieces = &gm_composition_none},
+                                 suzuki4 = {.of_pieces = &gm_composition_suzuki4},
+                                 kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
+
+static const struct gm_scheme schemes[] = {
+    {GM_TEXTS_volume_splitting1, .coefficients = &once, PARTS = GM_NEEDS_VOLUME},
+    {GM_TEXTS_volume_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_VOLUME},
+    {GM_TEXTS_impulse2, .coefficients = &rest_linear, PARTS = GM_NEEDS_FAST_LINEAR},
+    {GM_TEXTS_wisdom_holman2, .coefficients = &interaction_kepler, PARTS = GM_NEEDS_KEPLER_SPLIT},
+    {GM_TEXTS_bracket_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_PIECES},
+    {GM_TEXTS_bracket_splitting4, .coefficients = &suzuki4, PARTS = GM_NEEDS_PIECES},
+    {GM_TEXTS_bracket_splitting6, .coefficients = &kahan_li6, PARTS = GM_NEEDS_PIECES},
+#define GM_SCHEME_ROW(identifier, ...)
+#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
+    {.coefficients = &identifier, .family = &gm_family_parts, __VA_ARGS__},
+#include "core/corrected_schemes.def"
+#undef GM_SCHEME_ROW
+#undef GM_SCHEME_TEXTS
+};
+
+const struct gm_family gm_family_parts = {
+    .kind = &gm_kind_ode,
+    .title = "splitting by parts",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = workspace_close,
+    .lacks = lacks,
+};

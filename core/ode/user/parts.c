@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A part is a function H_k, whose rates are J grad H_k or B grad H_k, or the rates themselves. Parts of the
+   structure are
+       kinetic, potential    the rates of q, and those of p, where these separate
+       linear, rest          the terms of degree 1 of the rates, and all others
+       kepler, interaction   |p|^2/2 - 1/|q|, and all else */
+#include "core/ode/user/parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/expression/linear_part.h"
+
+enum structural { KINETIC, POTENTIAL, LINEAR, REST, KEPLER, INTERACTION, STRUCTURAL };
+static const char *const structural[STRUCTURAL] = {"kinetic", "potential", "linear",
+                                                   "rest",    "kepler",    "interaction"};
+
+/* The line of a part; NULL: no line has that name. */
+static const struct gm_system_item *item_of(const struct gm_user_system *system, const char *name)
+{
+    const struct gm_system_item *found = NULL;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        const bool is_part =
+            item->word == GM_WORD_PART || (item->word == GM_WORD_LET && system->kind != GM_RATES);
+        found = is_part && strcmp(item->name, name) == 0 && item->nodes[0] != GM_NO_NODE ? item : found;
+    }
+    return found;
+}
+
+static gm_node_id graft(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
+                        gm_node_id node)
+{
+    return node == GM_NO_NODE
+               ? gm_formula_constant(graph, 0)
+               : gm_formula_graft(graph, &model->system->graph, node, model->components, values);
+}
+
+/* The rates of the energy `part`. */
+static void rates_of_energy(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
+                            gm_node_id part, gm_node_id *rates)
+{
+    const struct gm_user_system *system = model->system;
+    const size_t n = system->n, half = n / 2;
+    gm_node_id *gradient = calloc(model->components + 1, sizeof *gradient);
+    graph->failed =
+        !gradient || !gm_gradient(graph, part, NULL, model->components, gradient) || graph->failed;
+    for (size_t i = 0; i < n && !graph->failed; i++) {
+        rates[i] = system->kind == GM_POISSON ? gm_formula_constant(graph, 0)
+                   : i < half                 ? gradient[half + i]
+                                              : gm_negative(graph, gradient[i - half]);
+        for (size_t k = 0; k < n && system->kind == GM_POISSON; k++) {
+            const gm_node_id entry = graft(model, values, graph, system->bracket[i * n + k]);
+            rates[i] = gm_sum(graph, rates[i], gm_product(graph, entry, gradient[k]));
+        }
+    }
+    free(gradient);
+}
+
+/* The rates of the whole field. */
+static void all_rates(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
+                      gm_node_id *rates)
+{
+    for (size_t i = 0; i < model->components; i++) {
+        rates[i] = i < model->system->n ? graft(model, values, graph, model->system->rates[i])
+                                        : gm_formula_constant(graph, 0);
+    }
+}
+
+/* Returns true unless a fact excludes such a part; the terms of degree 1 are looked for when they are asked for. */
+static bool may_have(const struct gm_user_model *model, const double *values, enum structural which)
+{
+    const struct gm_user_system *system = model->system;
+    const bool written = system->kind == GM_CANONICAL || system->kind == GM_RATES;
+    return which >= KEPLER   ? gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)
+           : which >= LINEAR ? written && !system->timed
+                             : written && gm_user_model_splits(model, values);
+}
+
+/* Writes a part of the structure. Returns false if the system has no such structure. */
+static bool structural_rates(const struct gm_user_model *model, const double *values, enum structural which,
+                             struct gm_formula *graph, gm_node_id *rates)
+{
+    const size_t n = model->components, half = model->system->n / 2;
+    const bool fast = gm_user_model_holds(model, values, GM_FACT_FAST_LINEAR);
+    const bool kepler = which >= KEPLER, linear = !kepler && which >= LINEAR, second = which % 2 == 1;
+    const struct gm_finding *finding = &model->findings[kepler ? GM_FACT_KEPLER_SPLIT : GM_FACT_FAST_LINEAR];
+    if (!may_have(model, values, which)) {
+        return false;
+    }
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    bool *fields = calloc(n, sizeof *fields), found = !linear;
+    graph->failed = !fields || graph->failed;
+    all_rates(model, values, graph, rates);
+    for (size_t i = 0; i < n && !graph->failed; i++) {
+        fields[i] = true;
+    }
+    for (size_t i = 0; i < n && !graph->failed; i++) {
+        gm_node_id first = i < half ? rates[i] : zero, other = gm_difference(graph, rates[i], first);
+        if (i >= half && (kepler || (linear && fast))) {
+            other = graft(model, values, graph, finding->nodes[kepler ? 1 + i - half : i]);
+            first = gm_difference(graph, rates[i], other);
+        } else if (linear && !fast) {
+            graph->failed =
+                !gm_linear_part(graph, rates[i], fields, fields, n, &first, &other) || graph->failed;
+        }
+        found = found || !gm_is_constant(graph, first, 0);
+        rates[i] = second ? other : first;
+    }
+    free(fields);
+    return found;
+}
+
+bool gm_user_part_rates(const struct gm_user_model *model, const double *values, const char *name,
+                        struct gm_formula *graph, gm_node_id *rates)
+{
+    const struct gm_system_item *item = item_of(model->system, name);
+    for (size_t i = 0; i < model->components; i++) {
+        rates[i] = gm_formula_constant(graph, 0);
+    }
+    if (item && model->system->kind == GM_RATES) {
+        for (size_t i = 0; i < model->system->n; i++) {
+            rates[i] = graft(model, values, graph, item->nodes[i]);
+        }
+        return !graph->failed;
+    }
+    if (item) {
+        rates_of_energy(model, values, graph, graft(model, values, graph, item->nodes[0]), rates);
+        return !graph->failed;
+    }
+    for (enum structural which = 0; which < STRUCTURAL; which++) {
+        if (strcmp(structural[which], name) == 0) {
+            return structural_rates(model, values, which, graph, rates) && !graph->failed;
+        }
+    }
+    return false;
+}
+
+bool gm_user_parts_open(struct gm_arena *arena, const struct gm_user_model *model, const double *values,
+                        struct gm_parts *parts)
+{
+    const struct gm_user_system *system = model->system;
+    const bool written =
+        system->kind == GM_CANONICAL || system->kind == GM_POISSON || system->kind == GM_RATES;
+    size_t count = 0;
+    const char **names = gm_arena_take(arena, system->item_count + STRUCTURAL + 1, sizeof *names);
+    for (size_t i = 0; i < system->item_count && written; i++) {
+        if (item_of(system, system->items[i].name ? system->items[i].name : "") == &system->items[i]) {
+            names[count++] = system->items[i].name;
+        }
+    }
+    parts->given = count;
+    for (enum structural which = 0; which < STRUCTURAL && written; which++) {
+        if (!item_of(system, structural[which]) && may_have(model, values, which)) {
+            names[count++] = structural[which];
+        }
+    }
+    parts->names = names;
+    parts->timed = system->timed;
+    return count > 0;
+}
+
+/* The names with plus signs between them. */
+static const char *sum_of(struct gm_arena *arena, const char *const *names, size_t count, const char *sign)
+{
+    const char *text = "";
+    for (size_t i = 0; i < count; i++) {
+        text = gm_arena_print(arena, "%s%s%.40s", text, i ? sign : "", names[i]);
+    }
+    return text;
+}
+
+static void close_graph(void *graph)
+{
+    gm_formula_close(graph);
+}
+
+const char *gm_user_parts_differ(const struct gm_user_model *model, const double *values,
+                                 const char *const *names, size_t count, struct gm_arena *arena)
+{
+    const struct gm_user_system *system = model->system;
+    const size_t n = system->n;
+    struct gm_formula *graph = gm_arena_take(arena, 1, sizeof *graph);
+    gm_node_id *rest = gm_arena_take(arena, model->components + 1, sizeof *rest),
+               *rates = gm_arena_take(arena, model->components + 1, sizeof *rates);
+    gm_formula_open(graph);
+    gm_arena_keep(arena, graph, close_graph);
+    all_rates(model, values, graph, rest);
+    gm_node_id energy = system->kind == GM_RATES ? GM_NO_NODE : graft(model, values, graph, system->energy);
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_system_item *item = item_of(system, names[k]);
+        gm_arena_need(arena, gm_user_part_rates(model, values, names[k], graph, rates));
+        for (size_t i = 0; i < n; i++) {
+            rest[i] = gm_difference(graph, rest[i], rates[i]);
+        }
+        energy = !item || energy == GM_NO_NODE
+                     ? GM_NO_NODE
+                     : gm_difference(graph, energy, graft(model, values, graph, item->nodes[0]));
+    }
+    size_t wrong = 0;
+    gm_arena_need(arena, !graph->failed);
+    while (wrong < n && gm_identity_of(graph, rest[wrong], NULL, 0) != GM_NOT_ZERO) {
+        wrong++;
+    }
+    if (wrong == n) {
+        return NULL;
+    }
+    const gm_node_id shown = energy == GM_NO_NODE ? rest[wrong] : energy;
+    const struct gm_naming naming = gm_system_naming(system),
+                           written = {.variable = naming.variable, .data = naming.data};
+    char *text = gm_formula_text(graph, shown, &written);
+    const char *difference = text ? gm_arena_print(arena, "%.120s", text) : "a long formula";
+    free(text);
+    double *at = gm_arena_keep(arena, malloc((shown + (size_t)1) * sizeof *at), free);
+    gm_formula_evaluate(graph, shown + 1, values, at);
+    const char *sum = sum_of(arena, names, count, " + ");
+    return energy == GM_NO_NODE
+               ? gm_arena_print(
+                     arena,
+                     "parts that sum to the rates: the rate of %s has, beside %s, %s (%.6g at the start)",
+                     system->variables[wrong].name, sum, difference, at[shown])
+               : gm_arena_print(arena, "parts that sum to H: %s is not H, H - %s = %s (%.6g at the start)",
+                                sum, sum_of(arena, names, count, " - "), difference, at[shown]);
+}

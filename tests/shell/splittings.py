@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Splittings by parts: errors against an exact motion, the orders of rows in h and in a small part, computed here with
+# 50 digits from their files, and what is refused.
+# Usage: splittings.py GEOMINT SOURCE_ROOT
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from decimal import Decimal, getcontext
+
+GEOMINT, ROOT = sys.argv[1:3]
+getcontext().prec = 50
+failures = 0
+
+
+def check(good, text):
+    global failures
+    if not good:
+        failures += 1
+        print("FAILED", text)
+
+
+def run(*words):
+    done = subprocess.run([GEOMINT, "run", *words, "--json", "--state"], capture_output=True, text=True)
+    if done.returncode:
+        return done.stderr
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def state(*words):
+    lanes = run(*words)
+    if isinstance(lanes, str):
+        check(False, " ".join(words) + ": " + lanes)
+        return [0] * 4
+    return lanes[-1]["state"]
+
+
+def distance(one, other):
+    return max(abs(a - b) for a, b in zip(one, other))
+
+
+SYSTEM = """geomint: 1
+title: a wave and a spring
+coordinates: a, b
+momenta: u, v
+let: A = (u^2 + v^2)/2 + b^2 + .15*(a - b)^2
+part: B = -cos(a), C = (u^2 + v^2)/2, D = b^2 + .15*(a - b)^2, E = u^3/3 + a^3/3
+H: A - cos(a)
+start: a = 1.1
+start: b = -.4
+start: u = .2
+start: v = .5
+"""
+RATES = """geomint: 1
+title: a driven wave, as rates
+components: x, v
+part: A; x = v
+part: B; v = -sin(x) + .3*cos(t)
+rate: x = v
+rate: v = -sin(x) + .3*cos(t)
+start: x = 1
+start: v = .2
+"""
+RING = ["system", "H=(p1^2 + p2^2)/2 - q1*q2 + q1^4 + q2^4", "part=A = (p1^2 + p2^2)/2 - q1*q2, B = q1^4 + q2^4",
+        "q1=.5", "q2=.2", "p1=.1", "p2=0"]
+PENDULUM = ["system", "H=p^2/2 - cos(q)", "part=A = p^2/2, B = -cos(q)", "q=1.1", "p=.2", "until=8"]
+
+
+def coefficients(name):
+    """drifts, kicks and the corrector of a file of share/schemes"""
+    lines = [line.split(": ", 1) for line in open(f"{ROOT}/share/schemes/{name}.scheme") if ": " in line]
+    names = {"sqrt": Decimal.sqrt, "D": Decimal}
+
+    def value(text):
+        return eval(re.sub(r"(?<![\w.])(\d*\.?\d+)", r'D("\1")', text), names)
+
+    for word, text in lines:
+        if word == "let":
+            left, right = text.split("=", 1)
+            names[left.strip()] = value(right.strip())
+    rows = {word: [value(item) for item in text.strip().split(", ")] for word, text in lines
+            if word in ("drifts", "kicks", "corrector")}
+    return rows["drifts"], rows["kicks"], rows.get("corrector", [Decimal(0)])[0]
+
+
+EPS = 4  # powers of eps that are kept
+
+
+def times(x, y):
+    out = [Decimal(0)] * EPS
+    for i in range(EPS):
+        for k in range(EPS - i):
+            out[i + k] += x[i] * y[k]
+    return out
+
+
+def sine_cosine(x):
+    s = c = Decimal(0)
+    term, k = Decimal(1), 0
+    while abs(term) > Decimal(10) ** -55:
+        if k % 2 == 0:
+            c += term if k % 4 == 0 else -term
+        else:
+            s += term if k % 4 == 1 else -term
+        k += 1
+        term *= x / k
+    return s, c
+
+
+def flow(name, steps, correct=Decimal(1)):
+    """(p^2 + q^2)/2 + eps (q^4/4 + q^3/3) to t = 1, as a polynomial in eps; A is the first part"""
+    drifts, kicks, corrector = coefficients(name)
+    h = Decimal(1) / steps
+    q, p = [Decimal("0.8")] + [Decimal(0)] * (EPS - 1), [Decimal("0.3")] + [Decimal(0)] * (EPS - 1)
+    turns = [sine_cosine(a * h) for a in drifts]
+
+    def kick(p, q, factor):
+        slope = [a + b for a, b in zip(times(q, times(q, q)), times(q, q))]
+        return [p[i] - factor * (slope[i - 1] if i else 0) for i in range(EPS)]
+
+    def end(p, q):
+        square = times(q, q)
+        slope = [a + b for a, b in zip(times(square, q), square)]
+        curvature = [3 * a + 2 * b for a, b in zip(square, q)]
+        both = times(slope, curvature)
+        return [p[i] + correct * corrector * h ** 3 * (both[i - 2] if i > 1 else 0) for i in range(EPS)]
+
+    for _ in range(steps):
+        p = end(p, q)
+        for i, (s, c) in enumerate(turns):
+            q, p = [c * x + s * y for x, y in zip(q, p)], [c * y - s * x for x, y in zip(q, p)]
+            if i < len(kicks):
+                p = kick(p, q, kicks[i] * h)
+        p = end(p, q)
+    return q
+
+
+def orders(name, correct=Decimal(1)):
+    """orders in h of the errors of size eps, eps^2, eps^3"""
+    values = [flow(name, steps, correct) for steps in (16, 32, 64)]
+    return [float(((values[0][k] - values[1][k]) / (values[1][k] - values[2][k])).copy_abs().ln() / Decimal(2).ln())
+            for k in (1, 2, 3)]
+
+
+def rows_have_their_orders():
+    for name, wanted in {"saba2": (4, 2, 2), "saba3": (6, 2, 2), "saba4": (8, 2, 2), "sabac2": (4, 4, 4),
+                         "sabac3": (6, 4, 4), "sabac4": (8, 4, 4), "aba104": (10, 4, 4), "aba864": (8, 6, 4),
+                         "aba1064": (10, 6, 4)}.items():
+        drifts, kicks, _ = coefficients(name)
+        at, places = Decimal(0), []
+        for a in drifts[:-1]:
+            at += a
+            places.append(at)
+        for k in range(wanted[0]):
+            defect = abs(sum(b * c ** k for b, c in zip(kicks, places)) - 1 / Decimal(k + 1))
+            check(defect < Decimal("1e-28"), f"{name}: sum b c^{k} is off by {defect:.1e}")
+        found = orders(name)
+        check(all(abs(a - b) < .06 for a, b in zip(found, wanted)), f"{name} has the orders {found}, not {wanted}")
+    wrong = orders("sabac2", Decimal("1.05"))
+    check(wrong[1] < 2.5, f"a wrong corrector has the orders {wrong}")
+
+
+def errors_are_those_of_the_table(path):
+    exact = state(path, "scheme=gauss8", "dt=.005", "until=10")
+    for scheme, error in {"saba2": 1.23e-2, "saba4": 3.75e-3, "aba104": 3.37e-6, "aba864": 2.18e-6,
+                          "aba1064": 1.77e-6}.items():
+        found = distance(state(path, f"scheme={scheme}(A, B)", "dt=.5", "until=10"), exact)
+        check(abs(found / error - 1) < .01, f"{scheme}(A, B) has the error {found}, not {error}")
+
+
+def correctors_raise_the_order():
+    exact = state(*PENDULUM, "scheme=gauss8", "dt=.005")
+    for scheme, order in {"saba2(A, B)": 2, "sabac2(A, B)": 4, "sabac3": 4, "sabac4(kinetic, potential)": 4,
+                          "splitting(a, 1 - 2*a, a; 1/2, 1/2; let: a = (3 - sqrt(3))/6; corrector: (2 - sqrt(3))/20)":
+                          2}.items():
+        one, other = (distance(state(*PENDULUM, "scheme=" + scheme, f"dt={dt}"), exact) for dt in (.1, .05))
+        check(abs((one / other) - 2 ** order) < .08 * 2 ** order, f"{scheme} has the ratio {one / other}")
+
+
+def words_agree(path, rates):
+    def same(one, other, to=1e-13, system=path):
+        words = [system] if isinstance(system, str) else system
+        off = distance(state(*words, "scheme=" + one, "dt=.1", "steps=40"),
+                       state(*words, "scheme=" + other, "dt=.1", "steps=40"))
+        check(off <= to, f"{one} and {other} differ by {off}")
+
+    same("strang(kinetic, potential)", "verlet-position", 0)
+    same("strang(potential, kinetic)", "verlet", 0)
+    same("strang(A, B)", "split(A, B; 1/2, 1, 1/2)")
+    same("strang(A, B)", "composition(lie(A, B), adjoint(lie(A, B)); 1/2, 1/2)")
+    same("strang(A, B)", "composition(strang(A, B); 1)")
+    same("strang(linear, rest)", "strang(A, B by gauss8)", 1e-9, RING)
+    same("strang(A, B)", "strang(A by gauss8, B)", 1e-9)
+    same("verlet(A, B)", "strang(B, A)")
+    same("strang(pieces)", "volume-splitting2", 0)
+    same("lie(pieces)", "volume-splitting1", 0)
+    same("strang(interaction, kepler)", "wisdom-holman2", 0, ["kepler", "perturbation=.05"])
+    same("strang(rest, linear)", "impulse2", 0, "stiff")
+    same("strang(A, B)", "verlet-position", 1e-15, rates)
+    for scheme in ("lie(A, B)", "lie(C, D, B)", "lie(A by explicit-euler, B)", "aba864(A, B)", "strang(C, B, D)"):
+        there = state(path, f"scheme={scheme}", "dt=.1", "steps=1")
+        again = state(path, f"scheme=composition({scheme}, adjoint({scheme}), {scheme}; .7, -.7, 1)", "dt=.1",
+                      "steps=1")
+        check(distance(there, again) < 1e-13, f"the adjoint of {scheme} does not undo it")
+
+
+def members_and_engines_agree():
+    words = ["henon-heiles", "scheme=strang(linear, rest)", "dt=.1", "steps=20"]
+    interpreted = state(*words, "--engine", "interpreted")
+    check(distance(interpreted, state(*words)) == 0, "engines differ")
+    alone = state(*words)
+    several = run(*words, "members=5")
+    check(not isinstance(several, str) and len(several[-1]["state"]) == 5 * len(alone), "members do not run")
+
+
+def faults_are_told(path):
+    for scheme, words in {
+            "strang(A)": "column 8: strang splits into 2 parts or more",
+            "aba104(A, B, C)": "column 8: aba104 splits into 2 parts, not into 3",
+            "split(A, B; .5, 1, .4)": "column 13: the steps of A sum to 0.9",
+            "strang(A, A)": "column 11: the part A is given twice",
+            "rk4(A, B)": "column 1: rk4 is not a splitting",
+            "strang(A, C)": "A + C is not H, H - A - C = ",
+            "strang(A, kinetik)": "did you mean kinetic",
+            "strang(A, kinetic)": "the rate of a has, beside A + kinetic, -u (-0.2 at the start)",
+            "strang(E, B)": "E by gauss4",
+            "strang(A by verlet, B)": "a scheme for any field, of at most 64 components, not A by verlet",
+            "composition(strang(A, C); 1)": "A + C is not H"}.items():
+        told = run(path, "scheme=" + scheme, "until=1")
+        check(isinstance(told, str) and words in told, f"{scheme}: {told}")
+    told = run(*PENDULUM[:2], "part=A = p^2/2 - cos(q), B = 0*q", *PENDULUM[3:], "scheme=sabac2(B, A)")
+    check(isinstance(told, str) and ("for its corrector" in told or "a known flow" in told), f"corrector: {told}")
+
+
+def main():
+    with tempfile.NamedTemporaryFile("w", suffix=".system") as one, \
+            tempfile.NamedTemporaryFile("w", suffix=".system") as two:
+        one.write(SYSTEM)
+        one.flush()
+        two.write(RATES)
+        two.flush()
+        rows_have_their_orders()
+        errors_are_those_of_the_table(one.name)
+        correctors_raise_the_order()
+        words_agree(one.name, two.name)
+        members_and_engines_agree()
+        faults_are_told(one.name)
+    sys.exit(failures > 0)
+
+
+main()
