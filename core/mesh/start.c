@@ -6,25 +6,9 @@
 
 #include "core/mesh/nodes.h"
 
-/* Continuation: the density's parameters grow from 0, the uniform mesh, to their values in this many steps
-   (Tyranowski & Desbrun 2019, section 5.2), which are halved when they are too long. */
+/* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1 in this many steps, which for
+   arclength is alpha growing (Tyranowski & Desbrun 2019, section 5.2); they are halved when they are too long. */
 enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
-
-void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
-                   double bend)
-{
-    mesh->alpha = alpha;
-    mesh->curvature = 0;
-    mesh->reach = density == GM_LIMITED    ? GM_REACH_LIMITED
-                  : density == GM_TEMPERED ? GM_REACH_TEMPERED
-                                           : GM_REACH_FULL;
-    mesh->steepest = steepest;
-    if (density == GM_CURVATURE || density == GM_MIX) {
-        const double share = density == GM_MIX ? sqrt(0.5) : 1;
-        mesh->alpha = density == GM_MIX ? share * alpha : 0;
-        mesh->curvature = share * share * alpha * alpha * bend;
-    }
-}
 
 struct bench {
     struct gm_elements stage;
@@ -72,8 +56,7 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
     while (reached < 1 && step > 1. / SHORTEST) {
         const double next = reached + step < 1 - 1e-9 ? reached + step : 1;
         struct gm_mesh part = *mesh;
-        part.alpha *= next;
-        part.curvature *= next;
+        part.even = 1 - next * next;
         if (gm_nodes_equidistribute(&bench->stage, &part, profile, context, &bench->matrix, bench->change)) {
             reached = next;
             memcpy(good, x, size);
@@ -120,7 +103,7 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
         return false;
     }
     bool good = true;
-    if (kind == GM_MESH_UNIFORM || (mesh->alpha == 0 && mesh->curvature == 0)) {
+    if (kind == GM_MESH_UNIFORM) {
         even(mesh, bench.stage.x);
         profile(context, bench.stage.x + 1, points, bench.stage.y + 1, bench.stage.u + 1, bench.stage.v + 1);
     } else {

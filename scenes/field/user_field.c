@@ -69,7 +69,7 @@ static void close_field(void *thing)
 
 static void make_rows(struct gm_user_field *field)
 {
-    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY};
+    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY};
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
@@ -93,6 +93,9 @@ static void make_rows(struct gm_user_field *field)
             const char *text = system->texts[chosen[k]];
             const bool here = text && strcmp(common[i].key, gm_system_words[chosen[k]].word) == 0;
             common[i].standard = here ? text : common[i].standard;
+            if (here && strlen(text) >= GM_TEXT_SIZE) {
+                gm_arena_refuse(arena, "%s: has at most %d characters", common[i].key, GM_TEXT_SIZE - 1);
+            }
         }
         gm_arena_need(arena, common[i].standard);
     }

@@ -94,12 +94,11 @@ static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2
     double row[POINTS][POINTS + 2][2] = {{{0}}}, normal[POINTS * POINTS] = {0};
     for (size_t k = 1; k <= POINTS; k++) {
         /* ell_k - ell_(k-1) */
-        row[k - 1][k][0] = at->ell_y0[k] - at->ell_y1[k - 1];
-        row[k - 1][k][1] = -at->ell_d[k] - at->ell_d[k - 1];
-        row[k - 1][k + 1][0] = at->ell_y1[k];
-        row[k - 1][k + 1][1] = at->ell_d[k];
-        row[k - 1][k - 1][0] = -at->ell_y0[k - 1];
-        row[k - 1][k - 1][1] = at->ell_d[k - 1];
+        for (size_t c = 0; c < 2; c++) {
+            row[k - 1][k][c] = at->gradient[c][k] - at->gradient[2 + c][k - 1];
+            row[k - 1][k + 1][c] = at->gradient[2 + c][k];
+            row[k - 1][k - 1][c] = -at->gradient[c][k - 1];
+        }
     }
     for (size_t a = 0; a < POINTS; a++) {
         lambda[a + 1] = 0;
@@ -167,10 +166,9 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
     }
     for (size_t e = 0; e < ELEMENTS; e++) {
         const double share = motion->lambda[e] - motion->lambda[e + 1];
-        motion->pull[e][0][0] -= share * at->ell_y0[e];
-        motion->pull[e][0][1] += share * at->ell_d[e];
-        motion->pull[e][1][0] -= share * at->ell_y1[e];
-        motion->pull[e][1][1] -= share * at->ell_d[e];
+        for (size_t a = 0; a < 4; a++) {
+            motion->pull[e][a / 2][a % 2] -= share * at->gradient[a][e];
+        }
     }
     return true;
 }

@@ -32,13 +32,25 @@ static void profile(const void *unused, const double *x, size_t count, double *v
     }
 }
 
+/* generalised arclength with alpha = 1 */
+static void arclength(const struct gm_density *unused, const double *slope, double *values, size_t m)
+{
+    (void)unused;
+    for (size_t i = 0; i < m; i++) {
+        values[GM_P * m + i] = 1 + slope[i] * slope[i];
+        values[GM_P_S * m + i] = 2 * slope[i];
+        values[GM_P_SS * m + i] = 2;
+    }
+}
+
 static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 {
+    static const struct gm_density density = {.values = arclength};
     *mesh = (struct gm_mesh){.points = problem->n / 4,
                              .length = length,
                              .right = 2 * M_PI,
+                             .density = &density,
                              .potential = &gm_potential_sine_gordon};
-    gm_mesh_weigh(mesh, GM_ARCLENGTH, 1, 2 * lorentz(), 4 * lorentz() * lorentz());
 }
 
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points)
