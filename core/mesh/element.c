@@ -166,11 +166,10 @@ static void constrain_locally(struct gm_elements *stage)
     }
 }
 
-void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh)
+/* The values at the other end lie `far` behind those at one: a constant 0 if they are the same. */
+static inline void constrain(struct gm_elements *stage, size_t far)
 {
-    weigh(stage, mesh);
-    /* the other end, if the values there differ */
-    const size_t count = stage->count, far = mesh->density->local ? count : 0, m = count + far;
+    const size_t count = stage->count, m = count + far;
     const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
     const double *restrict slope = stage->slope, *restrict P = stage->density;
     double *restrict ell = stage->ell, *restrict rate = stage->rate;
@@ -194,8 +193,16 @@ void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh
         bend_y0[e] = -bend_y1[e];
         bend_x0[e] = -bend_x1[e];
     }
-    if (far > 0) {
+}
+
+void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh)
+{
+    weigh(stage, mesh);
+    if (mesh->density->local) {
+        constrain(stage, stage->count);
         constrain_locally(stage);
+    } else {
+        constrain(stage, 0);
     }
 }
 

@@ -53,6 +53,9 @@ void gm_elements_close(struct gm_elements *stage);
 /* Fills the nodes from a canonical state. */
 void gm_elements_place(struct gm_elements *stage, const double *state);
 
+/* Sets the places and velocities of the nodes at time t on a mesh that is uniform or known; else nothing. */
+void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage);
+
 /* Computes geometry, forces and momenta from the nodes. Returns false if a width is not positive (the mesh
    is tangled) or a value is not finite; the rest is void then. */
 bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh);

@@ -55,12 +55,22 @@ struct gm_density {
     void (*values)(const struct gm_density *density, const double *at, double *values, size_t m);
 };
 
+/* A mesh that is known: at time t the nodes with these labels, which have equal distances, are at x with the
+   velocity `rate`. */
+struct gm_mesh_map {
+    void (*places)(const struct gm_mesh_map *map, const double *label, size_t count, double t, double *x,
+                   double *rate);
+};
+
 struct gm_mesh {
     size_t points;
     double first, length; /* left end and length */
     double left, right;   /* the field at both ends */
     double even;          /* the homotopy of the start has (1 - even) P + even instead of P; else 0 */
     const struct gm_density *density;
+    double relax;                  /* T of a mesh that is smoothed in time; 0: it is not */
+    double t;                      /* the time of states that are started or carried */
+    const struct gm_mesh_map *map; /* NULL: nodes are at their labels */
     const struct gm_potential *potential;
 };
 
@@ -84,10 +94,14 @@ static inline const struct gm_moving_mesh *gm_moving_mesh_of(const struct gm_pro
     return problem->facets;
 }
 
-enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
+/* The mesh is uniform, known, equidistributes a density, or may be any; the last two start alike. */
+enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_GIVEN, GM_MESH_MOVING, GM_MESH_FREE };
 
 /* The kind of mesh that a scheme of the mesh families works on. */
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme);
+
+/* True if a scheme of the mesh families has a form that is smoothed in time. */
+bool gm_scheme_relaxes(const struct gm_scheme *scheme);
 
 /* Writes the canonical state of a profile on a mesh of that kind: nodes by continuation from the uniform
    mesh, velocities consistent with the constraint (their section 5.2). Returns false if no mesh was found,

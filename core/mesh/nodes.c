@@ -192,6 +192,11 @@ bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix,
         gm_elements_mass(stage, e, mass);
         gm_elements_gradient(stage, e, gradient);
         gm_nodes_add(&assembly, momenta, velocities, mass);
+        for (size_t side = 0; unknowns == 1 && side < 2; side++) {
+            if (e + side > 0 && e + side <= points) {
+                motion[e + side - 1] -= mass[2 * side][1] * stage->v[e] + mass[2 * side][3] * stage->v[e + 1];
+            }
+        }
         if (unknowns > 1) {
             gm_nodes_add_row(&assembly, unknowns - 1, velocities, gradient);
         }

@@ -29,6 +29,9 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const struct gm_system_lane *lane = parameters;
     struct gm_mesh mesh;
     moving->describe(problem, &mesh);
+    if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
+        return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
+    }
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
         return true;
     }

@@ -2,6 +2,7 @@
 /* The formulas of a mesh equation: their names, and the derivatives that elements need of them. */
 #include "core/mesh/user/formulas.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -235,4 +236,79 @@ void gm_user_density_close(struct gm_user_density *density)
 {
     gm_tape_close(&density->tape);
     gm_tape_close(&density->itself);
+}
+
+enum { LABEL, TIME, OF_MAP, ROOM = 128 };
+
+static void places(const struct gm_mesh_map *map, const double *label, size_t count, double t, double *x,
+                   double *rate)
+{
+    double at[OF_MAP * ROOM], made[2 * ROOM];
+    for (size_t from = 0, some; from < count; from += some) {
+        some = count - from < ROOM ? count - from : ROOM;
+        for (size_t i = 0; i < some; i++) {
+            at[LABEL * some + i] = label[from + i];
+            at[TIME * some + i] = t;
+        }
+        gm_tape_values(&((const struct gm_user_map *)map)->tape, at, made, some);
+        memcpy(x + from, made, some * sizeof *x);
+        memcpy(rate + from, made + some, some * sizeof *rate);
+    }
+}
+
+bool gm_user_map_open(struct gm_user_map *map, struct gm_mesh_names *names, const char *text, char *sentence,
+                      size_t size)
+{
+    const struct gm_user_system *system = names->wave->system;
+    *map = (struct gm_user_map){.map.places = places};
+    names->word = GM_WORD_MESH;
+    names->weighs = false;
+    names->inputs[LABEL] = system->velocities;
+    names->inputs[TIME] = system->n;
+    names->words[LABEL] = "x";
+    names->words[TIME] = "t";
+    names->input_count = OF_MAP;
+    const size_t named = strspn(text, " "),
+                 equals = named + 1 + strspn(text + named + (text[named] != 0), " ");
+    if (text[named] != 'X' || text[equals] != '=') {
+        return refuse(names, text, 0,
+                      "it is X = and a formula in x and t, as in X = x + 0.1*sin(pi*x)*sin(t)", sentence,
+                      size);
+    }
+    struct gm_formula graph;
+    gm_formula_open(&graph);
+    gm_node_id node, by[OF_MAP];
+    bool good = gm_mesh_formula_read(names, text + equals + 1, &graph, &node, sentence, size) &&
+                gm_gradient(&graph, node, NULL, OF_MAP, by);
+    if (good) {
+        const gm_node_id nodes[] = {node, by[TIME]};
+        good = gm_tape_open(&map->tape, &graph, nodes, GM_COUNT(nodes), OF_MAP, NULL) && !graph.failed;
+    }
+    gm_formula_close(&graph);
+    return good;
+}
+
+bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
+                       size_t size)
+{
+    enum { CELLS = 256 };
+    double label[CELLS + 1], x[CELLS + 1], rate[CELLS + 1];
+    for (size_t i = 0; i <= CELLS; i++) {
+        label[i] = mesh->first + mesh->length * (double)i / CELLS;
+    }
+    map->map.places(&map->map, label, CELLS + 1, t, x, rate);
+    for (size_t i = 0; i <= CELLS; i += CELLS) {
+        if (!(fabs(x[i] - label[i]) <= 1e-9 * mesh->length)) {
+            snprintf(sentence, size, "mesh: X is %.6g at the end x = %.6g at t = %.6g, and has to stay there",
+                     x[i], label[i], t);
+            return false;
+        }
+    }
+    for (size_t i = 0; i < CELLS; i++) {
+        if (!(x[i + 1] > x[i])) {
+            snprintf(sentence, size, "mesh: X does not grow with x at x = %.6g, t = %.6g", label[i], t);
+            return false;
+        }
+    }
+    return true;
 }

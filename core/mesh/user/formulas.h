@@ -41,6 +41,18 @@ struct gm_user_density {
 extern const char *const gm_user_densities[];
 const char *gm_user_density_formula(const char *text);
 
+/* A known mesh as a formula. */
+struct gm_user_map {
+    struct gm_mesh_map map; /* first */
+    struct gm_tape tape;    /* of x and t: the place and its rate */
+};
+/* Opens the mesh of a text X = F; false as gm_user_density_open. */
+bool gm_user_map_open(struct gm_user_map *map, struct gm_mesh_names *names, const char *text, char *sentence,
+                      size_t size);
+/* False with a sentence if it moves an end of the mesh at time t, or does not grow with x. */
+bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
+                       size_t size);
+
 /* Opens the density of a text; false with a sentence, which is empty when out of memory. To be closed in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, struct gm_mesh_names *names, const char *text,
                           char *sentence, size_t size);

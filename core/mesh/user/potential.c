@@ -25,6 +25,8 @@ struct own {
     struct gm_mesh mesh;
     struct gm_mesh_names names;
     struct gm_user_density density;
+    struct gm_user_map map;
+    double until;
     char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
@@ -197,8 +199,9 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
 /* Reads the formulas of the mesh equation. A bad one is refused later (gm_user_mesh_rests). */
 static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
-    return gm_user_density_open(&self->density, &self->names, chosen->density, self->refused,
-                                sizeof self->refused) ||
+    return (gm_user_density_open(&self->density, &self->names, chosen->density, self->refused,
+                                 sizeof self->refused) &&
+            gm_user_map_open(&self->map, &self->names, chosen->map, self->refused, sizeof self->refused)) ||
            self->refused[0];
 }
 
@@ -244,6 +247,10 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
+    self->mesh.map = &self->map.map;
+    self->mesh.relax = chosen->relax;
+    self->mesh.t = self->line.begin;
+    self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
     return weigh(self, chosen, values) && open_equation(self, chosen);
 }
@@ -257,7 +264,7 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->known};
+        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->known, &self->map.tape};
         gm_user_density_close(&self->density);
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
@@ -276,6 +283,10 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
     double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK];
     if (self->refused[0]) {
         snprintf(sentence, size, "%s", self->refused);
+        return false;
+    }
+    if (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
+        !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size)) {
         return false;
     }
     for (size_t from = 0, some; from < grid.points; from += some) {

@@ -11,6 +11,8 @@ struct gm_user_mesh {
     long points;          /* nodes between the ends */
     double alpha;         /* NaN: the file's, or else one that the start allows for */
     const char *density;  /* a word of gm_user_densities, or a formula */
+    const char *map;      /* X = F, of a known mesh */
+    double relax, until;
 };
 
 /* The number of Gauss points for the mean of V over an element: exact if V is a polynomial of degree 19 or
