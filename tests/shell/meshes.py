@@ -88,14 +88,14 @@ def densities():
         (file_of("key", "density: 1 + x^2"), "density=sqrt(1 + 0.8*u_x^2 + 0.25*u^2)")))
     check(line == key, "a line and a key have the same bits, and the key replaces the line")
     refused("density: there is no name v; did you mean velocity, at column 10 of sqrt(1 + v)", "soliton", "density=sqrt(1 + v)")
-    refused("density: it does not hold u_t, at column 1 of 1 + u_t", "soliton", "density=1 + u_t")
+    refused("density: it does not hold u_t, at column 5 of 1 + u_t", "soliton", "density=1 + u_t")
     refused("density: it has to be smooth, and abs is not, at column 5", "soliton", "density=1 + abs(u_x)")
     refused("density: is -1 at the start where x = 0", "soliton", "density=u_x - 1")
     refused("density: is ", "soliton", "density=1/(x - 12.5)")
     refused("the formula ends where a number", "soliton", "density=sqrt(1 +")
     refused("bad.system:9:10: density: there is no name w, at column 5 of 1 + w", file_of("bad", "density: 1 + w"))
     refused("alpha is a key of moving meshes", file_of("alpha", "parameter: alpha = 1"))
-    refused("steepest has a meaning in density: and is a parameter",
+    refused("steepest has a meaning here, and a parameter of that name needs another one",
             file_of("steepest", "parameter: steepest = 1", "density: limited"))
     refused("density: has at most 255 characters", file_of("long", "density: 1" + " + u^2" * 60))
 

@@ -10,225 +10,198 @@
 #include "core/basics.h"
 #include "core/model/scope.h"
 
-/* A formula while it is read, in variables of the system and new ones. */
+/* A formula while it is read. Its inputs are variables 0, 1 .. of the graph. */
 struct reading {
     const struct gm_mesh_names *names;
-    struct gm_formula *graph;
+    enum gm_system_word word; /* the line */
+    struct gm_formula graph;
+    gm_node_id
+        *of_system; /* the system's variables: inputs, constants, and NaN for what the line does not hold */
+    char *sentence;
+    size_t size;
 };
+
+static bool open_reading(struct reading *reading, const size_t *inputs, size_t count)
+{
+    const struct gm_user_system *system = reading->names->wave->system;
+    gm_formula_open(&reading->graph);
+    reading->sentence[0] = '\0';
+    reading->of_system = malloc(system->variable_count * sizeof *reading->of_system);
+    for (size_t i = 0; reading->of_system && i < system->variable_count; i++) {
+        const bool fixed = i >= system->parameters && i < system->velocities;
+        reading->of_system[i] = gm_formula_constant(&reading->graph, fixed ? reading->names->values[i] : NAN);
+    }
+    for (size_t k = 0; reading->of_system && k < count; k++) {
+        reading->of_system[inputs[k]] = gm_formula_variable(&reading->graph, k);
+    }
+    return reading->of_system != NULL;
+}
+
+static void close_reading(struct reading *reading)
+{
+    gm_formula_close(&reading->graph);
+    free(reading->of_system);
+}
 
 static bool is_called(const struct gm_name *name, const char *text)
 {
-    return strlen(text) == name->length && strncmp(text, name->text, name->length) == 0;
+    return text && !name->indexed && strlen(text) == name->length &&
+           strncmp(text, name->text, name->length) == 0;
 }
 
-/* alpha, steepest, bend and the force V'(u) */
-static bool find_weight(struct reading *reading, const struct gm_name *name, gm_node_id *node)
+/* Returns a formula of the system in the inputs. */
+static gm_node_id taken(struct reading *reading, gm_node_id node)
 {
-    static const char *const words[] = {"alpha", "steepest", "bend", "V_u"};
+    const struct gm_user_system *system = reading->names->wave->system;
+    node = gm_formula_graft(&reading->graph, &system->graph, node, system->variable_count, NULL);
+    reading->graph.failed =
+        reading->graph.failed ||
+        !gm_formula_substitute(&reading->graph, &node, 1, reading->of_system, system->variable_count);
+    return node;
+}
+
+/* Returns what only densities may hold, whatever the field is called; GM_NO_NODE for other names. */
+static gm_node_id find_weight(struct reading *reading, const struct gm_name *name)
+{
+    static const char *const words[] = {"alpha", "steepest", "bend", "u_x", "u", "V_u"};
     const struct gm_mesh_names *names = reading->names;
-    const struct gm_user_wave *wave = names->wave;
     const double values[] = {names->alpha, names->steepest, names->bend};
-    for (size_t i = 0; names->weighs && i < GM_COUNT(words); i++) {
-        if (is_called(name, words[i])) {
-            *node = i < GM_COUNT(values)
-                        ? gm_formula_constant(reading->graph, values[i])
-                        : gm_formula_graft(reading->graph, &wave->system->graph, wave->by_u[0],
-                                           wave->system->variable_count, NULL);
-            return true;
-        }
+    size_t i = 0;
+    while (i < GM_COUNT(words) && !is_called(name, words[i])) {
+        i++;
     }
-    return false;
+    if (reading->word != GM_WORD_DENSITY || i == GM_COUNT(words)) {
+        return GM_NO_NODE;
+    }
+    return i < 3   ? gm_formula_constant(&reading->graph, values[i])
+           : i < 5 ? gm_formula_variable(&reading->graph, i - 3)
+                   : taken(reading, names->wave->by_u[0]);
 }
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct reading *reading = data;
-    const struct gm_mesh_names *names = reading->names;
-    const struct gm_user_system *system = names->wave->system;
-    *node = GM_NO_NODE;
-    for (size_t i = 0; i < names->input_count && !name->indexed && *node == GM_NO_NODE; i++) {
-        if (is_called(name, names->words[i])) {
-            *node = gm_formula_variable(reading->graph, names->inputs[i]);
+    const struct gm_user_system *system = reading->names->wave->system;
+    const gm_node_id own = find_weight(reading, name);
+    for (size_t i = 0; i < system->variable_count; i++) {
+        if (!is_called(name, system->variables[i].name)) {
+            continue;
         }
-    }
-    const bool own = *node != GM_NO_NODE || (!name->indexed && find_weight(reading, name, node));
-    for (size_t i = 0; i < system->variable_count && !name->indexed; i++) {
-        if (system->variables[i].name && is_called(name, system->variables[i].name)) {
-            if (own && i >= system->parameters && i < system->velocities) {
-                snprintf(
-                    sentence, GM_FAULT_SENTENCE,
-                    "%.*s has a meaning in %s: and is a parameter of the file too, which needs another name",
-                    (int)name->length, name->text, gm_system_words[names->word].word);
-                return GM_REFUSED;
-            }
-            *node = own ? *node : gm_formula_variable(reading->graph, i);
-            return GM_KNOWN;
+        *node = own != GM_NO_NODE ? own : reading->of_system[i];
+        const bool foreign = isnan(reading->graph.nodes[*node].value) &&
+                             reading->graph.nodes[*node].operation == GM_CONSTANT,
+                   twice = own != GM_NO_NODE && i >= system->parameters && i < system->velocities;
+        if (foreign || twice) {
+            snprintf(sentence, GM_FAULT_SENTENCE,
+                     foreign ? "it does not hold %.*s"
+                             : "%.*s has a meaning here, and a parameter of that name needs another one",
+                     (int)name->length, name->text);
         }
+        return foreign || twice ? GM_REFUSED : GM_KNOWN;
     }
     const struct gm_system_item *item;
-    for (size_t i = 0; !own && !name->indexed && (item = gm_system_item_of(system, GM_WORD_LET, i)); i++) {
-        if (is_called(name, item->name)) {
-            *node = gm_formula_graft(reading->graph, &system->graph, item->nodes[0], system->variable_count,
-                                     NULL);
-            return GM_KNOWN;
-        }
+    *node = own;
+    for (size_t i = 0; *node == GM_NO_NODE && (item = gm_system_item_of(system, GM_WORD_LET, i)); i++) {
+        *node = is_called(name, item->name) ? taken(reading, item->nodes[0]) : GM_NO_NODE;
     }
-    return own ? GM_KNOWN : GM_UNKNOWN;
+    return *node == GM_NO_NODE ? GM_UNKNOWN : GM_KNOWN;
 }
 
 static const char *known(size_t i, const void *data)
 {
-    const struct gm_mesh_names *names = ((const struct reading *)data)->names;
-    const struct gm_user_system *system = names->wave->system;
-    if (i < names->input_count) {
-        return names->words[i];
-    }
-    i -= names->input_count;
-    return i < system->velocities - system->parameters ? system->variables[system->parameters + i].name
-                                                       : NULL;
+    const struct gm_user_system *system = ((const struct reading *)data)->names->wave->system;
+    return i < system->velocities ? system->variables[i].name : NULL;
 }
 
 /* Writes a sentence about byte `offset` of the text. Returns false. */
-static bool refuse(const struct gm_mesh_names *names, const char *text, size_t offset, const char *about,
-                   char *sentence, size_t size)
+static bool refuse(const struct reading *reading, const char *text, size_t offset, const char *about)
 {
     size_t line, column;
     gm_text_place(text, offset, &line, &column);
-    snprintf(sentence, size, "%s: %s, at column %zu of %s", gm_system_words[names->word].word, about, column,
-             text);
+    snprintf(reading->sentence, reading->size, "%s: %s, at column %zu of %s",
+             gm_system_words[reading->word].word, about, column, text);
     return false;
 }
 
-bool gm_mesh_formula_read(const struct gm_mesh_names *names, const char *text, struct gm_formula *graph,
-                          gm_node_id *node, char *sentence, size_t size)
+static bool read_formula(struct reading *reading, const char *text, gm_node_id *node)
 {
-    const struct gm_user_system *system = names->wave->system;
-    struct reading reading = {names, graph};
-    const struct gm_scope scope = {.find = find, .known = known, .data = &reading};
+    const struct gm_scope scope = {.find = find, .known = known, .data = reading};
     struct gm_fault fault = {0};
-    sentence[0] = '\0';
-    if (!gm_formula_read(graph, text, 0, strlen(text), &scope, node, &fault)) {
-        return fault.sentence[0] ? refuse(names, text, fault.offset, fault.sentence, sentence, size) : false;
-    }
-    const size_t count = system->variable_count + GM_MOST_MESH_INPUTS;
-    gm_node_id *others = malloc(count * sizeof *others);
-    size_t part_count = 0, foreign = count;
-    for (size_t i = 0; others && i < count; i++) {
-        others[i] = i >= system->parameters && i < system->velocities
-                        ? gm_formula_constant(graph, names->values[i])
-                        : GM_NO_NODE;
-    }
-    for (size_t k = 0; others && k < names->input_count; k++) {
-        others[names->inputs[k]] = gm_formula_variable(graph, k);
-    }
-    gm_node_id *parts = others ? gm_formula_parts(graph, *node, &part_count) : NULL;
-    for (size_t k = 0; parts && k < part_count; k++) {
-        const struct gm_node *part = &graph->nodes[parts[k]];
-        foreign = part->operation == GM_VARIABLE && others[part->a] == GM_NO_NODE ? part->a : foreign;
-    }
-    bool good = parts && !graph->failed;
-    if (good && foreign < system->variable_count) {
-        char about[GM_FAULT_SENTENCE];
-        snprintf(about, sizeof about, "it does not hold %.60s", system->variables[foreign].name);
-        good = refuse(names, text, 0, about, sentence, size);
-    }
-    good = good && gm_formula_substitute(graph, node, 1, others, count);
-    free(parts);
-    free(others);
-    return good;
-}
-
-bool gm_mesh_formula_is_smooth(const struct gm_mesh_names *names, const char *text, struct gm_formula *graph,
-                               gm_node_id node, size_t smooth, char *sentence, size_t size)
-{
-    bool marked[GM_MOST_MESH_INPUTS] = {false};
-    for (size_t k = 0; k < smooth; k++) {
-        marked[k] = true;
-    }
-    const gm_node_id kink = gm_formula_kink(graph, node, marked, smooth);
-    if (graph->failed || kink == GM_NO_NODE) {
-        return !graph->failed;
-    }
-    char about[GM_FAULT_SENTENCE];
-    const uint32_t place = gm_formula_origin(graph, kink);
-    snprintf(about, sizeof about, "it has to be smooth, and %s is not",
-             gm_operation_rows[graph->nodes[kink].operation].name);
-    return refuse(names, text, place == GM_NO_PLACE ? 0 : place, about, sentence, size);
+    return gm_formula_read(&reading->graph, text, 0, strlen(text), &scope, node, &fault) ||
+           (fault.sentence[0] && refuse(reading, text, fault.offset, fault.sentence));
 }
 
 const char *const gm_user_densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
 
-const char *gm_user_density_formula(const char *text)
-{
-    static const char *const formulas[] = {
-        "sqrt(1 + alpha^2*u_x^2)",
-        "sqrt(sqrt(1 + (bend*alpha^2*V_u)^2))",
-        "sqrt(alpha^2*u_x^2/2 + sqrt(1 + (bend*alpha^2*V_u/2)^2))",
-        "sqrt(1 + alpha^2*u_x^2/(1 + (u_x/steepest)^2))",
-        "sqrt(1 + 2*alpha^2*u_x^2/(1 + sqrt(1 + (u_x/steepest)^2)))",
-    };
-    for (size_t i = 0; gm_user_densities[i]; i++) {
-        if (strcmp(gm_user_densities[i], text) == 0) {
-            return formulas[i];
-        }
-    }
-    return text;
-}
+static const char *const formulas[] = {
+    "sqrt(1 + alpha^2*u_x^2)",
+    "sqrt(sqrt(1 + (bend*alpha^2*V_u)^2))",
+    "sqrt(alpha^2*u_x^2/2 + sqrt(1 + (bend*alpha^2*V_u/2)^2))",
+    "sqrt(1 + alpha^2*u_x^2/(1 + (u_x/steepest)^2))",
+    "sqrt(1 + 2*alpha^2*u_x^2/(1 + sqrt(1 + (u_x/steepest)^2)))",
+};
 
 static void values(const struct gm_density *density, const double *at, double *values, size_t m)
 {
     gm_tape_values(&((const struct gm_user_density *)density)->tape, at, values, m);
 }
 
-bool gm_user_density_open(struct gm_user_density *density, struct gm_mesh_names *names, const char *text,
-                          char *sentence, size_t size)
+/* P = rho^2 with its derivatives, and rho. A corner would end Newton's method. */
+static bool derive_density(struct reading *reading, const char *text, struct gm_user_density *density)
 {
     enum { SLOPE, FIELD, PLACE, INPUTS };
-    const struct gm_user_system *system = names->wave->system;
+    static const bool at_end[INPUTS] = {[FIELD] = true, [PLACE] = true},
+                      smooth[INPUTS] = {[SLOPE] = true, [FIELD] = true};
+    struct gm_formula *graph = &reading->graph;
+    gm_node_id rho, by[INPUTS], of[INPUTS][INPUTS];
+    if (!read_formula(reading, text, &rho)) {
+        return false;
+    }
+    const gm_node_id kink = gm_formula_kink(graph, rho, smooth, INPUTS), p = gm_product(graph, rho, rho);
+    if (kink != GM_NO_NODE) {
+        const uint32_t place = gm_formula_origin(graph, kink);
+        char about[GM_FAULT_SENTENCE];
+        snprintf(about, sizeof about, "it has to be smooth, and %s is not",
+                 gm_operation_rows[graph->nodes[kink].operation].name);
+        return refuse(reading, text, place == GM_NO_PLACE ? 0 : place, about);
+    }
+    bool good = !graph->failed && gm_gradient(graph, p, NULL, INPUTS, by);
+    for (size_t i = 0; good && i < INPUTS; i++) {
+        good = gm_gradient(graph, by[i], NULL, INPUTS, of[i]);
+    }
+    if (!good) {
+        return false;
+    }
+    const gm_node_id nodes[GM_DENSITY_VALUES] = {
+        [GM_P] = p,
+        [GM_P_S] = by[SLOPE],
+        [GM_P_SS] = of[SLOPE][SLOPE],
+        [GM_P_U] = by[FIELD],
+        [GM_P_X] = by[PLACE],
+        [GM_P_SU] = of[SLOPE][FIELD],
+        [GM_P_SX] = of[SLOPE][PLACE],
+        [GM_P_UU] = of[FIELD][FIELD],
+        [GM_P_UX] = of[FIELD][PLACE],
+        [GM_P_XX] = of[PLACE][PLACE],
+    };
+    const bool local = density->density.local = gm_formula_holds(graph, p, at_end, INPUTS);
+    return gm_tape_open(&density->tape, graph, nodes, local ? GM_DENSITY_VALUES : GM_DENSITY_OF_SLOPE,
+                        local ? INPUTS : 1, NULL) &&
+           gm_tape_open(&density->itself, graph, &rho, 1, INPUTS, NULL) && !graph->failed;
+}
+
+bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
+                          const char *text, char *sentence, size_t size)
+{
+    const size_t x = names->wave->system->velocities, inputs[] = {x + 1, 0, x};
+    struct reading reading = {.names = names, .word = GM_WORD_DENSITY, .sentence = sentence, .size = size};
     *density = (struct gm_user_density){.density.values = values};
-    names->word = GM_WORD_DENSITY;
-    names->weighs = true;
-    names->inputs[SLOPE] = system->velocities + 1;
-    names->inputs[FIELD] = 0;
-    names->inputs[PLACE] = system->velocities;
-    names->words[SLOPE] = "u_x";
-    names->words[FIELD] = "u";
-    names->words[PLACE] = "x";
-    names->input_count = INPUTS;
-    struct gm_formula graph;
-    gm_formula_open(&graph);
-    const char *formula = gm_user_density_formula(text);
-    gm_node_id rho, by[INPUTS], of[INPUTS][INPUTS], p;
-    static const bool at_end[INPUTS] = {[FIELD] = true, [PLACE] = true};
-    bool good = gm_mesh_formula_read(names, formula, &graph, &rho, sentence, size) &&
-                gm_mesh_formula_is_smooth(names, formula, &graph, rho, PLACE, sentence, size);
-    if (good) {
-        p = gm_product(&graph, rho, rho);
-        good = gm_gradient(&graph, p, NULL, INPUTS, by);
-        for (size_t i = 0; good && i < INPUTS; i++) {
-            good = gm_gradient(&graph, by[i], NULL, INPUTS, of[i]);
-        }
+    for (size_t i = 0; gm_user_densities[i]; i++) {
+        text = strcmp(gm_user_densities[i], text) == 0 ? formulas[i] : text;
     }
-    if (good) {
-        const gm_node_id nodes[GM_DENSITY_VALUES] = {
-            [GM_P] = p,
-            [GM_P_S] = by[SLOPE],
-            [GM_P_SS] = of[SLOPE][SLOPE],
-            [GM_P_U] = by[FIELD],
-            [GM_P_X] = by[PLACE],
-            [GM_P_SU] = of[SLOPE][FIELD],
-            [GM_P_SX] = of[SLOPE][PLACE],
-            [GM_P_UU] = of[FIELD][FIELD],
-            [GM_P_UX] = of[FIELD][PLACE],
-            [GM_P_XX] = of[PLACE][PLACE],
-        };
-        density->density.local = gm_formula_holds(&graph, p, at_end, INPUTS);
-        good = gm_tape_open(&density->tape, &graph, nodes,
-                            density->density.local ? GM_DENSITY_VALUES : GM_DENSITY_OF_SLOPE,
-                            density->density.local ? INPUTS : 1, NULL) &&
-               gm_tape_open(&density->itself, &graph, &rho, 1, INPUTS, NULL) && !graph.failed;
-    }
-    gm_formula_close(&graph);
+    const bool good =
+        open_reading(&reading, inputs, GM_COUNT(inputs)) && derive_density(&reading, text, density);
+    close_reading(&reading);
     return good;
 }
 
@@ -256,35 +229,34 @@ static void places(const struct gm_mesh_map *map, const double *label, size_t co
     }
 }
 
-bool gm_user_map_open(struct gm_user_map *map, struct gm_mesh_names *names, const char *text, char *sentence,
-                      size_t size)
+/* X = F, and dF/dt */
+static bool derive_map(struct reading *reading, const char *text, struct gm_user_map *map)
+{
+    const size_t word = strspn(text, " "),
+                 equals = text[word] ? word + 1 + strspn(text + word + 1, " ") : word;
+    gm_node_id nodes[2], by[OF_MAP];
+    if (text[word] != 'X' || text[equals] != '=') {
+        return refuse(reading, text, 0,
+                      "it is X = and a formula in x and t, as in X = x + 0.1*sin(pi*x)*sin(t)");
+    }
+    if (!read_formula(reading, text + equals + 1, &nodes[0]) ||
+        !gm_gradient(&reading->graph, nodes[0], NULL, OF_MAP, by)) {
+        return false;
+    }
+    nodes[1] = by[TIME];
+    return gm_tape_open(&map->tape, &reading->graph, nodes, GM_COUNT(nodes), OF_MAP, NULL) &&
+           !reading->graph.failed;
+}
+
+bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
+                      char *sentence, size_t size)
 {
     const struct gm_user_system *system = names->wave->system;
+    const size_t inputs[OF_MAP] = {[LABEL] = system->velocities, [TIME] = system->n};
+    struct reading reading = {.names = names, .word = GM_WORD_MESH, .sentence = sentence, .size = size};
     *map = (struct gm_user_map){.map.places = places};
-    names->word = GM_WORD_MESH;
-    names->weighs = false;
-    names->inputs[LABEL] = system->velocities;
-    names->inputs[TIME] = system->n;
-    names->words[LABEL] = "x";
-    names->words[TIME] = "t";
-    names->input_count = OF_MAP;
-    const size_t named = strspn(text, " "),
-                 equals = named + 1 + strspn(text + named + (text[named] != 0), " ");
-    if (text[named] != 'X' || text[equals] != '=') {
-        return refuse(names, text, 0,
-                      "it is X = and a formula in x and t, as in X = x + 0.1*sin(pi*x)*sin(t)", sentence,
-                      size);
-    }
-    struct gm_formula graph;
-    gm_formula_open(&graph);
-    gm_node_id node, by[OF_MAP];
-    bool good = gm_mesh_formula_read(names, text + equals + 1, &graph, &node, sentence, size) &&
-                gm_gradient(&graph, node, NULL, OF_MAP, by);
-    if (good) {
-        const gm_node_id nodes[] = {node, by[TIME]};
-        good = gm_tape_open(&map->tape, &graph, nodes, GM_COUNT(nodes), OF_MAP, NULL) && !graph.failed;
-    }
-    gm_formula_close(&graph);
+    const bool good = open_reading(&reading, inputs, OF_MAP) && derive_map(&reading, text, map);
+    close_reading(&reading);
     return good;
 }
 
