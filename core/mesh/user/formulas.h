@@ -8,8 +8,8 @@
 #include "core/model/potential.h"
 #include "core/tape.h"
 
-/* What the names of formulas mean: the system, values of its variables, of which the parameters are used, and of the
-   names alpha, steepest and bend. */
+/* Meanings of names in formulas: the system, values of its variables, of which the parameters are used, and of alpha,
+   steepest and bend. */
 struct gm_mesh_names {
     const struct gm_user_wave *wave;
     const double *values;

@@ -201,7 +201,8 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
     return (gm_user_density_open(&self->density, &self->names, chosen->density, self->refused,
                                  sizeof self->refused) &&
-            gm_user_map_open(&self->map, &self->names, chosen->map, self->refused, sizeof self->refused)) ||
+            (!chosen->map ||
+             gm_user_map_open(&self->map, &self->names, chosen->map, self->refused, sizeof self->refused))) ||
            self->refused[0];
 }
 
@@ -247,7 +248,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
-    self->mesh.map = &self->map.map;
+    self->mesh.map = chosen->map ? &self->map.map : NULL;
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
@@ -285,8 +286,8 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
         snprintf(sentence, size, "%s", self->refused);
         return false;
     }
-    if (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
-        !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size)) {
+    if (self->mesh.map && (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
+                           !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
         return false;
     }
     for (size_t from = 0, some; from < grid.points; from += some) {

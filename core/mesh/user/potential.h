@@ -11,7 +11,7 @@ struct gm_user_mesh {
     long points;          /* nodes between the ends */
     double alpha;         /* NaN: the file's, or else one that the start allows for */
     const char *density;  /* a word of gm_user_densities, or a formula */
-    const char *map;      /* X = F, of a known mesh */
+    const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
     double relax, until;
 };
 
