@@ -13,18 +13,25 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
         &stage->y,           &stage->x,        &stage->u,        &stage->v,       &stage->middle,
         &stage->rise,        &stage->width,    &stage->slope,    &stage->w,       &stage->w_m,
         &stage->w_r,         &stage->force_y0, &stage->force_y1, &stage->force_d, &stage->momentum_u0,
-        &stage->momentum_u1, &stage->ell,      &stage->ell_y0,   &stage->ell_y1,  &stage->ell_d,
-        &stage->rate,        &stage->bend_y0,  &stage->bend_y1,  &stage->bend_d,
+        &stage->momentum_u1, &stage->ell,      &stage->rate,
     };
+    /* of the gradient, of bend, and of a density at all ends */
+    const size_t of_density = mesh->density && mesh->density->local ? 2 * (3 + GM_DENSITY_VALUES) : 0;
     const size_t count = GM_COUNT(arrays), length = mesh->points + 2;
     *stage = (struct gm_elements){.count = mesh->points + 1};
-    stage->memory = calloc(count * length, sizeof *stage->memory);
+    stage->memory = calloc((count + 8 + GM_DENSITY_OF_SLOPE + of_density) * length, sizeof *stage->memory);
     if (!stage->memory) {
         return false;
     }
     for (size_t i = 0; i < count; i++) {
         *arrays[i] = stage->memory + i * length;
     }
+    for (size_t a = 0; a < 4; a++) {
+        stage->gradient[a] = stage->memory + (count + a) * length;
+        stage->bend[a] = stage->memory + (count + 4 + a) * length;
+    }
+    stage->density = stage->memory + (count + 8) * length;
+    stage->ends = of_density ? stage->density + 2 * GM_DENSITY_VALUES * length : NULL;
     stage->y[0] = mesh->left;
     stage->y[length - 1] = mesh->right;
     stage->x[0] = mesh->first;
@@ -99,137 +106,103 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
     return isfinite(sum);
 }
 
-/* q = sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2) with its derivatives by y0 and y1. */
-struct bending {
-    double q, by[2], twice[2][2];
+/* Evaluates the density, or what the homotopy has in its place. */
+static void weigh(struct gm_elements *stage, const struct gm_mesh *mesh)
+{
+    const struct gm_density *density = mesh->density;
+    const size_t count = stage->count, size = count * sizeof(double), m = density->local ? 2 * count : count,
+                 values = (density->local ? GM_DENSITY_VALUES : GM_DENSITY_OF_SLOPE) * m;
+    const double *const at_ends[] = {stage->slope, stage->slope, stage->y,
+                                     stage->y + 1, stage->x,     stage->x + 1};
+    for (size_t i = 0; density->local && i < GM_COUNT(at_ends); i++) {
+        memcpy(stage->ends + i * count, at_ends[i], size);
+    }
+    density->values(density, density->local ? stage->ends : stage->slope, stage->density, m);
+    for (size_t i = 0; mesh->even > 0 && i < values; i++) {
+        stage->density[i] = (1 - mesh->even) * stage->density[i] + (i < m ? mesh->even : 0);
+    }
+}
+
+/* The parts of the derivatives of ell that one end has alone: by (y, X) there, by these and r or d, and twice
+   by these. */
+struct end {
+    double by[2], by_r[2], by_d[2], twice[2][2];
 };
 
-static struct bending bending(const struct gm_mesh *mesh, const double y[2])
+static inline struct end end_of(const struct gm_elements *stage, size_t e, size_t side)
 {
-    const double square = mesh->curvature * mesh->curvature;
-    double sum = 1, slope[2], bend[2];
-    for (size_t i = 0; i < 2; i++) {
-        double f[3];
-        mesh->potential->force(mesh->potential, y[i], f);
-        sum += square * f[0] * f[0] / 2;
-        slope[i] = square * f[0] * f[1];
-        bend[i] = square * (f[1] * f[1] + f[0] * f[2]);
-    }
-    struct bending made = {.q = sqrt(sum)};
-    for (size_t i = 0; i < 2; i++) {
-        made.by[i] = slope[i] / (2 * made.q);
-    }
-    for (size_t i = 0; i < 2; i++) {
-        for (size_t k = 0; k < 2; k++) {
-            made.twice[i][k] = (i == k ? bend[i] / (2 * made.q) : 0) - made.by[i] * made.by[k] / made.q;
+    const size_t count = 2 * stage->count;
+    const double *P = stage->density + side * stage->count + e;
+    const double d = stage->width[e], half = d * d / 2, g = stage->slope[e] / 2;
+    const double s[2] = {P[GM_P_SU * count], P[GM_P_SX * count]};
+    return (struct end){
+        .by = {half * P[GM_P_U * count], half * P[GM_P_X * count]},
+        .by_r = {d / 2 * s[0], d / 2 * s[1]},
+        .by_d = {d * (P[GM_P_U * count] - g * s[0]), d * (P[GM_P_X * count] - g * s[1])},
+        .twice = {{half * P[GM_P_UU * count], half * P[GM_P_UX * count]},
+                  {half * P[GM_P_UX * count], half * P[GM_P_XX * count]}},
+    };
+}
+
+static void constrain_locally(struct gm_elements *stage)
+{
+    const double *velocity[2] = {stage->u, stage->v};
+    for (size_t e = 0; e < stage->count; e++) {
+        const double r_rate = stage->u[e + 1] - stage->u[e], d_rate = stage->v[e + 1] - stage->v[e];
+        for (size_t side = 0; side < 2; side++) {
+            const struct end end = end_of(stage, e, side);
+            const double w[2] = {velocity[0][e + side], velocity[1][e + side]};
+            const double along[2] = {end.by_r[0] * w[0] + end.by_r[1] * w[1],
+                                     end.by_d[0] * w[0] + end.by_d[1] * w[1]};
+            for (size_t c = 0; c < 2; c++) {
+                stage->gradient[2 * side + c][e] += end.by[c];
+                stage->rate[e] += end.by[c] * w[c];
+                stage->bend[2 * side + c][e] += end.by_r[c] * r_rate + end.by_d[c] * d_rate +
+                                                end.twice[c][0] * w[0] + end.twice[c][1] * w[1];
+                stage->bend[c][e] -= along[c];
+                stage->bend[2 + c][e] += along[c];
+            }
         }
     }
-    return made;
 }
 
-/* alpha^2 R with its derivatives by r and d. */
-struct reach {
-    double value, by_r, by_d, rr, rd, dd;
-};
-
-static struct reach limited(double square, double limit, double r, double d)
+/* The values at the other end lie `far` behind those at one: a constant 0 if they are the same. */
+static inline void constrain(struct gm_elements *stage, size_t far)
 {
-    /* s = d^2 + r^2 / steepest^2 */
-    const double r2 = r * r, d2 = d * d, s = d2 + limit * r2;
-    const double front = 2 * square / (s * s), last = front / s;
-    return (struct reach){
-        .value = square * r2 * d2 / s,
-        .by_r = front * r * d2 * d2,
-        .by_d = front * limit * d * r2 * r2,
-        .rr = last * d2 * d2 * (d2 - 3 * limit * r2),
-        .rd = 4 * last * limit * r2 * r * d2 * d,
-        .dd = last * limit * r2 * r2 * (limit * r2 - 3 * d2),
-    };
-}
-
-static struct reach tempered(double square, double limit, double r, double d)
-{
-    const double r2 = r * r, d2 = d * d, q = sqrt(1 + limit * r2 / d2), q3 = q * q * q;
-    const double deep = limit * r2 * r2 / (d2 * (q + 1) * (q + 1));
-    return (struct reach){
-        .value = 2 * square * r2 / (q + 1),
-        .by_r = 2 * square * r / q,
-        .by_d = 2 * square * deep / (d * q),
-        .rr = 2 * square / q3,
-        .rd = 2 * square * limit * r2 * r / (d2 * d * q3),
-        .dd = -2 * square * deep * (2 * q + 1) / (d2 * q3),
-    };
-}
-
-static struct reach reach(const struct gm_mesh *mesh, double r, double d)
-{
-    const double square = mesh->alpha * mesh->alpha;
-    if (mesh->reach == GM_REACH_FULL) {
-        return (struct reach){.value = square * r * r, .by_r = 2 * square * r, .rr = 2 * square};
-    }
-    const double limit = 1 / (mesh->steepest * mesh->steepest);
-    return mesh->reach == GM_REACH_LIMITED ? limited(square, limit, r, d) : tempered(square, limit, r, d);
-}
-
-/* Subtracts the regularisation from the part of ell that grows with the rise. */
-static void regularise(struct gm_elements *stage, const struct gm_mesh *mesh)
-{
-    const double square = mesh->alpha * mesh->alpha;
-    const double *u = stage->u, *v = stage->v;
-    for (size_t e = 0; e < stage->count; e++) {
-        const double d = stage->width[e], r = stage->rise[e], r_rate = u[e + 1] - u[e],
-                     d_rate = v[e + 1] - v[e];
-        const struct reach at = reach(mesh, r, d);
-        const double by_r = at.by_r - 2 * square * r, rr = at.rr - 2 * square;
-        stage->ell[e] += at.value - square * r * r;
-        stage->ell_y1[e] += by_r;
-        stage->ell_y0[e] -= by_r;
-        stage->ell_d[e] += at.by_d;
-        stage->rate[e] += by_r * r_rate + at.by_d * d_rate;
-        stage->bend_y1[e] += rr * r_rate + at.rd * d_rate;
-        stage->bend_y0[e] -= rr * r_rate + at.rd * d_rate;
-        stage->bend_d[e] += at.rd * r_rate + at.dd * d_rate;
+    const size_t count = stage->count, m = count + far;
+    const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
+    const double *restrict slope = stage->slope, *restrict P = stage->density;
+    double *restrict ell = stage->ell, *restrict rate = stage->rate;
+    double *restrict by_y0 = stage->gradient[0], *restrict by_x0 = stage->gradient[1];
+    double *restrict by_y1 = stage->gradient[2], *restrict by_x1 = stage->gradient[3];
+    double *restrict bend_y0 = stage->bend[0], *restrict bend_x0 = stage->bend[1];
+    double *restrict bend_y1 = stage->bend[2], *restrict bend_x1 = stage->bend[3];
+    for (size_t e = 0; e < count; e++) {
+        const double d = width[e], g = slope[e], r_rate = u[e + 1] - u[e], d_rate = v[e + 1] - v[e];
+        const double sum = P[e] + P[far + e], s = (P[m + e] + P[m + far + e]) / 2,
+                     rr = (P[2 * m + e] + P[2 * m + far + e]) / 2;
+        const double rd = s - g * rr, dd = sum - g * (s + rd), by_r = d * s, by_d = d * (sum - g * s);
+        ell[e] = d * d * (sum / 2);
+        by_y0[e] = -by_r;
+        by_x0[e] = -by_d;
+        by_y1[e] = by_r;
+        by_x1[e] = by_d;
+        rate[e] = by_r * r_rate + by_d * d_rate;
+        bend_y1[e] = rr * r_rate + rd * d_rate;
+        bend_x1[e] = rd * r_rate + dd * d_rate;
+        bend_y0[e] = -bend_y1[e];
+        bend_x0[e] = -bend_x1[e];
     }
 }
 
 void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
-    const size_t count = stage->count;
-    const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
-    const double *restrict rise = stage->rise;
-    double *restrict ell = stage->ell, *restrict ell_y0 = stage->ell_y0, *restrict ell_y1 = stage->ell_y1;
-    double *restrict ell_d = stage->ell_d, *restrict rate = stage->rate, *restrict bend_y0 = stage->bend_y0;
-    double *restrict bend_y1 = stage->bend_y1, *restrict bend_d = stage->bend_d;
-    const double square = mesh->alpha * mesh->alpha;
-    for (size_t e = 0; e < count; e++) {
-        const double d = width[e], r = rise[e], r_rate = u[e + 1] - u[e], d_rate = v[e + 1] - v[e];
-        ell[e] = square * r * r + d * d;
-        ell_y1[e] = 2 * square * r;
-        ell_y0[e] = -ell_y1[e];
-        ell_d[e] = 2 * d;
-        rate[e] = 2 * (square * r * r_rate + d * d_rate);
-        bend_y1[e] = 2 * square * r_rate;
-        bend_y0[e] = -bend_y1[e];
-        bend_d[e] = 2 * d_rate;
-    }
-    if (mesh->reach != GM_REACH_FULL) {
-        regularise(stage, mesh);
-    }
-    if (mesh->curvature == 0) {
-        return;
-    }
-    for (size_t e = 0; e < count; e++) {
-        const struct bending bent = bending(mesh, &stage->y[e]);
-        const double d = width[e], d_rate = v[e + 1] - v[e], u0 = u[e], u1 = u[e + 1];
-        const double q_rate = bent.by[0] * u0 + bent.by[1] * u1;
-        ell[e] += d * d * (bent.q - 1);
-        ell_y0[e] += d * d * bent.by[0];
-        ell_y1[e] += d * d * bent.by[1];
-        ell_d[e] += 2 * d * (bent.q - 1);
-        rate[e] += d * d * q_rate + 2 * d * (bent.q - 1) * d_rate;
-        bend_y0[e] += d * d * (bent.twice[0][0] * u0 + bent.twice[0][1] * u1) + 2 * d * bent.by[0] * d_rate;
-        bend_y1[e] += d * d * (bent.twice[1][0] * u0 + bent.twice[1][1] * u1) + 2 * d * bent.by[1] * d_rate;
-        bend_d[e] += 2 * d * q_rate + 2 * (bent.q - 1) * d_rate;
+    weigh(stage, mesh);
+    if (mesh->density->local) {
+        constrain(stage, stage->count);
+        constrain_locally(stage);
+    } else {
+        constrain(stage, 0);
     }
 }
 
@@ -273,12 +246,27 @@ void gm_elements_mass(const struct gm_elements *stage, size_t e, double mass[4][
     }
 }
 
-void gm_elements_gradient(const struct gm_elements *stage, size_t e, double gradient[4])
+static void bend_of_ell(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t e,
+                        double hessian[4][4])
 {
-    gradient[0] = stage->ell_y0[e];
-    gradient[1] = -stage->ell_d[e];
-    gradient[2] = stage->ell_y1[e];
-    gradient[3] = stage->ell_d[e];
+    static const double sign[2] = {-1, 1};
+    const size_t far = mesh->density->local ? stage->count : 0, m = stage->count + far;
+    const double *P = stage->density + e, g = stage->slope[e];
+    const double sum = P[0] + P[far], s = (P[m] + P[m + far]) / 2, rr = (P[2 * m] + P[2 * m + far]) / 2;
+    spread(0, 0, 0, rr, s - g * rr, sum - g * (2 * s - g * rr), hessian);
+    for (size_t side = 0; far > 0 && side < 2; side++) {
+        const struct end end = end_of(stage, e, side);
+        for (size_t c = 0; c < 2; c++) {
+            const size_t a = 2 * side + c;
+            for (size_t b = 0; b < 2; b++) {
+                hessian[a][2 * side + b] += end.twice[c][b];
+                hessian[a][2 * b] += sign[b] * end.by_r[c];
+                hessian[2 * b][a] += sign[b] * end.by_r[c];
+                hessian[a][2 * b + 1] += sign[b] * end.by_d[c];
+                hessian[2 * b + 1][a] += sign[b] * end.by_d[c];
+            }
+        }
+    }
 }
 
 void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t e,
@@ -306,21 +294,9 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     if (!constrained) {
         return;
     }
-    const struct reach ell = reach(mesh, r, d);
-    spread(0, 0, 0, ell.rr, ell.rd, 2 + ell.dd, matrices->hessian);
-    if (mesh->curvature != 0) {
-        const struct bending bent = bending(mesh, &stage->y[e]);
-        static const double sign[2] = {-1, 1};
-        for (size_t i = 0; i < 2; i++) {
-            for (size_t j = 0; j < 2; j++) {
-                matrices->hessian[2 * i][2 * j] += d * d * bent.twice[i][j];
-                matrices->hessian[2 * i][2 * j + 1] += 2 * d * bent.by[i] * sign[j];
-                matrices->hessian[2 * i + 1][2 * j] += 2 * d * bent.by[j] * sign[i];
-                matrices->hessian[2 * i + 1][2 * j + 1] += 2 * (bent.q - 1) * sign[i] * sign[j];
-            }
-        }
-    }
-    const double bend[4] = {stage->bend_y0[e], -stage->bend_d[e], stage->bend_y1[e], stage->bend_d[e]};
+    bend_of_ell(stage, mesh, e, matrices->hessian);
     gm_elements_gradient(stage, e, matrices->gradient);
-    memcpy(matrices->bend, bend, sizeof bend);
+    for (size_t a = 0; a < 4; a++) {
+        matrices->bend[a] = stage->bend[a][e];
+    }
 }

@@ -12,8 +12,13 @@
        Kuu = u0^2 + u0 u1 + u1^2
        KuV = 2 u0 V0 + u0 V1 + u1 V0 + 2 u1 V1
        KVV = V0^2 + V0 V1 + V1^2
-   (Tyranowski & Desbrun 2019, eq. 44), w the mean of the potential; and the constraint's ell as
-   core/mesh/moving_mesh.h has it. Multipliers enter element by element:
+   (Tyranowski & Desbrun 2019, eq. 44), w the mean of the potential; and the constraint's ell, with the
+   density's square P at both ends (struct gm_density),
+       ell         = d^2 (P0 + P1) / 2
+       d ell / dr  = d S                       S = (dP0/dg + dP1/dg) / 2
+       d ell / dd  = d (P0 + P1) - d g S
+   and, where P depends on the field or the place, d ell / dy0 = d^2 (dP0/dy) / 2 and its like besides.
+   Multipliers enter element by element:
        sum_k lambda_k (ell_k - ell_{k-1}) = sum_e (lambda_e - lambda_{e+1}) ell_e
        lambda_0 = lambda_{N+1} = 0 */
 
@@ -23,12 +28,12 @@ struct gm_elements {
     double *y, *x, *u, *v; /* at the nodes, N + 2 each, ends included */
     /* at the elements */
     double *middle, *rise, *width, *slope, *w, *w_m, *w_r;
-    double *force_y0, *force_y1;           /* dl/dy at both ends */
-    double *force_d;                       /* dl/dX1 = -dl/dX0 */
-    double *momentum_u0, *momentum_u1;     /* dl/du; dl/dV is -slope times them */
-    double *ell, *ell_y0, *ell_y1, *ell_d; /* ell and its gradient; d ell/dX1 = -d ell/dX0 = ell_d */
-    double *rate;                          /* rate of ell: its gradient times the velocity */
-    double *bend_y0, *bend_y1, *bend_d; /* the Hessian of ell times the velocity, as the gradient is given */
+    double *force_y0, *force_y1;       /* dl/dy at both ends */
+    double *force_d;                   /* dl/dX1 = -dl/dX0 */
+    double *momentum_u0, *momentum_u1; /* dl/du; dl/dV is -slope times them */
+    double *ell, *rate;                /* ell, and its rate: the gradient times the velocity */
+    double *gradient[4], *bend[4]; /* the gradient of ell by z = (y0, X0, y1, X1), its Hessian times zdot */
+    double *ends, *density;        /* what a density depends on, and its values (struct gm_density) */
 };
 
 /* Derivatives of one element by z = (y0, X0, y1, X1) and zdot, [row][column]. */
@@ -48,6 +53,9 @@ void gm_elements_close(struct gm_elements *stage);
 /* Fills the nodes from a canonical state. */
 void gm_elements_place(struct gm_elements *stage, const double *state);
 
+/* Sets the places and velocities of the nodes at time t on a mesh that is uniform or known; else nothing. */
+void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage);
+
 /* Computes geometry, forces and momenta from the nodes. Returns false if a width is not positive (the mesh
    is tangled) or a value is not finite; the rest is void then. */
 bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh);
@@ -63,7 +71,12 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
 
 /* The mass matrix alone, and the gradient of ell. */
 void gm_elements_mass(const struct gm_elements *stage, size_t element, double mass[4][4]);
-void gm_elements_gradient(const struct gm_elements *stage, size_t element, double gradient[4]);
+static inline void gm_elements_gradient(const struct gm_elements *stage, size_t element, double gradient[4])
+{
+    for (size_t a = 0; a < 4; a++) {
+        gradient[a] = stage->gradient[a][element];
+    }
+}
 
 /* Momenta, and forces, at node k = 1 ... N. */
 static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)

@@ -26,43 +26,53 @@ struct gm_potential {
     /* second derivatives of the same, of one element */
     void (*second)(const struct gm_potential *potential, double middle, double rise, double *w_mm,
                    double *w_mr, double *w_rr);
-    /* dW/dphi and its two derivatives at one place */
-    void (*force)(const struct gm_potential *potential, double phi, double force[3]);
 };
 extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
 extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
-/* The mesh density that a mesh equidistributes: every element has the same
-       ell = alpha^2 R + d^2 sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2),
-   d its width, y0 and y1 the field at its ends, r its rise, and R = r^2 as a rule. alpha alone: generalised
-   arclength (their eq. 28). curvature alone: the error of linear interpolation, as phi_XX is W'(phi) but for
-   a factor in a travelling wave.
+/* The mesh density rho that a mesh equidistributes: every element has the same
+       ell = d^2 (P(left end) + P(right end)) / 2,   P = rho^2,
+   d its width, P a function of the slope s of the field in the element, and, if `local`, of the field u and the
+   place x at the end. P = 1 + alpha^2 s^2: generalised arclength (their eq. 28). */
+enum gm_density_value {
+    GM_P,
+    GM_P_S,
+    GM_P_SS, /* the last without `local` */
+    GM_P_U,
+    GM_P_X,
+    GM_P_SU,
+    GM_P_SX,
+    GM_P_UU,
+    GM_P_UX,
+    GM_P_XX,
+    GM_DENSITY_VALUES,
+    GM_DENSITY_OF_SLOPE = GM_P_SS + 1
+};
+struct gm_density {
+    bool local;
+    /* Writes P and its derivatives at m ends: `at` holds s, then u and x if `local`, [number * m + end], and so
+       do the values. */
+    void (*values)(const struct gm_density *density, const double *at, double *values, size_t m);
+};
 
-   The density is regularised, so that no wrinkle of the field makes cells that are too small for the step, by
-       limited:   R = r^2 / (1 + w),                w = (r / (steepest d))^2,
-       tempered:  R = 2 r^2 / (1 + sqrt(1 + w)):
-   slopes above `steepest` draw hardly more nodes, or as their square root. Tempered, ell stays convex in r,
-   which keeps the field smooth on strong densities; limited, the cells are bounded from below. */
-enum gm_mesh_reach { GM_REACH_FULL, GM_REACH_LIMITED, GM_REACH_TEMPERED };
+/* A mesh that is known: at time t the nodes with these labels, which have equal distances, are at x with the
+   velocity `rate`. */
+struct gm_mesh_map {
+    void (*places)(const struct gm_mesh_map *map, const double *label, size_t count, double t, double *x,
+                   double *rate);
+};
 
 struct gm_mesh {
     size_t points;
     double first, length; /* left end and length */
     double left, right;   /* the field at both ends */
-    double alpha, curvature;
-    enum gm_mesh_reach reach;
-    double steepest; /* a slope, unless reach is full */
+    double even;          /* the homotopy of the start has (1 - even) P + even instead of P; else 0 */
+    const struct gm_density *density;
+    double relax;                  /* T of a mesh that is smoothed in time; 0: it is not */
+    double t;                      /* the time of states that are started or carried */
+    const struct gm_mesh_map *map; /* NULL: nodes are at their labels */
     const struct gm_potential *potential;
 };
-
-/* The mesh density: arclength, the error of interpolation, half of each, or arclength regularised in one
-   of two ways. */
-enum gm_mesh_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED };
-
-/* Sets alpha, curvature, reach and steepest. `bend` times alpha^2 is the curvature with which the first two
-   densities have the same greatest value; the regularised ones begin to be at the slope `steepest`. */
-void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
-                   double bend);
 
 /* A field and its rate of change in time: values, slopes and rates at `count` places x. */
 typedef void gm_mesh_profile(const void *context, const double *x, size_t count, double *value, double *slope,
@@ -84,10 +94,14 @@ static inline const struct gm_moving_mesh *gm_moving_mesh_of(const struct gm_pro
     return problem->facets;
 }
 
-enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
+/* The mesh is uniform, known, equidistributes a density, or may be any; the last two start alike. */
+enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_GIVEN, GM_MESH_MOVING, GM_MESH_FREE };
 
 /* The kind of mesh that a scheme of the mesh families works on. */
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme);
+
+/* True if a scheme of the mesh families has a form that is smoothed in time. */
+bool gm_scheme_relaxes(const struct gm_scheme *scheme);
 
 /* Writes the canonical state of a profile on a mesh of that kind: nodes by continuation from the uniform
    mesh, velocities consistent with the constraint (their section 5.2). Returns false if no mesh was found,

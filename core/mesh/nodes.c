@@ -87,8 +87,8 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
     const size_t points = stage->count - 1;
     gm_banded_clear(matrix);
     for (size_t e = 0; e <= points; e++) {
-        const double left = (slope ? stage->ell_y0[e] * slope[e] : 0) - stage->ell_d[e];
-        const double right = (slope ? stage->ell_y1[e] * slope[e + 1] : 0) + stage->ell_d[e];
+        const double left = (slope ? stage->gradient[0][e] * slope[e] : 0) + stage->gradient[1][e];
+        const double right = (slope ? stage->gradient[2][e] * slope[e + 1] : 0) + stage->gradient[3][e];
         if (e > 0) {
             gm_banded_add(matrix, e - 1, e - 1, left);
         }
@@ -168,9 +168,9 @@ bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix,
     const size_t points = stage->count - 1;
     by_places(stage, stage->u, matrix);
     for (size_t k = 1; k <= points; k++) {
-        const double *rate = stage->v;
-        motion[k - 1] = stage->ell_y0[k - 1] * rate[k - 1] + stage->ell_y1[k - 1] * rate[k] -
-                        stage->ell_y0[k] * rate[k] - stage->ell_y1[k] * rate[k + 1];
+        const double *rate = stage->v, *left = stage->gradient[0], *right = stage->gradient[2];
+        motion[k - 1] =
+            left[k - 1] * rate[k - 1] + right[k - 1] * rate[k] - left[k] * rate[k] - right[k] * rate[k + 1];
     }
     if (!gm_banded_factor(matrix)) {
         return false;
@@ -192,6 +192,11 @@ bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix,
         gm_elements_mass(stage, e, mass);
         gm_elements_gradient(stage, e, gradient);
         gm_nodes_add(&assembly, momenta, velocities, mass);
+        for (size_t side = 0; unknowns == 1 && side < 2; side++) {
+            if (e + side > 0 && e + side <= points) {
+                motion[e + side - 1] -= mass[2 * side][1] * stage->v[e] + mass[2 * side][3] * stage->v[e + 1];
+            }
+        }
         if (unknowns > 1) {
             gm_nodes_add_row(&assembly, unknowns - 1, velocities, gradient);
         }

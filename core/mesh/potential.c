@@ -114,19 +114,10 @@ static void sine_gordon_second(const struct gm_potential *potential, double midd
     *w_rr = -cos(middle) * bend / 4;
 }
 
-static void sine_gordon_force(const struct gm_potential *potential, double phi, double force[3])
-{
-    (void)potential;
-    force[0] = sin(phi);
-    force[1] = cos(phi);
-    force[2] = -force[0];
-}
-
 const struct gm_potential gm_potential_sine_gordon = {
     .name = "sine-gordon",
     .first = sine_gordon_first,
     .second = sine_gordon_second,
-    .force = sine_gordon_force,
 };
 
 /* phi^4: over an element phi^2 has the mean m^2 + r^2 / 12, phi^4 the mean m^4 + m^2 r^2 / 2 + r^4 / 80. */
@@ -153,17 +144,8 @@ static void phi4_second(const struct gm_potential *potential, double middle, dou
     *w_rr = (middle * middle + 3 * rise * rise / 20 - 1. / 3) / 4;
 }
 
-static void phi4_force(const struct gm_potential *potential, double phi, double force[3])
-{
-    (void)potential;
-    force[0] = phi * (phi * phi - 1);
-    force[1] = 3 * phi * phi - 1;
-    force[2] = 6 * phi;
-}
-
 const struct gm_potential gm_potential_phi4 = {
     .name = "phi4",
     .first = phi4_first,
     .second = phi4_second,
-    .force = phi4_force,
 };

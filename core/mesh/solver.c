@@ -19,6 +19,7 @@ enum {
     MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors must be recomputed */
     MEMORY_MULTIPLIER, /* largest multiplier of the last step */
     MEMORY_STEP,       /* length of the step that the factors were made for */
+    MEMORY_TIME,       /* its time */
     MEMORY_HEAD,       /* offset of 6 past unknowns, newest first, then the factors' state and unknowns */
 };
 
@@ -40,10 +41,17 @@ static size_t stages_of(const struct gm_mesh_row *row)
     return row->tableau ? row->tableau->stages : 1;
 }
 
+static const struct gm_mesh_strategy *strategy_of(const struct gm_mesh_row *row, const struct gm_mesh *mesh)
+{
+    return mesh->relax > 0 && row->strategy->relaxed ? row->strategy->relaxed : row->strategy;
+}
+
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_mesh_row *row = scheme->coefficients;
-    const size_t points = problem->n / 4, n = points * row->strategy->unknowns * stages_of(row);
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(problem)->describe(problem, &mesh);
+    const size_t points = problem->n / 4, n = points * strategy_of(row, &mesh)->unknowns * stages_of(row);
     return MEMORY_HEAD + (PAST + 1) * n + 4 * points;
 }
 
@@ -70,10 +78,10 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
     const struct gm_mesh *mesh = &solver->mesh;
     gm_moving_mesh_of(problem)->describe(problem, &solver->mesh);
     solver->row = scheme->coefficients;
+    solver->strategy = strategy_of(solver->row, mesh);
     solver->stages = stages_of(solver->row);
-    solver->per_node = solver->row->strategy->unknowns * solver->stages;
-    const size_t points = mesh->points, n = points * solver->per_node,
-                 moves = solver->row->strategy->projected;
+    solver->per_node = solver->strategy->unknowns * solver->stages;
+    const size_t points = mesh->points, n = points * solver->per_node, moves = solver->strategy->projected;
     bool good = gm_elements_open(&solver->ends, mesh);
     for (size_t i = 0; i < solver->stages; i++) {
         good = good && gm_elements_open(&solver->stage[i], mesh);
@@ -110,13 +118,19 @@ enum gm_status gm_mesh_restart(const struct gm_task *task)
     struct gm_mesh_solver *solver = task->workspace;
     memset(task->memory_out, 0, MEMORY_HEAD * sizeof *task->memory_out);
     solver->stamp = 0;
-    const enum gm_mesh_kind kind = solver->row->strategy->kind;
+    const enum gm_mesh_kind kind = solver->strategy->kind;
+    solver->mesh.t = task->t;
     return gm_mesh_carry(&solver->mesh, kind, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
 }
 
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme)
 {
     return ((const struct gm_mesh_row *)scheme->coefficients)->strategy->kind;
+}
+
+bool gm_scheme_relaxes(const struct gm_scheme *scheme)
+{
+    return ((const struct gm_mesh_row *)scheme->coefficients)->strategy->relaxed != NULL;
 }
 
 double gm_mesh_multiplier_norm(const struct gm_run *run)
@@ -138,9 +152,10 @@ double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown)
     return largest;
 }
 
-/* Takes the state that a step of this length starts from. */
-static void place(struct gm_mesh_solver *solver, const double *state, double h)
+/* Takes the state that a step of this length starts from at time t. */
+static void place(struct gm_mesh_solver *solver, const double *state, double t, double h)
 {
+    solver->t = t;
     solver->h = h;
     solver->state = state;
     gm_elements_place(&solver->ends, state);
@@ -150,13 +165,18 @@ static void place(struct gm_mesh_solver *solver, const double *state, double h)
         solver->momenta[2 * k - 1] = gm_momentum_v(&solver->ends, k);
     }
     for (size_t i = 0; i < solver->stages; i++) {
+        double c = 0;
+        for (size_t j = 0; solver->row->tableau && j < solver->stages; j++) {
+            c += solver->row->tableau->a[i][j];
+        }
         gm_elements_place(&solver->stage[i], state);
+        gm_mesh_known(&solver->mesh, solver->strategy->kind, t + c * h, &solver->stage[i]);
     }
 }
 
 static bool residual_at(struct gm_mesh_solver *solver, const double *unknowns)
 {
-    return solver->row->strategy->residual(solver, unknowns, solver->residual);
+    return solver->strategy->residual(solver, unknowns, solver->residual);
 }
 
 static double *past(double *memory, size_t n, size_t back)
@@ -173,7 +193,7 @@ static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t or
     const size_t n = solver->matrix.n;
     double *out = solver->unknowns;
     if (order == 0) {
-        solver->row->strategy->guess(solver, out);
+        solver->strategy->guess(solver, out);
         return;
     }
     memset(out, 0, n * sizeof *out);
@@ -198,7 +218,7 @@ static bool factor(struct gm_mesh_solver *solver)
     gm_banded_clear(&solver->matrix);
     for (size_t e = 0; e <= points; e++) {
         const struct gm_assembly assembly = {&solver->matrix, points, solver->per_node, e};
-        solver->row->strategy->jacobian(solver, &assembly);
+        solver->strategy->jacobian(solver, &assembly);
     }
     return gm_banded_factor(&solver->matrix);
 }
@@ -211,6 +231,7 @@ static bool refresh(struct gm_mesh_solver *solver, double *memory)
     memcpy(made_from, solver->unknowns, n * sizeof *made_from);
     memcpy(made_from + n, solver->state, 4 * solver->mesh.points * sizeof *made_from);
     memory[MEMORY_STEP] = solver->h;
+    memory[MEMORY_TIME] = solver->t;
     solver->stamp = ++memory[MEMORY_STAMP];
     return factor(solver);
 }
@@ -221,7 +242,7 @@ static void restore(struct gm_mesh_solver *solver, double *memory)
 {
     if (memory[MEMORY_STAMP] != solver->stamp) {
         const double *made_from = past(memory, solver->matrix.n, PAST);
-        place(solver, made_from + solver->matrix.n, memory[MEMORY_STEP]);
+        place(solver, made_from + solver->matrix.n, memory[MEMORY_TIME], memory[MEMORY_STEP]);
         if (residual_at(solver, made_from) && factor(solver)) {
             solver->stamp = memory[MEMORY_STAMP];
         } else {
@@ -349,12 +370,12 @@ static void remember(struct gm_mesh_solver *solver, double *memory)
 
 /* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products
    beside them, and stores both in the memory. */
-static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const double *state, double h,
-                            struct gm_progress *progress)
+static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const double *state, double t,
+                            double h, struct gm_progress *progress)
 {
     const size_t known = (size_t)memory[MEMORY_PAST];
     restore(solver, memory);
-    place(solver, state, h);
+    place(solver, state, t, h);
     extrapolate(solver, memory, known);
     enum outcome outcome = iterate(solver, memory, progress);
     bool tangled = false;
@@ -377,8 +398,8 @@ static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const
 /* The end of the step, from the solved stages, into `state`, where its start is. */
 static enum gm_status finish(struct gm_mesh_solver *solver, double *state, double *multiplier, double limit)
 {
-    const size_t points = solver->mesh.points, moves = solver->row->strategy->projected;
-    const struct gm_elements *end = solver->row->strategy->end(solver, multiplier);
+    const size_t points = solver->mesh.points, moves = solver->strategy->projected;
+    const struct gm_elements *end = solver->strategy->end(solver, multiplier);
     if (!end) {
         return GM_MESH_CROSSING;
     }
@@ -389,7 +410,7 @@ static enum gm_status finish(struct gm_mesh_solver *solver, double *state, doubl
         state[k] = end->y[k + 1];
         state[points + k] = end->x[k + 1];
         state[2 * points + k] = solver->motion[moves * k];
-        state[3 * points + k] = moves > 1 ? solver->motion[moves * k + 1] : 0;
+        state[3 * points + k] = moves > 1 ? solver->motion[moves * k + 1] : end->v[k + 1];
     }
     for (size_t i = 0; i < 4 * points; i++) {
         if (!(fabs(state[i]) <= limit)) {
@@ -402,7 +423,7 @@ static enum gm_status finish(struct gm_mesh_solver *solver, double *state, doubl
 struct gm_progress gm_mesh_loop(const struct gm_task *task)
 {
     struct gm_mesh_solver *solver = task->workspace;
-    const struct gm_mesh_strategy *strategy = solver->row->strategy;
+    const struct gm_mesh_strategy *strategy = solver->strategy;
     double *memory = task->memory_out, *state = task->out;
     struct gm_progress progress = {.status = GM_OK};
     solver->noise = DBL_EPSILON * solver->mesh.length / fabs(task->dt);
@@ -414,7 +435,8 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
         memcpy(memory, task->memory, gm_mesh_memory(task->problem, task->scheme) * sizeof *memory);
     }
     while (progress.done < task->steps) {
-        progress.status = solve(solver, memory, state, task->dt, &progress);
+        const double t = task->t0 + (double)(task->n + progress.done) * task->dt;
+        progress.status = solve(solver, memory, state, t, task->dt, &progress);
         if (progress.status == GM_OK) {
             progress.status = finish(solver, state, &memory[MEMORY_MULTIPLIER], task->limit);
         }

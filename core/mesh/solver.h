@@ -18,6 +18,8 @@ struct gm_mesh_solver;
 
 struct gm_mesh_strategy {
     enum gm_mesh_kind kind;
+    const struct gm_mesh_strategy
+        *relaxed;     /* instead of it where the mesh is smoothed in time; NULL: never */
     size_t unknowns;  /* unknowns per node and stage */
     size_t projected; /* unknowns per node in gm_nodes_project */
     /* weight of a change of a node's unknown in the test of convergence; NULL: 1 */
@@ -45,9 +47,10 @@ struct gm_mesh_row {
 struct gm_mesh_solver {
     struct gm_mesh mesh;
     const struct gm_mesh_row *row;
+    const struct gm_mesh_strategy *strategy;
     size_t stages, per_node;
-    /* the current step: its length, its start, and the momenta there, y and X node by node */
-    double h;
+    /* the current step: its time and length, its start, and the momenta there, y and X node by node */
+    double t, h;
     const double *state;
     double *momenta;
     struct gm_elements ends; /* the start, then the end */

@@ -6,25 +6,9 @@
 
 #include "core/mesh/nodes.h"
 
-/* Continuation: the density's parameters grow from 0, the uniform mesh, to their values in this many steps
-   (Tyranowski & Desbrun 2019, section 5.2), which are halved when they are too long. */
+/* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1 in this many steps, which for
+   arclength is alpha growing (Tyranowski & Desbrun 2019, section 5.2); they are halved when they are too long. */
 enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
-
-void gm_mesh_weigh(struct gm_mesh *mesh, enum gm_mesh_density density, double alpha, double steepest,
-                   double bend)
-{
-    mesh->alpha = alpha;
-    mesh->curvature = 0;
-    mesh->reach = density == GM_LIMITED    ? GM_REACH_LIMITED
-                  : density == GM_TEMPERED ? GM_REACH_TEMPERED
-                                           : GM_REACH_FULL;
-    mesh->steepest = steepest;
-    if (density == GM_CURVATURE || density == GM_MIX) {
-        const double share = density == GM_MIX ? sqrt(0.5) : 1;
-        mesh->alpha = density == GM_MIX ? share * alpha : 0;
-        mesh->curvature = share * share * alpha * alpha * bend;
-    }
-}
 
 struct bench {
     struct gm_elements stage;
@@ -57,6 +41,17 @@ static void even(const struct gm_mesh *mesh, double *x)
     }
 }
 
+void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage)
+{
+    if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN) {
+        even(mesh, stage->x);
+        memset(stage->v, 0, (mesh->points + 2) * sizeof *stage->v);
+    }
+    if (kind == GM_MESH_GIVEN && mesh->map) {
+        mesh->map->places(mesh->map, stage->x + 1, mesh->points, t, stage->x + 1, stage->v + 1);
+    }
+}
+
 static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                         const void *context)
 {
@@ -72,8 +67,7 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
     while (reached < 1 && step > 1. / SHORTEST) {
         const double next = reached + step < 1 - 1e-9 ? reached + step : 1;
         struct gm_mesh part = *mesh;
-        part.alpha *= next;
-        part.curvature *= next;
+        part.even = 1 - next * next;
         if (gm_nodes_equidistribute(&bench->stage, &part, profile, context, &bench->matrix, bench->change)) {
             reached = next;
             memcpy(good, x, size);
@@ -120,8 +114,9 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
         return false;
     }
     bool good = true;
-    if (kind == GM_MESH_UNIFORM || (mesh->alpha == 0 && mesh->curvature == 0)) {
-        even(mesh, bench.stage.x);
+    if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN) {
+        gm_mesh_known(mesh, kind, mesh->t, &bench.stage);
+        memcpy(bench.change, bench.stage.v + 1, points * sizeof *bench.change);
         profile(context, bench.stage.x + 1, points, bench.stage.y + 1, bench.stage.u + 1, bench.stage.v + 1);
     } else {
         good = refine(&bench, mesh, profile, context) &&
@@ -184,12 +179,18 @@ static void slopes(const struct gm_elements *stage, double *slope)
     }
 }
 
-static bool is_uniform(const struct gm_mesh *mesh, const double *state)
+/* Returns true if the state is on a mesh of that kind; `stage` is changed. */
+static bool is_of(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const double *state,
+                  struct gm_elements *stage)
 {
     const size_t points = mesh->points;
+    if (kind == GM_MESH_FREE || kind == GM_MESH_MOVING) {
+        return kind == GM_MESH_FREE || gm_mesh_constraint_defect(mesh, state) < 1e-7;
+    }
+    gm_mesh_known(mesh, kind, mesh->t, stage);
     for (size_t k = 0; k < points; k++) {
-        const double x = mesh->first + mesh->length * (double)(k + 1) / (double)(points + 1);
-        if (!(fabs(state[points + k] - x) <= 1e-12 * mesh->length) || state[3 * points + k] != 0) {
+        if (!(fabs(state[points + k] - stage->x[k + 1]) <= 1e-12 * mesh->length) ||
+            !(fabs(state[3 * points + k] - stage->v[k + 1]) <= 1e-12 * mesh->length)) {
             return false;
         }
     }
@@ -199,14 +200,14 @@ static bool is_uniform(const struct gm_mesh *mesh, const double *state)
 bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const double *state, double *out)
 {
     const size_t points = mesh->points;
-    const double enough = 1e-7;
-    if (kind == GM_MESH_UNIFORM ? is_uniform(mesh, state) : gm_mesh_constraint_defect(mesh, state) < enough) {
-        memmove(out, state, 4 * points * sizeof *out);
-        return true;
-    }
     struct gm_elements stage;
     if (!gm_elements_open(&stage, mesh)) {
         return false;
+    }
+    if (is_of(mesh, kind, state, &stage)) {
+        memmove(out, state, 4 * points * sizeof *out);
+        gm_elements_close(&stage);
+        return true;
     }
     gm_elements_place(&stage, state);
     double *memory = malloc(2 * (points + 2) * sizeof *memory);

@@ -10,7 +10,7 @@
 
 #include "core/expression/nearest.h"
 
-/* The bit of a word, in the set of lines that may have an option. */
+/* The bit of a word, in the set of lines that may have an option; words from number 64 on have none. */
 #define LINE(word) (UINT64_C(1) << GM_WORD_##word)
 
 static const struct row {
@@ -132,7 +132,7 @@ static bool read_value(struct gm_reading *reading, struct gm_system_option *opti
 
 static bool read_option(struct gm_reading *reading, struct gm_system_item *item, struct gm_span piece)
 {
-    const uint64_t lines = UINT64_C(1) << item->word;
+    const uint64_t lines = item->word < 64 ? UINT64_C(1) << item->word : 0;
     const char *text = reading->text + piece.begin;
     size_t letters = 0;
     while (piece.begin + letters < piece.end && !strchr(" \t\r\n", text[letters])) {

@@ -132,7 +132,10 @@ static bool open_mesh(struct gm_problem *problem, const struct gm_system_lane *l
                                       .length = 2 * gm_system_half_length(lane),
                                       .points = lane->grid.points,
                                       .alpha = lane->grid.alpha,
-                                      .density = (enum gm_mesh_density)lane->grid.density};
+                                      .density = lane->grid.density,
+                                      .map = lane->grid.mesh,
+                                      .relax = lane->grid.relax,
+                                      .until = lane->timing.until};
     return gm_user_mesh_open(problem, &gm_user_field_of(lane)->wave, values, &mesh);
 }
 
@@ -180,10 +183,15 @@ static const struct gm_parameter mesh_rows[] = {
         "weight of the field's slope in the mesh density; auto: the file's, or else 3/2 over the largest slope at the start, or π/10 of the "
         "length over what u goes up and down there, whichever is less",
         .automatic = true),
-    GM_CHOICE_ROW(
-        GM_FIELD_LANE, grid.density, "density", "arclength", gm_mesh_densities,
-        "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
-        "tempered where the field is steeper than at the start"),
+    GM_TEXT_ROW(
+        GM_FIELD_LANE, grid.density, "density", "arclength",
+        "what the nodes equidistribute: arclength, curvature, a mix of both, arclength that is limited or tempered where "
+        "the field is steeper than at the start, or a formula in u, u_x, x, V_u, alpha, steepest and bend",
+        .choices = gm_user_densities, .names = true),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.mesh, "mesh", "X = x",
+                "where the node with label x is at time t, for given- schemes", .names = true),
+    GM_REAL_ROW(GM_FIELD_LANE, grid.relax, "relax", "0", 0, 1e6,
+                "time T in which nodes tend to their places, for control- schemes; 0: they are there"),
 };
 static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES},
                                   mesh_errors[] = {GM_MESH_ERRORS};

@@ -29,6 +29,9 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const struct gm_system_lane *lane = parameters;
     struct gm_mesh mesh;
     moving->describe(problem, &mesh);
+    if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
+        return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
+    }
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
         return true;
     }
@@ -44,15 +47,16 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     }
     return gm_refuse(
         sentence,
-        "no mesh of %ld nodes was found for alpha = %g, where the slope of %.60s is up to %.4g: the "
-        "homotopy from the uniform mesh fails; a smaller alpha helps",
-        lane->grid.points, gm_user_mesh_alpha(problem), name, mesh.steepest);
+        "no mesh of %ld nodes was found for the density %s with alpha = %g, where the slope of %.60s is up "
+        "to %.4g: the homotopy from the uniform mesh fails; a density that varies less helps",
+        lane->grid.points, lane->grid.density, gm_user_mesh_names(problem)->alpha, name,
+        gm_user_mesh_names(problem)->steepest);
 }
 
 /* Notes the weight of the slope if the start chose it. */
 void gm_field_note_alpha(const struct gm_problem *problem, void *parameters)
 {
-    ((struct gm_system_lane *)parameters)->grid.alpha = gm_user_mesh_alpha(problem);
+    ((struct gm_system_lane *)parameters)->grid.alpha = gm_user_mesh_names(problem)->alpha;
 }
 
 double *gm_field_start_on(const struct gm_system_lane *lane, const struct gm_problem *problem,

@@ -33,7 +33,7 @@
 #include "scenes/mesh/observed.h"
 
 enum { DT, UNTIL };
-enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_ROWS = 6 };
+enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_ROWS = 8 };
 
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
                                           char *sentence);
@@ -67,7 +67,8 @@ static void close_evolution(void *evolution)
 
 static void make_rows(struct gm_user_field *field)
 {
-    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY};
+    static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
+                                                 GM_WORD_MESH, GM_WORD_RELAX};
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
@@ -91,6 +92,16 @@ static void make_rows(struct gm_user_field *field)
             const char *text = system->texts[chosen[k]];
             const bool here = text && strcmp(common[i].key, gm_system_words[chosen[k]].word) == 0;
             common[i].standard = here ? text : common[i].standard;
+            if (here && strlen(text) >= GM_TEXT_SIZE) {
+                gm_arena_refuse(arena, "%s: has at most %d characters", common[i].key, GM_TEXT_SIZE - 1);
+            }
+            double number = 0;
+            if (here && common[i].type == GM_REAL &&
+                !(gm_number_parse(text, &number) && number >= common[i].lowest &&
+                  number <= common[i].highest)) {
+                gm_arena_refuse(arena, "%s: is a number between %g and %g", common[i].key, common[i].lowest,
+                                common[i].highest);
+            }
         }
     }
     gm_system_make_rows(of_file, timing, common, kind->row_count, false);

@@ -11,7 +11,6 @@
 enum { EXACT_POINTS = 1500 };
 
 const char *const gm_mesh_views[] = {"all", "field", "mesh", "energy", "convergence", NULL};
-const char *const gm_mesh_densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
 
 static void field_axes(struct gm_panel *panel, const struct gm_mesh *mesh, const struct gm_mesh_look *look)
 {

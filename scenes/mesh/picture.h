@@ -15,8 +15,8 @@ enum gm_mesh_view {
     GM_MESH_CONVERGENCE,
 };
 
-/* The names of enum gm_mesh_view and of enum gm_mesh_density (core/mesh/moving_mesh.h), NULL-terminated. */
-extern const char *const gm_mesh_views[], *const gm_mesh_densities[];
+/* The names of enum gm_mesh_view, NULL-terminated. */
+extern const char *const gm_mesh_views[];
 
 /* The differences between scenes; the picture has the title. The first track of such a scene holds the paths
    (scenes/mesh/observed.h). */

@@ -9,9 +9,19 @@
 
 enum gm_soliton_field { GM_SINE_GORDON, GM_PHI4 };
 
+/* Densities in closed form, in the order of gm_user_densities; the last depends on slope, field and place. */
+enum gm_closed_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED, GM_OF_ALL };
+struct gm_density_numbers {
+    enum gm_closed_density which;
+    enum gm_soliton_field field;
+    double alpha, steepest, bend;
+};
+/* Returns the density, which lives as long as the program. */
+const struct gm_density *gm_closed_density(const struct gm_density_numbers *numbers);
+
 struct gm_soliton {
     int field;   /* enum gm_soliton_field */
-    int density; /* enum gm_mesh_density */
+    int density; /* enum gm_closed_density */
     long solitons, points;
     double velocity, length;
     double alpha; /* NaN: one that puts about half of the nodes where the field changes */

@@ -286,17 +286,17 @@ static double lagrangian(const struct gm_mesh *mesh, const double z[4], const do
     return sum;
 }
 
-static double density(const struct gm_mesh *mesh, const double z[4])
+/* ell of the density itself */
+static double ell_of(const struct gm_mesh *mesh, const double z[4])
 {
-    const bool phi4 = mesh->potential == &gm_potential_phi4;
-    const double d = z[3] - z[1], r = z[2] - z[0];
-    const double left = phi4 ? pow(z[0], 3) - z[0] : sin(z[0]),
-                 right = phi4 ? pow(z[2], 3) - z[2] : sin(z[2]);
-    const double bend = mesh->curvature * mesh->curvature * (left * left + right * right) / 2;
-    const double reach = mesh->alpha * mesh->alpha * r * r;
-    const double w = mesh->reach == GM_REACH_FULL ? 0 : pow(r / d / mesh->steepest, 2);
-    const double limit = mesh->reach == GM_REACH_TEMPERED ? (1 + sqrt(1 + w)) / 2 : 1 + w;
-    return reach / limit + d * d * sqrt(1 + bend);
+    const double d = z[3] - z[1], s = (z[2] - z[0]) / d, at[] = {s, s, z[0], z[2], z[1], z[3]};
+    double values[2 * GM_DENSITY_VALUES];
+    if (mesh->density->local) {
+        mesh->density->values(mesh->density, at, values, 2);
+        return d * d * (values[0] + values[1]) / 2;
+    }
+    mesh->density->values(mesh->density, at, values, 1);
+    return d * d * values[0];
 }
 
 static void expect_near(const char *what, double got, double wanted)
@@ -314,12 +314,11 @@ static void derivatives_of_an_element(void **unused)
     static const double rate[4] = {0.4, -0.3, 0.7, 0.9};
     const struct gm_potential *const potentials[] = {&gm_potential_sine_gordon, &gm_potential_phi4};
     for (size_t which = 0; which < 48; which++) {
+        const struct gm_density_numbers numbers = {(enum gm_closed_density)(which / 4 % 6),
+                                                   which < 24 ? GM_SINE_GORDON : GM_PHI4, 1.3, 2.5, 0.4};
         const struct gm_mesh mesh = {.points = 1,
                                      .length = 12,
-                                     .alpha = 1.3,
-                                     .curvature = which / 4 % 2 ? 0.7 : 0,
-                                     .reach = (enum gm_mesh_reach)(which / 8 % 3),
-                                     .steepest = 2.5,
+                                     .density = gm_closed_density(&numbers),
                                      .potential = potentials[which / 24]};
         const double *z0 = places[which % 4];
         struct gm_elements stage;
@@ -353,7 +352,8 @@ static void derivatives_of_an_element(void **unused)
                         {stage.force_y0[0], -stage.force_d[0], stage.force_y1[0], stage.force_d[0]},
                         {stage.momentum_u0[0], -g * stage.momentum_u0[0], stage.momentum_u1[0],
                          -g * stage.momentum_u1[0]},
-                        {stage.ell_y0[0], -stage.ell_d[0], stage.ell_y1[0], stage.ell_d[0]}};
+                        {stage.gradient[0][0], stage.gradient[1][0], stage.gradient[2][0],
+                         stage.gradient[3][0]}};
                     memcpy(gradient[side], list[0], sizeof list[0]);
                     memcpy(momentum[side], list[1], sizeof list[1]);
                     memcpy(ell[side], list[2], sizeof list[2]);
@@ -361,13 +361,20 @@ static void derivatives_of_an_element(void **unused)
                 expect_near("stiffness", matrices.stiff[a][b], (gradient[1][a] - gradient[0][a]) / (2 * h));
                 expect_near("mixed", matrices.mixed[a][b], (momentum[1][a] - momentum[0][a]) / (2 * h));
                 expect_near("density's Hessian", matrices.hessian[a][b], (ell[1][a] - ell[0][a]) / (2 * h));
+                if (b == 0) { /* what a step takes is the same */
+                    double along = 0;
+                    for (int c = 0; c < 4; c++) {
+                        along += matrices.hessian[a][c] * rate[c];
+                    }
+                    expect_near("Hessian times velocity", matrices.bend[a], along);
+                }
                 if (a == b) {
                     const double force[4] = {stage.force_y0[0], -stage.force_d[0], stage.force_y1[0],
                                              stage.force_d[0]};
                     expect_near("force", force[b],
                                 (lagrangian(&mesh, z[1], rate) - lagrangian(&mesh, z[0], rate)) / (2 * h));
                     expect_near("density's gradient", matrices.gradient[b],
-                                (density(&mesh, z[1]) - density(&mesh, z[0])) / (2 * h));
+                                (ell_of(&mesh, z[1]) - ell_of(&mesh, z[0])) / (2 * h));
                     v[1][b] += h;
                     v[0][b] -= h;
                     const double g = stage.slope[0];

@@ -4,7 +4,8 @@
        L_e(z, z') = h/2 [l_e(z, v) + l_e(z', v)] - Lambda_e ell_e(z),   v = (z' - z) / h,   z = (q_e, q_{e+1})
    and on a mesh that is given, which has no constraint Lambda_e, also for that of the midpoint rule, which is
    Gauss' method of order 2,
-       L_e(z, z') = h l_e((z + z') / 2, v).
+       L_e(z, z') = h l_e((z + z') / 2, v),
+   with the places and velocities of a known mesh, at the middle of the step, instead of means.
    Where the Euler-Lagrange equations hold at the nodes, the symplectic form of any stretch of nodes a ... b
    changes by what its two ends let through:
        sum_{i=a}^{b} (dq_i' ^ dp_i' - dq_i ^ dp_i)
@@ -39,6 +40,8 @@ enum rule { TRAPEZOIDAL, MIDPOINT };
 
 struct stages {
     enum rule rule;
+    enum gm_mesh_kind kind;
+    double t; /* the middle of the step */
     struct gm_elements before,
         after; /* at the ends of a step, or both in its middle, with its mean velocity */
 };
@@ -64,6 +67,10 @@ static bool place(const struct gm_mesh_subject *subject, struct stages *stages, 
     }
     gm_elements_place(&stages->before, mean[0]);
     gm_elements_place(&stages->after, mean[1]);
+    if (stages->kind == GM_MESH_GIVEN) {
+        gm_mesh_known(&subject->mesh, stages->kind, stages->t, &stages->before);
+        gm_mesh_known(&subject->mesh, stages->kind, stages->t, &stages->after);
+    }
     if (!gm_elements_evaluate(&stages->before, &subject->mesh) ||
         !gm_elements_evaluate(&stages->after, &subject->mesh)) {
         return false;
@@ -94,12 +101,11 @@ static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2
     double row[POINTS][POINTS + 2][2] = {{{0}}}, normal[POINTS * POINTS] = {0};
     for (size_t k = 1; k <= POINTS; k++) {
         /* ell_k - ell_(k-1) */
-        row[k - 1][k][0] = at->ell_y0[k] - at->ell_y1[k - 1];
-        row[k - 1][k][1] = -at->ell_d[k] - at->ell_d[k - 1];
-        row[k - 1][k + 1][0] = at->ell_y1[k];
-        row[k - 1][k + 1][1] = at->ell_d[k];
-        row[k - 1][k - 1][0] = -at->ell_y0[k - 1];
-        row[k - 1][k - 1][1] = at->ell_d[k - 1];
+        for (size_t c = 0; c < 2; c++) {
+            row[k - 1][k][c] = at->gradient[c][k] - at->gradient[2 + c][k - 1];
+            row[k - 1][k + 1][c] = at->gradient[2 + c][k];
+            row[k - 1][k - 1][c] = -at->gradient[c][k - 1];
+        }
     }
     for (size_t a = 0; a < POINTS; a++) {
         lambda[a + 1] = 0;
@@ -139,10 +145,12 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
     const double h = law->step.dt;
     const struct gm_elements *at = &stages->before;
     double push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
+    stages->t = subject->mesh.t + h / 2;
     if (!place(subject, stages, states[0], states[1], h)) {
         return false;
     }
     differentiate(stages, h, push, motion->pull);
+    stages->t += h;
     if (!place(subject, stages, states[1], states[2], h)) {
         return false;
     }
@@ -159,7 +167,7 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
             rest[e + end][c] += push[e][end][c] + motion->pull[e][end][c];
         }
     }
-    if (law->kind == GM_MESH_UNIFORM) {
+    if (law->kind != GM_MESH_MOVING) {
         return true;
     }
     if (!fit_multipliers(at, rest, motion->lambda)) {
@@ -167,10 +175,9 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
     }
     for (size_t e = 0; e < ELEMENTS; e++) {
         const double share = motion->lambda[e] - motion->lambda[e + 1];
-        motion->pull[e][0][0] -= share * at->ell_y0[e];
-        motion->pull[e][0][1] += share * at->ell_d[e];
-        motion->pull[e][1][0] -= share * at->ell_y1[e];
-        motion->pull[e][1][1] -= share * at->ell_d[e];
+        for (size_t a = 0; a < 4; a++) {
+            motion->pull[e][a / 2][a % 2] -= share * at->gradient[a][e];
+        }
     }
     return true;
 }
@@ -181,7 +188,7 @@ static bool observe(const struct gm_mesh_subject *subject, const void *context, 
     const struct law *law = context;
     const struct gm_mesh_step *step = &law->step;
     double states[3][4 * POINTS];
-    struct stages stages = {.rule = law->rule};
+    struct stages stages = {.rule = law->rule, .kind = law->kind};
     memcpy(states[0], state, sizeof states[0]);
     if (!gm_elements_open(&stages.before, &subject->mesh)) {
         return false;
@@ -262,7 +269,7 @@ double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm
         return NAN;
     }
     struct law law = {{scheme, dt}, gm_scheme_mesh(scheme), TRAPEZOIDAL};
-    const double trapezoidal = defect_of(subject, &law);
+    const double trapezoidal = law.kind == GM_MESH_GIVEN ? INFINITY : defect_of(subject, &law);
     if (law.kind == GM_MESH_MOVING) {
         return trapezoidal;
     }

@@ -32,13 +32,40 @@ static void profile(const void *unused, const double *x, size_t count, double *v
     }
 }
 
+/* generalised arclength with alpha = 1 */
+static void arclength(const struct gm_density *unused, const double *slope, double *values, size_t m)
+{
+    (void)unused;
+    for (size_t i = 0; i < m; i++) {
+        values[GM_P * m + i] = 1 + slope[i] * slope[i];
+        values[GM_P_S * m + i] = 2 * slope[i];
+        values[GM_P_SS * m + i] = 2;
+    }
+}
+
+/* A mesh that swings. */
+static void places(const struct gm_mesh_map *unused, const double *label, size_t count, double t, double *x,
+                   double *rate)
+{
+    const double amplitude = 0.8, frequency = 1.1, phase = frequency * t + 0.3;
+    (void)unused;
+    for (size_t i = 0; i < count; i++) {
+        const double shape = amplitude * sin(M_PI * label[i] / length);
+        x[i] = label[i] + shape * sin(phase);
+        rate[i] = frequency * shape * cos(phase);
+    }
+}
+
 static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 {
+    static const struct gm_density density = {.values = arclength};
+    static const struct gm_mesh_map map = {places};
     *mesh = (struct gm_mesh){.points = problem->n / 4,
                              .length = length,
                              .right = 2 * M_PI,
+                             .density = &density,
+                             .map = &map,
                              .potential = &gm_potential_sine_gordon};
-    gm_mesh_weigh(mesh, GM_ARCLENGTH, 1, 2 * lorentz(), 4 * lorentz() * lorentz());
 }
 
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points)
@@ -76,7 +103,7 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
         state[i] += by[i];
         state[2 * points + i] += by[points + i];
     }
-    if (kind == GM_MESH_UNIFORM) {
+    if (kind != GM_MESH_MOVING) {
         return true;
     }
     struct gm_elements stage;

@@ -1,36 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Partitioned Runge-Kutta methods for the field on a mesh that follows it (the control-theoretic strategy),
-   and on a uniform mesh. At the stages i, with X(y) given by the constraint g(y, X) = 0,
+/* Partitioned Runge-Kutta methods for the field on a mesh whose equation is one of three. At the stages i
        Y_i = y_n + h sum_j a_ij Ydot_j
        P_i = p_n + h sum_j abar_ij F_j
        P_i = dL/dydot(Y_i, Q_i, Ydot_i, Qdot_i),   F_j = dL/dy(Y_j, Q_j, Ydot_j, Qdot_j)
-       g(Y_i, Q_i) = 0,   d/dt g = Dg(Y_i, Q_i) (Ydot_i, Qdot_i) = 0
-       unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and only Ydot_i and P_i are left
+   and
+       held      g(Y_i, Q_i) = 0,   d/dt g = Dg(Y_i, Q_i) (Ydot_i, Qdot_i) = 0
+                 the control-theoretic strategy, with unknowns Ydot_i, Q_i, Qdot_i
+       relaxed   E Qdot_i = g(Y_i, Q_i),   Q_i = X_n + h sum_j a_ij Qdot_j,   E = 2 length T / (N + 1)^3
+                 the same smoothed in time: with density 1 the slowest mode of the mesh decays as exp(-pi^2 t / T)
+       known     Q_i = F(x, t_n + c_i h),   Qdot_i = F_t(x, t_n + c_i h);   uniform: F = x
    The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not conserve
-   its energy. On the uniform mesh the methods of order 2 come from discrete Lagrangians of the elements, that
-   of the midpoint rule (gauss2) and the trapezoidal one (lobatto2), and are multisymplectic; more stages
-   couple all elements. Tyranowski & Desbrun (2019), eq. 21 and sections 2.6 and 4.2. */
+   its energy. On a known mesh the midpoint rule (gauss2) comes from a discrete Lagrangian of the elements, and on the
+   uniform one the trapezoidal rule (lobatto2) too: they are multisymplectic; more stages couple all elements.
+   Tyranowski & Desbrun (2019), eqs. 20 and 21, propositions 2 to 4, sections 2.6, 4.2 and 6.5. */
+#include <math.h>
 #include <string.h>
 
 #include "core/mesh/families/families.h"
 
-/* Unknowns at a node, stage by stage: dy/dt, and where the mesh moves X and dX/dt. */
+/* Unknowns at a node, stage by stage: dy/dt, then X of a mesh that is held, then dX/dt unless it is known. */
+struct layout {
+    size_t per_stage, rate; /* the number of dX/dt; 0: it is known */
+    bool held, relaxed;
+};
 
-static bool moves(const struct gm_mesh_solver *solver)
+static struct layout layout_of(const struct gm_mesh_solver *solver)
 {
-    return solver->row->strategy->kind == GM_MESH_MOVING;
+    const size_t per_stage = solver->strategy->unknowns;
+    return (struct layout){per_stage, per_stage - 1, per_stage == 3, per_stage == 2};
+}
+
+/* E of a mesh that is smoothed in time */
+static double friction(const struct gm_mesh *mesh)
+{
+    return 2 * mesh->length * mesh->relax / pow((double)mesh->points + 1, 3);
 }
 
 static void guess(const struct gm_mesh_solver *solver, double *unknowns)
 {
-    const size_t points = solver->mesh.points, per_stage = solver->row->strategy->unknowns;
+    const struct layout of = layout_of(solver);
+    const size_t points = solver->mesh.points;
     for (size_t k = 0; k < points; k++) {
         for (size_t i = 0; i < solver->stages; i++) {
-            double *at = unknowns + k * solver->per_node + i * per_stage;
+            double *at = unknowns + k * solver->per_node + i * of.per_stage;
             at[0] = solver->state[2 * points + k];
-            if (per_stage == 3) {
+            if (of.held) {
                 at[1] = solver->state[points + k];
-                at[2] = solver->state[3 * points + k];
+            }
+            if (of.rate > 0) {
+                at[of.rate] = solver->state[3 * points + k];
             }
         }
     }
@@ -38,94 +56,116 @@ static void guess(const struct gm_mesh_solver *solver, double *unknowns)
 
 static bool residual(struct gm_mesh_solver *solver, const double *unknowns, double *out)
 {
+    const struct layout of = layout_of(solver);
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
-    const size_t per_stage = solver->row->strategy->unknowns;
     for (size_t i = 0; i < stages; i++) {
         struct gm_elements *stage = &solver->stage[i];
         for (size_t k = 0; k < points; k++) {
-            const double *at = unknowns + k * per_node;
-            double sum = 0;
+            const double *at = unknowns + k * per_node, *here = at + i * of.per_stage;
+            double rise = 0, shift = 0;
             for (size_t j = 0; j < stages; j++) {
-                sum += tableau->a[i][j] * at[j * per_stage];
+                rise += tableau->a[i][j] * at[j * of.per_stage];
             }
-            stage->y[k + 1] = solver->state[k] + solver->h * sum;
-            stage->u[k + 1] = at[i * per_stage];
-            if (per_stage == 3) {
-                stage->x[k + 1] = at[i * per_stage + 1];
-                stage->v[k + 1] = at[i * per_stage + 2];
+            for (size_t j = 0; of.relaxed && j < stages; j++) {
+                shift += tableau->a[i][j] * at[j * of.per_stage + 1];
+            }
+            stage->y[k + 1] = solver->state[k] + solver->h * rise;
+            stage->u[k + 1] = here[0];
+            if (of.rate > 0) {
+                stage->x[k + 1] = of.held ? here[1] : solver->state[points + k] + solver->h * shift;
+                stage->v[k + 1] = here[of.rate];
             }
         }
         if (!gm_elements_evaluate(stage, &solver->mesh)) {
             return false;
         }
-        if (per_stage == 3) {
+        if (of.rate > 0) {
             gm_elements_constrain(stage, &solver->mesh);
         }
     }
+    const double resists = friction(&solver->mesh);
     for (size_t i = 0; i < stages; i++) {
         const struct gm_elements *stage = &solver->stage[i];
         for (size_t k = 1; k <= points; k++) {
-            double *at = out + (k - 1) * per_node + i * per_stage;
+            double *at = out + (k - 1) * per_node + i * of.per_stage;
             double sum = 0;
             for (size_t j = 0; j < stages; j++) {
                 sum += tableau->abar[i][j] * gm_force_y(&solver->stage[j], k);
             }
             at[0] = gm_momentum_u(stage, k) - solver->momenta[2 * k - 2] - solver->h * sum;
-            if (per_stage == 3) {
+            if (of.held) {
                 at[1] = gm_jump(stage->ell, k);
                 at[2] = gm_jump(stage->rate, k);
+            } else if (of.relaxed) {
+                at[1] = resists * stage->v[k] - gm_jump(stage->ell, k);
             }
         }
     }
     return true;
 }
 
-/* Assembles the derivative of the equations of a stage by its unknowns: Ydot, which z follows by `moved`,
-   and X in one block, Xdot in another. The odd columns, of X, exist only if the mesh moves. */
+/* Derivatives of z and zdot at the stages by an unknown of one stage: dy/dt and dX/dt move places by h a_im, and X
+   itself, if it is held, moves its own. */
+struct follows {
+    double place[GM_STAGES], rate[GM_STAGES];
+};
+
+static struct follows follow(const struct gm_mesh_solver *solver, size_t m, size_t unknown)
+{
+    const struct layout of = layout_of(solver);
+    struct follows made = {0};
+    for (size_t i = 0; i < solver->stages; i++) {
+        const double moved = solver->h * solver->row->tableau->a[i][m], own = i == m;
+        made.place[i] = !of.held || unknown == 0 ? moved : unknown == 1 ? own : 0;
+        made.rate[i] = of.held && unknown == 1 ? 0 : own;
+    }
+    return made;
+}
+
 static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *assembly)
 {
+    const struct layout of = layout_of(solver);
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
-    const size_t stages = solver->stages, per_stage = solver->row->strategy->unknowns;
-    const bool constrained = moves(solver);
-    const double h = solver->h;
+    const size_t stages = solver->stages;
+    const double share = friction(&solver->mesh) / 2; /* a node is in two elements */
     struct gm_element_matrices at[GM_STAGES] = {0};
     for (size_t i = 0; i < stages; i++) {
-        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, constrained, &at[i]);
+        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, of.rate > 0, &at[i]);
     }
-    for (size_t i = 0; i < stages; i++) {
-        const size_t row = i * per_stage;
-        for (size_t m = 0; m < stages; m++) {
-            const size_t column = m * per_stage;
-            const struct gm_places rows = {row, GM_NOWHERE},
-                                   places = {column, constrained ? column + 1 : GM_NOWHERE},
-                                   rates = {GM_NOWHERE, column + 2};
-            const double push = h * tableau->abar[i][m], own = i == m;
-            double by_places[4][4], by_rates[4][4], ell[4], rate[4], rate_by_rates[4];
-            for (size_t b = 0; b < 4; b++) {
-                const double moved = b % 2 ? own : h * tableau->a[i][m], still = b % 2 ? 0 : own;
+    /* the columns of dy/dt and the next unknown together, then those of dX/dt where X is held */
+    for (size_t k = 0; k < stages * (1 + of.held); k++) {
+        const size_t m = k % stages, last = k / stages, column = m * of.per_stage;
+        const struct gm_places columns = {last ? GM_NOWHERE : column,
+                                          of.rate > 0 ? column + 1 + last : GM_NOWHERE};
+        const struct follows by[2] = {follow(solver, m, 0), follow(solver, m, 1 + last)};
+        for (size_t i = 0; i < stages; i++) {
+            const size_t row = i * of.per_stage;
+            double block[4][4], ell[4], rate[4], resists[4][4] = {{0}};
+            for (size_t b = last; b < 4; b += 1 + (last > 0 || of.rate == 0)) {
+                const double *place = by[b % 2].place, *own = by[b % 2].rate;
                 for (size_t a = 0; a < 4; a++) {
-                    by_rates[a][b] = own * at[i].mass[a][b] - push * at[m].mixed[b][a];
-                    by_places[a][b] = moved * at[i].mixed[a][b];
-                    if (b % 2) {
-                        by_places[a][b] -= push * at[m].stiff[a][b];
-                        continue;
-                    }
-                    by_places[a][b] += by_rates[a][b];
+                    double pushed = 0;
                     for (size_t j = 0; j < stages; j++) {
-                        by_places[a][b] -= h * h * tableau->abar[i][j] * tableau->a[j][m] * at[j].stiff[a][b];
+                        pushed +=
+                            tableau->abar[i][j] * (place[j] * at[j].stiff[a][b] + own[j] * at[j].mixed[b][a]);
                     }
+                    block[a][b] =
+                        place[i] * at[i].mixed[a][b] + own[i] * at[i].mass[a][b] - solver->h * pushed;
                 }
-                ell[b] = moved * at[i].gradient[b];
-                rate[b] = moved * at[i].bend[b] + still * at[i].gradient[b];
-                rate_by_rates[b] = own * at[i].gradient[b];
+                resists[b][b] = share * own[i];
+                ell[b] = (of.held ? 1 : -1) * place[i] * at[i].gradient[b];
+                rate[b] = place[i] * at[i].bend[b] + own[i] * at[i].gradient[b];
             }
-            gm_nodes_add(assembly, rows, places, by_places);
-            if (constrained) {
-                gm_nodes_add(assembly, rows, rates, by_rates);
-                gm_nodes_add_row(assembly, row + 1, places, ell);
-                gm_nodes_add_row(assembly, row + 2, places, rate);
-                gm_nodes_add_row(assembly, row + 2, rates, rate_by_rates);
+            gm_nodes_add(assembly, (struct gm_places){row, GM_NOWHERE}, columns, block);
+            if (of.rate > 0 && !last) {
+                gm_nodes_add_row(assembly, row + 1, columns, ell);
+            }
+            if (of.held) {
+                gm_nodes_add_row(assembly, row + 2, columns, rate);
+            } else if (of.relaxed) {
+                gm_nodes_add(assembly, (struct gm_places){GM_NOWHERE, row + 1},
+                             (struct gm_places){GM_NOWHERE, column + 1}, resists);
             }
         }
     }
@@ -148,28 +188,40 @@ static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier
         ends->y[k] = solver->state[k - 1] + solver->h * rise;
         ends->x[k] = tableau->stiffly_accurate ? solver->stage[stages - 1].x[k]
                                                : solver->state[points + k - 1] + solver->h * shift;
-        solver->motion[solver->row->strategy->projected * (k - 1)] =
+        solver->motion[solver->strategy->projected * (k - 1)] =
             solver->momenta[2 * k - 2] + solver->h * force;
     }
+    const struct layout of = layout_of(solver);
+    if (of.rate == 0) {
+        gm_mesh_known(&solver->mesh, solver->strategy->kind, solver->t + solver->h, ends);
+        return gm_elements_measure(ends, &solver->mesh) ? ends : NULL;
+    }
     const bool good =
-        moves(solver) && !tableau->stiffly_accurate
+        of.held && !tableau->stiffly_accurate
             ? gm_nodes_equidistribute(ends, &solver->mesh, NULL, NULL, &solver->places, solver->trial)
             : gm_elements_measure(ends, &solver->mesh);
+    for (size_t k = 1; of.relaxed && k <= points; k++) {
+        ends->v[k] = gm_jump(ends->ell, k) / friction(&solver->mesh);
+    }
     return good ? ends : NULL;
 }
 
 #define STRATEGY .guess = guess, .residual = residual, .jacobian = jacobian, .end = end
-static const struct gm_mesh_strategy control = {.kind = GM_MESH_MOVING,
-                                                .unknowns = 3,
-                                                .projected = 2,
-                                                STRATEGY},
-                                     uniform = {
-                                         .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
+static const struct gm_mesh_strategy relaxed = {
+    .kind = GM_MESH_FREE, .unknowns = 2, .projected = 1, STRATEGY};
+static const struct gm_mesh_strategy control = {
+    .kind = GM_MESH_MOVING, .unknowns = 3, .projected = 2, .relaxed = &relaxed, STRATEGY};
+static const struct gm_mesh_strategy given = {.kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
+static const struct gm_mesh_strategy uniform = {
+    .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
 
 #define FORMULA_control                                                                                      \
     "∂L/∂ẏ(Yᵢ, Qᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
     "g(Yᵢ, Qᵢ) = 0"
 #define FORMULA_uniform "∂L/∂ẏ(Yᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ,  X fixed"
+#define FORMULA_given                                                                                        \
+    "∂L/∂ẏ(Yᵢ, Xᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
+    "Xᵢ = F(x, tₙ + cᵢ h),  Ẋᵢ = ∂F/∂t"
 #define PAIR (GM_SYMMETRIC | GM_REVERSIBLE)
 
 /* The strategy, its stages, its title, the order, what it claims, and the reference. */
@@ -183,6 +235,9 @@ static const struct gm_mesh_strategy control = {.kind = GM_MESH_MOVING,
 #define UNIFORM(stages_of, words, degree, claimed)                                                           \
     ROW(uniform, stages_of, words, degree, GM_SYMPLECTIC | PAIR | claimed,                                   \
         "Tyranowski & Desbrun (2019), section 5.3")
+#define GIVEN(stages_of, words, degree, claimed)                                                             \
+    ROW(given, stages_of, words, degree, GM_SYMPLECTIC | GM_SYMMETRIC | claimed,                             \
+        "Tyranowski & Desbrun (2019), eq. 20, propositions 2 to 4")
 #define CONTROL(stages_of, words, degree, claimed)                                                           \
     ROW(control, stages_of, words, degree, claimed, "Tyranowski & Desbrun (2019), eq. 21")
 
@@ -191,6 +246,10 @@ static const struct gm_scheme schemes[] = {
     UNIFORM(gauss4, "Gauss 4", 4, 0),
     UNIFORM(lobatto2, "Lobatto 2", 2, GM_MULTISYMPLECTIC),
     UNIFORM(lobatto4, "Lobatto 4", 4, 0),
+    GIVEN(gauss2, "Gauss 2", 2, GM_MULTISYMPLECTIC),
+    GIVEN(gauss4, "Gauss 4", 4, 0),
+    GIVEN(lobatto2, "Lobatto 2", 2, 0),
+    GIVEN(lobatto4, "Lobatto 4", 4, 0),
     CONTROL(gauss2, "Gauss 2", 2, PAIR),
     CONTROL(gauss4, "Gauss 4", 4, PAIR),
     CONTROL(lobatto2, "Lobatto 2", 2, PAIR),
@@ -199,5 +258,5 @@ static const struct gm_scheme schemes[] = {
     ROW(control, radau5, "Radau 5", 5, 0, "Tyranowski & Desbrun (2019), section 5.4; B. L. Ehle (1969)"),
 };
 
-const struct gm_family gm_family_control = {.title = "control-theoretic and uniform meshes",
+const struct gm_family gm_family_control = {.title = "control-theoretic, known and uniform meshes",
                                             GM_MESH_FAMILY_OF_STEPS};

@@ -42,18 +42,16 @@ static void guess(const struct gm_mesh_solver *solver, double *unknowns)
 static void force(const struct gm_elements *stage, const double *restrict slack, double kappa,
                   const double *restrict share, size_t points, double *restrict out)
 {
-    double y_left = 0, d_left = 0;
+    double *const *bend = stage->bend, *const *by = stage->gradient;
+    double y_left = 0, x_left = 0;
     for (size_t e = 0; e <= points; e++) {
         const double omega = kappa * slack[e], lambda = share ? share[e] : 0;
-        const double at_y0 = stage->force_y0[e] + omega * stage->bend_y0[e] - lambda * stage->ell_y0[e];
-        const double at_y1 = stage->force_y1[e] + omega * stage->bend_y1[e] - lambda * stage->ell_y1[e];
-        const double at_d = stage->force_d[e] + omega * stage->bend_d[e] - lambda * stage->ell_d[e];
         if (e > 0) {
-            out[2 * e - 2] = y_left + at_y0;
-            out[2 * e - 1] = d_left - at_d;
+            out[2 * e - 2] = y_left + stage->force_y0[e] + omega * bend[0][e] - lambda * by[0][e];
+            out[2 * e - 1] = x_left - stage->force_d[e] + omega * bend[1][e] - lambda * by[1][e];
         }
-        y_left = at_y1;
-        d_left = at_d;
+        y_left = stage->force_y1[e] + omega * bend[2][e] - lambda * by[2][e];
+        x_left = stage->force_d[e] + omega * bend[3][e] - lambda * by[3][e];
     }
 }
 
@@ -103,9 +101,10 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
                 push_x += abar[1] * f1[x];
             }
             const double before = kappa * slack[k - 1], after = kappa * slack[k];
-            at[2 * i] = gm_momentum_u(stage, k) + before * stage->ell_y1[k - 1] + after * stage->ell_y0[k] -
+            double *const *by = stage->gradient;
+            at[2 * i] = gm_momentum_u(stage, k) + before * by[2][k - 1] + after * by[0][k] -
                         solver->momenta[y] - h * push_y;
-            at[2 * i + 1] = gm_momentum_v(stage, k) + before * stage->ell_d[k - 1] - after * stage->ell_d[k] -
+            at[2 * i + 1] = gm_momentum_v(stage, k) + before * by[3][k - 1] + after * by[1][k] -
                             solver->momenta[x] - h * push_x;
             const double hidden = solver->row->left[i] * gm_jump(stage->rate, k);
             at[2 * stages] = i == 0 ? hidden : at[2 * stages] + hidden;

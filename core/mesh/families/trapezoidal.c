@@ -58,10 +58,10 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
         double *at = out + 3 * (k - 1);
         at[0] = momenta[2 * k - 2] + h / 2 * gm_force_y(before, k) -
                 (gm_momentum_u(before, k) + gm_momentum_u(after, k)) / 2 -
-                share[k - 1] * before->ell_y1[k - 1] - share[k] * before->ell_y0[k];
+                share[k - 1] * before->gradient[2][k - 1] - share[k] * before->gradient[0][k];
         at[1] = momenta[2 * k - 1] + h / 2 * gm_force_x(before, k) -
                 (gm_momentum_v(before, k) + gm_momentum_v(after, k)) / 2 -
-                share[k - 1] * before->ell_d[k - 1] + share[k] * before->ell_d[k];
+                share[k - 1] * before->gradient[3][k - 1] - share[k] * before->gradient[1][k];
         at[2] = gm_jump(after->ell, k);
     }
     return true;

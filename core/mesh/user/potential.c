@@ -23,10 +23,14 @@ struct own {
     struct gm_user_line line; /* first; starts are u, u_t, u_x */
     struct gm_potential functions;
     struct gm_mesh mesh;
-    double alpha;
+    struct gm_mesh_names names;
+    struct gm_user_density density;
+    struct gm_user_map map;
+    double until;
+    char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
-    struct gm_tape means /* V, V' */, bend /* V'' */, forces /* V', V'', V''' */;
+    struct gm_tape means /* V, V' */, bend /* V'' */;
     struct gm_tape
         known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
@@ -102,11 +106,6 @@ static void second(const struct gm_potential *potential, double middle, double r
     }
 }
 
-static void force(const struct gm_potential *potential, double phi, double force[3])
-{
-    gm_tape_values(&own_of(potential)->forces, &phi, force, 1);
-}
-
 static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 {
     *mesh = ((const struct own *)problem->parameters)->mesh;
@@ -153,21 +152,21 @@ static struct extent extent_of(const struct own *self)
 {
     const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
     struct extent of = {0};
-    double values[GM_LINE_BLOCK], before = self->mesh.left, at[3];
+    double values[GM_LINE_BLOCK], before = self->mesh.left, at[2];
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
-            self->mesh.potential->force(self->mesh.potential, values[i], at);
+            gm_tape_values(&self->means, &values[i], at, 1);
             of.variation += fabs(values[i] - before);
             of.slope = fmax(of.slope, fabs(values[2 * some + i]));
-            of.force = fmax(of.force, fabs(at[0]));
+            of.force = fmax(of.force, fabs(at[1]));
             before = values[i];
         }
     }
     return of;
 }
 
-/* Sets the density of the mesh, by the file's line alpha:, or else as steep as the start is. */
+/* Sets the numbers of densities, by the file's line alpha:, or else as steep as the start is. */
 static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const double *values)
 {
     const struct gm_user_system *system = self->line.system;
@@ -191,9 +190,20 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
         (bend && !gm_user_line_numbers(system, &bend->node, 1, values, &curvature))) {
         return false;
     }
-    self->alpha = isnan(chosen->alpha) ? alpha : chosen->alpha;
-    gm_mesh_weigh(&self->mesh, chosen->density, self->alpha, slope, curvature);
+    self->names.alpha = isnan(chosen->alpha) ? alpha : chosen->alpha;
+    self->names.steepest = slope;
+    self->names.bend = curvature;
     return true;
+}
+
+/* Reads the formulas of the mesh equation. A bad one is refused later (gm_user_mesh_rests). */
+static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
+{
+    return (gm_user_density_open(&self->density, &self->names, chosen->density, self->refused,
+                                 sizeof self->refused) &&
+            (!chosen->map ||
+             gm_user_map_open(&self->map, &self->names, chosen->map, self->refused, sizeof self->refused))) ||
+           self->refused[0];
 }
 
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
@@ -215,7 +225,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
     const gm_node_id means[] = {wave->system->energy, wave->by_u[0]},
                      begin[] = {wave->start[0], wave->start[1], wave->start_slope};
-    self->functions = (struct gm_potential){.name = "own", .first = first, .second = second, .force = force};
+    self->functions = (struct gm_potential){.name = "own", .first = first, .second = second};
     self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
                                   .first = chosen->first,
                                   .length = chosen->length,
@@ -224,7 +234,6 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     if (!gm_memory_guard_gsl(set_rule, self) ||
         !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
-        !gm_tape_open(&self->forces, graph, wave->by_u, GM_COUNT(wave->by_u), 1, values) ||
         (wave->exact_while != GM_NO_NODE &&
          !gm_tape_open(&self->known, graph, &wave->exact_while, 1, 2, values)) ||
         !gm_user_line_open(&self->line, wave->system, begin, GM_COUNT(begin), &wave->exact, values)) {
@@ -238,19 +247,26 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     }
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
-    return weigh(self, chosen, values);
+    self->mesh.density = &self->density.density;
+    self->mesh.map = chosen->map ? &self->map.map : NULL;
+    self->mesh.relax = chosen->relax;
+    self->mesh.t = self->line.begin;
+    self->until = chosen->until;
+    self->names = (struct gm_mesh_names){.wave = wave, .values = values};
+    return weigh(self, chosen, values) && open_equation(self, chosen);
 }
 
-double gm_user_mesh_alpha(const struct gm_problem *problem)
+const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
 {
-    return ((const struct own *)problem->parameters)->alpha;
+    return &((const struct own *)problem->parameters)->names;
 }
 
 void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->forces, &self->known};
+        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->known, &self->map.tape};
+        gm_user_density_close(&self->density);
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
@@ -266,6 +282,14 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
     double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK];
+    if (self->refused[0]) {
+        snprintf(sentence, size, "%s", self->refused);
+        return false;
+    }
+    if (self->mesh.map && (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
+                           !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
+        return false;
+    }
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
@@ -278,6 +302,15 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
                          gm_grid1_node(&grid, from + i));
                 return false;
             }
+            const double at[] = {slope, u, gm_grid1_node(&grid, from + i)};
+            double rho;
+            gm_tape_values(&self->density.itself, at, &rho, 1);
+            if (!(rho >= 0 && isfinite(rho))) {
+                snprintf(sentence, size,
+                         "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity", rho,
+                         at[2]);
+                return false;
+            }
             largest = fmax(largest, fabs(rate));
             ends[from + i > 0] = rate;
         }
@@ -287,8 +320,9 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
                  self->mesh.right);
         return false;
     }
-    if (!(self->alpha >= 0 && self->alpha <= 1e6)) {
-        snprintf(sentence, size, "alpha: is %g with these values, and lies between 0 and 1e6", self->alpha);
+    if (!(self->names.alpha >= 0 && self->names.alpha <= 1e6)) {
+        snprintf(sentence, size, "alpha: is %g with these values, and lies between 0 and 1e6",
+                 self->names.alpha);
         return false;
     }
     if (!gm_system_item_of(self->line.system, GM_WORD_ENDS, 0) &&

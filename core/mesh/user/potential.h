@@ -4,14 +4,15 @@
 #ifndef GM_CORE_MESH_USER_POTENTIAL_H
 #define GM_CORE_MESH_USER_POTENTIAL_H
 
-#include "core/mesh/moving_mesh.h"
-#include "core/model/potential.h"
+#include "core/mesh/user/formulas.h"
 
 struct gm_user_mesh {
     double first, length; /* first <= x <= first + length */
     long points;          /* nodes between the ends */
     double alpha;         /* NaN: the file's, or else one that the start allows for */
-    enum gm_mesh_density density;
+    const char *density;  /* a word of gm_user_densities, or a formula */
+    const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
+    double relax, until;
 };
 
 /* The number of Gauss points for the mean of V over an element: exact if V is a polynomial of degree 19 or
@@ -24,8 +25,8 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                        const struct gm_user_mesh *chosen);
 void gm_user_mesh_close(struct gm_problem *problem);
 
-/* alpha, resolved */
-double gm_user_mesh_alpha(const struct gm_problem *problem);
+/* The numbers that formulas of its mesh may hold: alpha, steepest and bend, resolved. */
+const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem);
 
 /* Returns true if the start is finite and, unless a line ends: holds it there, rests at both ends up to a thousandth of
    its largest rate; else `sentence` is the reason. */

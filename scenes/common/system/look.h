@@ -113,7 +113,8 @@ struct gm_line_keys {
     int frame;    /* enum gm_frame_nodes, for the schemes of equations with frames */
     int printed;  /* the convection of Burgers' equation is u D u, not D(u^2/2) */
     double alpha; /* only on a moving mesh */
-    int density;  /* enum gm_mesh_density */
+    double relax;
+    char density[GM_TEXT_SIZE], mesh[GM_TEXT_SIZE];
 };
 
 /* A lane's parameters. */

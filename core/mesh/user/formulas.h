@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lines of a mesh equation, which are keys as well: formulas in the field, the nodes and what the file names, in a
+   graph of their own. */
+#ifndef GM_CORE_MESH_USER_FORMULAS_H
+#define GM_CORE_MESH_USER_FORMULAS_H
+
+#include "core/mesh/moving_mesh.h"
+#include "core/model/potential.h"
+#include "core/tape.h"
+
+/* Meanings of names in formulas: the system, values of its variables, of which the parameters are used, and of alpha,
+   steepest and bend. */
+struct gm_mesh_names {
+    const struct gm_user_wave *wave;
+    const double *values;
+    double alpha, steepest, bend;
+};
+
+/* A density as a formula. */
+struct gm_user_density {
+    struct gm_density density; /* first */
+    struct gm_tape tape;       /* of s, u, x: P and its derivatives, in the order of enum gm_density_value */
+    struct gm_tape itself;     /* rho */
+};
+/* The words for densities, NULL-terminated. */
+extern const char *const gm_user_densities[];
+
+/* A known mesh as a formula. */
+struct gm_user_map {
+    struct gm_mesh_map map; /* first */
+    struct gm_tape tape;    /* of x and t: the place and its rate */
+};
+/* Opens the mesh of a text X = F; false as gm_user_density_open. */
+bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
+                      char *sentence, size_t size);
+/* False with a sentence if it moves an end of the mesh at time t, or does not grow with x. */
+bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
+                       size_t size);
+
+/* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. To be closed in both cases. */
+bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
+                          const char *text, char *sentence, size_t size);
+void gm_user_density_close(struct gm_user_density *density);
+
+#endif

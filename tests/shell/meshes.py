@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mesh equations as data: densities, known meshes, smoothing, free nodes.   meshes.py PROGRAM
+
+What the program prints is compared with numbers computed here from the states, with numbers that a second program
+computed once, and with sentences."""
+import json
+import math
+import subprocess
+import sys
+import tempfile
+
+program = sys.argv[1]
+folder = tempfile.TemporaryDirectory()
+faults = []
+
+SYSTEM = """field: u
+V: u^2/2 + k*u^4/4
+parameter: k = 0.25
+parameter: a = 1.2
+start: u = a*exp(-(x - 0.5)^2/3), u_t = 0.2*x*exp(-x^2/2)
+half_length: 6
+points: 7
+schemes: multiplier-lobatto4
+"""
+
+
+def check(good, text):
+    print(("    " if good else "    WRONG: ") + text.splitlines()[0])
+    if not good:
+        faults.append(text)
+
+
+def near(name, got, wanted, within):
+    check(abs(got - wanted) <= within, f"{name}: {got:.12g}, wanted {wanted:.12g} within {within:.1g}")
+
+
+def file_of(name, *lines):
+    path = f"{folder.name}/{name}.system"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(SYSTEM + "".join(line + "\n" for line in lines))
+    return path
+
+
+def run(*words):
+    return subprocess.run([program, "run", *words], capture_output=True, text=True, check=False)
+
+
+def states(*words):
+    """Answers of lanes, with states of lists u, x, u_dot, x_dot."""
+    made = run(*words, "--state", "--json")
+    lanes = [json.loads(line) for line in made.stdout.splitlines()]
+    if not lanes:
+        print(made.stderr)
+    for lane in lanes:
+        state, points = lane["state"], len(lane["state"]) // 4
+        names = ("u", "x", "u_dot", "x_dot")
+        lane["state"] = {name: state[i * points:(i + 1) * points] for i, name in enumerate(names)}
+    return lanes
+
+
+def refused(sentence, *words):
+    made = run(*words)
+    check(made.returncode == 1 and sentence in made.stderr, f"refused: {words[-1]}: {made.stderr.strip()}")
+
+
+def densities():
+    """Every cell has the same ell, computed from the printed state."""
+    for text, rho in (
+        ("sqrt(1 + 2*u_x^2 + 0.3*u^2)", lambda u, s, x: math.sqrt(1 + 2 * s * s + 0.3 * u * u)),
+        ("1 + 0.4*tanh(x - 12)*u_x^2/(1 + u_x^2) + 0.1*V_u",
+         lambda u, s, x: 1 + 0.4 * math.tanh(x - 12) * s * s / (1 + s * s) + 0.1 * math.sin(u)),
+    ):
+        for lane in states("soliton", f"density={text}", "until=5",
+                           "scheme=multiplier-lobatto4,control-gauss4,multiplier-trapezoidal"):
+            u = [0, *lane["state"]["u"], 2 * math.pi]
+            x = [0, *lane["state"]["x"], 25]
+            ell = []
+            for e in range(len(u) - 1):
+                d = x[e + 1] - x[e]
+                s = (u[e + 1] - u[e]) / d
+                ell.append(d * d * (rho(u[e], s, x[e]) ** 2 + rho(u[e + 1], s, x[e + 1]) ** 2) / 2)
+            near(f"{lane['scheme']}, {text}: spread of ell", (max(ell) - min(ell)) / max(ell), 0, 1e-11)
+    named, typed = (states("soliton", f"density={density}", "until=5")[0]["state"]
+                    for density in ("arclength", "sqrt(1 + alpha^2*u_x^2)"))
+    check(named == typed, "arclength and its formula have the same bits")
+    line, key = (states(*words, "until=1")[0]["state"] for words in (
+        (file_of("line", "density: sqrt(1 + 0.8*u_x^2 + k*u^2)"),),
+        (file_of("key", "density: 1 + x^2"), "density=sqrt(1 + 0.8*u_x^2 + 0.25*u^2)")))
+    check(line == key, "a line and a key have the same bits, and the key replaces the line")
+    refused("density: there is no name v; did you mean velocity, at column 10 of sqrt(1 + v)", "soliton", "density=sqrt(1 + v)")
+    refused("density: it does not hold u_t, at column 5 of 1 + u_t", "soliton", "density=1 + u_t")
+    refused("density: it has to be smooth, and abs is not, at column 5", "soliton", "density=1 + abs(u_x)")
+    refused("density: is -1 at the start where x = 0", "soliton", "density=u_x - 1")
+    refused("density: is ", "soliton", "density=1/(x - 12.5)")
+    refused("the formula ends where a number", "soliton", "density=sqrt(1 +")
+    refused("bad.system:9:10: density: there is no name w, at column 5 of 1 + w", file_of("bad", "density: 1 + w"))
+    refused("alpha is a key of moving meshes", file_of("alpha", "parameter: alpha = 1"))
+    refused("steepest has a meaning here, and a parameter of that name needs another one",
+            file_of("steepest", "parameter: steepest = 1", "density: limited"))
+    refused("density: has at most 255 characters", file_of("long", "density: 1" + " + u^2" * 60))
+
+
+
+SWINGS = "mesh: X = x + 0.7*sin(pi*(x + 6)/12)*sin(1.1*t + 0.3)"
+STEEP = "density: sqrt(1 + 0.8*u_x^2 + 0.1*u^2)"
+
+
+def compare(name, got, wanted, within=1e-10):
+    near(name, max(abs(a - b) for a, b in zip(got, wanted, strict=True)), 0, within)
+
+
+def apart(one, other):
+    return max(abs(a - b) for key in ("u", "x") for a, b in zip(one[key], other[key], strict=True))
+
+
+def element(y, x, u, v, k):
+    """Derivatives of one element's Lagrangian by y and dy/dt of both ends, by differences of Gauss's rule."""
+    nodes = (-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831, 0.9061798459386640)
+    weights = (0.2369268850561891, 0.4786286704993665, 128 / 225, 0.4786286704993665, 0.2369268850561891)
+
+    def value(y0, y1, u0, u1):
+        d, slope, total = x[1] - x[0], (y1 - y0) / (x[1] - x[0]), 0
+        for node, weight in zip(nodes, weights, strict=True):
+            s = (1 + node) / 2
+            field, rate = (1 - s) * y0 + s * y1, (1 - s) * (u0 - slope * v[0]) + s * (u1 - slope * v[1])
+            total += weight / 2 * d * (rate**2 / 2 - slope**2 / 2 - field**2 / 2 - k * field**4 / 4)
+        return total
+
+    made, h = [], 1e-3
+    for i in range(4):
+        z = [*y, *u]
+        slope = 0
+        for by, factor in ((-2, 1), (-1, -8), (1, 8), (2, -1)):  # of a polynomial of degree 4: exact
+            z[i] = [*y, *u][i] + by * h
+            slope += factor * value(*z) / (12 * h)
+        made.append(slope)
+    return made
+
+
+def cell_defect(scheme):
+    """The discrete Euler-Lagrange equations of the midpoint rule (109) from three states."""
+    h, length, amplitude = 0.05, 12, 0.7
+    path = file_of("swings", SWINGS)
+    y = [[0.0, *states(path, f"scheme={scheme}", f"dt={h}", f"steps={n}")[0]["state"]["u"], 0.0] for n in range(3)]
+    for state in y:
+        state[0] = 1.2 * math.exp(-6.5**2 / 3)
+        state[-1] = 1.2 * math.exp(-5.5**2 / 3)
+    labels = [-6 + 1.5 * k for k in range(9)]
+    place = [[x + amplitude * math.sin(math.pi * (x + 6) / length) * math.sin(1.1 * t + 0.3) for x in labels]
+             for t in (h / 2, 3 * h / 2)]
+    rate = [[1.1 * amplitude * math.sin(math.pi * (x + 6) / length) * math.cos(1.1 * t + 0.3) for x in labels]
+            for t in (h / 2, 3 * h / 2)]
+    rest, size = [0.0] * 9, 0.0
+    for step in range(2):
+        for e in range(8):
+            ends = (e, e + 1)
+            middle = [(y[step][i] + y[step + 1][i]) / 2 for i in ends]
+            u = [(y[step + 1][i] - y[step][i]) / h for i in ends]
+            by = element(middle, [place[step][i] for i in ends], u, [rate[step][i] for i in ends], 0.25)
+            for side in range(2):
+                # D2 of the first step and D1 of the second, both of h l((y + y')/2, (y' - y)/h)
+                parts = (h / 2 * by[side], by[2 + side] if step == 0 else -by[2 + side])
+                rest[e + side] += sum(parts)
+                size = max(size, *map(abs, parts))
+    return max(map(abs, rest[1:-1])) / size
+
+
+def known_meshes():
+    path = file_of("known", SWINGS)
+    two, four = states(path, "scheme=given-gauss2,given-gauss4", "dt=0.05", "steps=20")
+    compare("given-gauss2", two["state"]["u"], (-.000990768389936, .103911572322, .283162720824, .317060009905,
+                                                .339073023932, .159259503772, -.00200901973701))
+    compare("given-gauss4", four["state"]["u"], (-.00103107618899, .104098723083, .283113653716, .316152370913,
+                                                 .339136357126, .159307864819, -.0020202301356))
+    compare("its mesh", four["state"]["x"], (-4.23601930043, -2.51222726938, -.862694214901, .689814810992,
+                                             2.1373057851, 3.48777273062, 4.76398069957))
+    near("energy", two["observables"]["energy"], 1.980189368093, 1e-10)
+    one, other = states(path, "mesh=X = x", "scheme=given-gauss4,uniform-gauss4")
+    check(one["state"] == other["state"], "X = x and the uniform mesh have the same bits")
+    for scheme, order in (("gauss2", 2), ("gauss4", 4), ("lobatto2", 2), ("lobatto4", 4)):
+        lanes = states(path, f"scheme=given-{scheme}", "until=0.8", "dt=0.1,0.05,0.025,0.0125")
+        gaps = [apart(lanes[i]["state"], lanes[i + 1]["state"]) for i in range(3)]
+        near(f"order of given-{scheme}", math.log2(gaps[1] / gaps[2]), order, 0.1)
+    near("Euler-Lagrange equations of given-gauss2", cell_defect("given-gauss2"), 0, 1e-10)
+    check(cell_defect("given-lobatto2") > 1e-4, "given-lobatto2 does not obey them")
+    for scheme, word in (("given-gauss2", "holds"), ("given-lobatto2", "not claimed")):
+        made = subprocess.run([program, "certify", scheme, "--on", path, "points=3", "dt=0.05"], capture_output=True,
+                              text=True, check=False)
+        check(made.returncode == 0, f"certify {scheme} --on the file: {made.stderr}")
+        line = next(line for line in made.stdout.splitlines() if line.lstrip().startswith("M "))
+        check(word in line, line)
+        if word != "holds":
+            check(float(line.split("defect ")[1].split()[0]) > 1e-6, "a defect above 1e-6")
+    for sentence, text in (
+        ("mesh: X is -5.9 at the end x = -6 at t = 0, and has to stay there", "X = x + 0.1"),
+        ("mesh: X is 6 at the end x = -6 at t = 0, and has to stay there", "X = -x"),
+        ("mesh: it does not hold u", "X = x + u"),
+        ("mesh: it is X = and a formula in x and t", "Y = x"),
+        ("mesh: X does not grow with x at x = -6, t = 1", "X = x + 3*sin(pi*x/6)*sin(t)"),
+    ):
+        refused(sentence, path, "until=1", f"mesh={text}")
+    crossed = states(path, "scheme=given-gauss2", "mesh=X = x + 4*sin(pi*(x + 6)/6)*sin(t)*sin(pi*t/4)", "until=4")[0]
+    check(crossed["status"] == "mesh-crossing", f"a mesh that is not positive later: {crossed['status']}")
+
+
+def smoothing():
+    path = file_of("smoothed", STEEP)
+    lane = states(path, "relax=0.3", "scheme=control-radau3", "dt=0.02", "steps=25")[0]
+    compare("control-radau3 with relax", lane["state"]["u"],
+            (1.28392657159e-05, .026446427548, .321874526987, .852186778771, .751218449861, .20286189179, .00583656427398))
+    compare("its mesh", lane["state"]["x"], (-4.46200227358, -2.92456608952, -1.41444670703, .0170584570296,
+                                             1.50321143046, 2.93744878062, 4.46269722609))
+    held, *lanes = states(path, "relax=0,0.1,0.01,0.001", "scheme=control-radau5", "points=9", "dt=0.01", "until=0.5")
+    for lane, wanted in zip(lanes, (7.2e-4, 7.2e-5, 7.2e-6), strict=True):
+        gap = apart(lane["state"], held["state"])
+        near(f"distance from relax=0 with relax={lane['parameters']['relax']:g}", gap, wanted, 0.05 * wanted)
+    refused("relax=-1 is out of range", path, "relax=-1")
+    refused("relax: is of control- schemes, and not of multiplier-lobatto4", path, "relax=1")
+    refused("relax: is a number between 0 and 1e+06", file_of("lazy", "relax: k"))
+
+
+densities()
+known_meshes()
+smoothing()
+sys.exit(len(faults) > 0)
