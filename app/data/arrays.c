@@ -77,10 +77,10 @@ static void name_of(const struct gm_saving *saving, const struct gm_saved *lane,
 }
 
 /* The archive of `file` with room for `capacity` rows, existing or new. */
-static struct gm_layout lay_out(const struct gm_saving *saving, const struct gm_saved *lane,
-                                struct gm_bytes *file, uint64_t capacity)
+static struct gm_npz_layout lay_out(const struct gm_saving *saving, const struct gm_saved *lane,
+                                    struct gm_bytes *file, uint64_t capacity)
 {
-    struct gm_layout layout = {.npz.file = file, .capacity = capacity};
+    struct gm_npz_layout layout = {.npz.file = file, .capacity = capacity};
     for (size_t i = 0; i <= lane->count; i++) {
         char name[80];
         const struct gm_npz_shape shape = shape_of(lane, i, capacity);
@@ -106,7 +106,7 @@ static uint64_t size_of(const struct gm_saved *lane, size_t column)
 }
 
 /* The lane's file has from now on this archive, in which its rows are, unless `empty`. */
-static void adopt(struct gm_saved *lane, const struct gm_layout *layout, bool empty)
+static void adopt(struct gm_saved *lane, const struct gm_npz_layout *layout, bool empty)
 {
     gm_npz_close(&lane->layout.npz);
     lane->layout = *layout;
@@ -124,7 +124,7 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
 {
     const bool empty = lane->file.file < 0;
     struct gm_bytes file = gm_bytes_of(gm_part_file(saving->part, lane->index, true));
-    struct gm_layout layout = lay_out(saving, lane, &file, capacity);
+    struct gm_npz_layout layout = lay_out(saving, lane, &file, capacity);
     gm_bytes_clear(&file, layout.npz.place, end_size(lane));
     for (size_t i = 0; i <= lane->count; i++) {
         gm_npz_settle(&layout.npz, i, layout.crcs[i]);
@@ -197,12 +197,12 @@ static void begin(const struct gm_saving *saving, struct gm_saved *lane, const s
 }
 
 /* Moves the full columns apart within their file. Their room is reserved first, since a failure in the middle
-   would lose them; returns false if there is none. */
+   would lose them; returns false without that room. */
 static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
     struct gm_bytes *file = &lane->file;
     const uint64_t before = lane->layout.npz.place + end_size(lane);
-    struct gm_layout layout = lay_out(saving, lane, file, capacity);
+    struct gm_npz_layout layout = lay_out(saving, lane, file, capacity);
     gm_bytes_clear(file, before, layout.npz.place + end_size(lane) - before);
     if (file->why != 0) {
         gm_npz_close(&layout.npz);
@@ -210,7 +210,7 @@ static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_
         return false;
     }
     for (size_t i = lane->count + 1; i-- > 0;) {
-        gm_bytes_raise(file, lane->layout.starts[i], size_of(lane, i), layout.starts[i]);
+        gm_bytes_move(file, lane->layout.starts[i], size_of(lane, i), file, layout.starts[i]);
     }
     for (size_t i = 0; i <= lane->count; i++) {
         gm_npz_settle(&layout.npz, i, layout.crcs[i]);

@@ -112,32 +112,21 @@ void gm_bytes_clear(struct gm_bytes *bytes, uint64_t place, uint64_t size)
     }
 }
 
-/* Moves blocks from the end, and truncates the source after each if it is another file. */
-static void move(struct gm_bytes *from, uint64_t place, uint64_t size, struct gm_bytes *to, uint64_t there)
-{
-    unsigned char block[BLOCK];
-    while (size > 0 && to->why == 0) {
-        const size_t part = block_of(size);
-        size -= part;
-        fetch(from, block, part, place + size, to, from != to);
-        gm_bytes_write(to, block, part, there + size);
-    }
-}
-
-void gm_bytes_raise(struct gm_bytes *bytes, uint64_t place, uint64_t size, uint64_t there)
-{
-    move(bytes, place, size, bytes, there);
-}
-
-void gm_bytes_take(struct gm_bytes *from, uint64_t size, struct gm_bytes *to, uint64_t there)
+void gm_bytes_move(struct gm_bytes *from, uint64_t place, uint64_t size, struct gm_bytes *to, uint64_t there)
 {
     /* the end comes last: until then there is room to spare, as blocks of the disk begin elsewhere in the two */
-    unsigned char end[BLOCK];
-    const size_t part = block_of(size);
-    size -= part;
-    fetch(from, end, part, size, to, true);
-    move(from, 0, size, to, there);
-    gm_bytes_write(to, end, part, there + size);
+    unsigned char end[BLOCK], block[BLOCK];
+    const bool shorten = from != to;
+    const size_t last = block_of(size);
+    uint64_t left = size - last;
+    fetch(from, end, last, place + left, to, shorten);
+    while (left > 0 && to->why == 0) {
+        const size_t part = block_of(left);
+        left -= part;
+        fetch(from, block, part, place + left, to, shorten);
+        gm_bytes_write(to, block, part, there + left);
+    }
+    gm_bytes_write(to, end, last, there + size - last);
 }
 
 void gm_column_open(struct gm_column *column)

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* An open file, and errno of its first failure, or 0: after it nothing more is written. */
+/* An open file, and errno of its first failure, or 0; no byte is written after it. */
 struct gm_bytes {
     int file; /* -1: closed */
     int why;
@@ -32,11 +32,10 @@ void gm_bytes_sync(struct gm_bytes *bytes);
 void gm_bytes_truncate(struct gm_bytes *bytes, uint64_t size);
 /* Zeros. */
 void gm_bytes_clear(struct gm_bytes *bytes, uint64_t place, uint64_t size);
-/* Moves bytes to a later place of their file, which may overlap with theirs. */
-void gm_bytes_raise(struct gm_bytes *bytes, uint64_t place, uint64_t size, uint64_t there);
-/* Moves the first bytes of a file to another one, which notes failures, from their end, and truncates the file
-   block by block: the move needs no more room. */
-void gm_bytes_take(struct gm_bytes *from, uint64_t size, struct gm_bytes *to, uint64_t there);
+/* Moves bytes to a later place of their file, which may overlap with theirs, or the first bytes of a file to
+   another one, which notes failures. They are moved from their end, and the other file is truncated block by
+   block: the move needs no more room. */
+void gm_bytes_move(struct gm_bytes *from, uint64_t place, uint64_t size, struct gm_bytes *to, uint64_t there);
 
 /* A part of a file that grows from its offset on, through a buffer. */
 

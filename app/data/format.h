@@ -99,7 +99,7 @@ uint64_t gm_part_capacity(const struct gm_part *part, uint64_t own);
 enum { GM_COLUMNS = GM_QUANTITIES + 1 };
 
 /* The archive of an .npz file of one lane. */
-struct gm_layout {
+struct gm_npz_layout {
     struct gm_npz npz;
     uint64_t capacity, starts[GM_COLUMNS]; /* rows that have room; offsets of the columns */
     uint32_t crcs[GM_COLUMNS];             /* checksums of the bytes before the columns' numbers */
@@ -121,7 +121,7 @@ struct gm_saved {
     uint64_t heads;   /* lines before the rows of .csv */
     /* the fields of .npz */
     bool plain; /* every row is the numbers of the state, one per column */
-    struct gm_layout layout;
+    struct gm_npz_layout layout;
 };
 
 struct gm_saving {
@@ -133,7 +133,7 @@ struct gm_saving {
     bool kept; /* there is a checkpoint: rows that it counts must not change */
 };
 
-/* What the lane's file notes as failed is reported; the functions that return a bool are false with errno. */
+/* The lane's file notes failures, which are reported. Functions that return a bool are false with errno. */
 struct gm_data_format {
     const char *ending;
     /* Opens the lane's file with its existing rows; `expected`: the expected number of rows, 0 if it is not

@@ -266,7 +266,7 @@ static void join(struct gm_save *save, struct gm_bytes *file, bool there)
             if (saving->kept) {
                 gm_bytes_copy(&source, 0, lane->size, file, place, &crc);
             } else {
-                gm_bytes_take(&source, lane->size, file, place);
+                gm_bytes_move(&source, 0, lane->size, file, place);
             }
             gm_bytes_close(&source);
         }
