@@ -151,9 +151,7 @@ static void open_lanes(struct gm_arena *arena, void *data)
     geomint *handle = opening->handle;
     struct gm_request *request = &handle->request;
     struct gm_arguments *typed = gm_arguments_in(arena);
-    for (int i = 0; i < opening->count; i++) {
-        gm_arena_need(arena, gm_arguments_add(typed, opening->words[i]));
-    }
+    gm_arena_need(arena, gm_arguments_append(typed, (char *const *)opening->words, opening->count));
     if (!gm_request_parse(request, typed->count, typed->words, 1, message)) {
         opening->refusal = gm_request_refusal(request);
         gm_arena_refuse(arena, "%s", message);

@@ -54,10 +54,8 @@ static void certify(struct gm_arena *arena, void *data)
     const size_t mark = gm_arena_mark(arena);
     struct gm_arguments *typed = gm_arguments_in(arena);
     size_t size;
-    gm_arena_need(arena, gm_arguments_add(typed, opening->scheme));
-    for (int i = 1; i < opening->count; i++) {
-        gm_arena_need(arena, gm_arguments_add(typed, opening->words[i]));
-    }
+    gm_arguments_add(typed, opening->scheme);
+    gm_arena_need(arena, gm_arguments_append(typed, (char *const *)opening->words + 1, opening->count - 1));
     const struct gm_certificate certificate =
         system ? gm_certify_words(arena, system, typed, &opening->refusal) : gm_certify(scheme);
     FILE *stream = open_text(arena, handle, &size);

@@ -26,39 +26,68 @@ struct gm_arguments *gm_arguments_in(struct gm_arena *arena)
     return gm_arena_keep(arena, gm_arena_take(arena, 1, sizeof(struct gm_arguments)), gm_arguments_close);
 }
 
+/* Takes a malloc'ed word; NULL: it was out of memory. */
+static bool take(struct gm_arguments *arguments, char *word)
+{
+    const size_t count = (size_t)arguments->count;
+    char **more = word && !arguments->failed ? realloc(arguments->words, (count + 2) * sizeof *more) : NULL;
+    arguments->failed = !more;
+    if (more) {
+        more[count] = word;
+        more[count + 1] = NULL;
+        arguments->words = more;
+        arguments->count++;
+    } else {
+        free(word);
+    }
+    return more;
+}
+
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word)
 {
-    char **more = realloc(arguments->words, ((size_t)arguments->count + 2) * sizeof *more);
-    if (!more) {
-        return false;
+    return take(arguments, strdup(word));
+}
+
+bool gm_arguments_print(struct gm_arguments *arguments, const char *format, ...)
+{
+    char *word = NULL;
+    va_list values;
+    va_start(values, format);
+    const int length = vasprintf(&word, format, values);
+    va_end(values);
+    return take(arguments, length < 0 ? NULL : word);
+}
+
+bool gm_arguments_append(struct gm_arguments *arguments, char *const words[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        gm_arguments_add(arguments, words[i]);
     }
-    arguments->words = more;
-    char *copy = strdup(word);
-    more[arguments->count] = copy;
-    arguments->count += copy != NULL;
-    more[arguments->count] = NULL;
-    return copy != NULL;
+    return !arguments->failed;
+}
+
+struct gm_arguments *gm_arguments_of(struct gm_arena *arena, const char *text)
+{
+    struct gm_arguments *words = gm_arguments_in(arena);
+    gm_arena_need(arena, gm_arguments_split(words, text));
+    return words;
 }
 
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
 {
     char *word = malloc(strlen(text) + 1);
-    bool good = word != NULL;
-    while (good) {
-        text += strspn(text, " \t");
-        if (*text == '\0') {
-            break;
-        }
+    arguments->failed = arguments->failed || !word;
+    while (!arguments->failed && *(text += strspn(text, " \t"))) {
         char *to = word;
         while (*text != '\0' && *text != ' ' && *text != '\t') {
             text += text[0] == '\\' && text[1] != '\0';
             *to++ = *text++;
         }
         *to = '\0';
-        good = gm_arguments_add(arguments, word);
+        gm_arguments_add(arguments, word);
     }
     free(word);
-    return good;
+    return !arguments->failed;
 }
 
 /* The length of a word's key; both keys of a run's end count as one. */

@@ -13,14 +13,21 @@ struct gm_scene;
 struct gm_arguments { /* {0} is an empty list */
     char **words;     /* copies of the words, and a NULL after the last */
     int count;
+    bool failed; /* memory was short, and words are missing: asked once, when all have been added */
 };
 void gm_arguments_close(void *arguments);
 /* An empty list that closes with the arena; called in a body of it. */
 struct gm_arguments *gm_arguments_in(struct gm_arena *arena);
+/* The same with the words of a text (gm_arguments_split). */
+struct gm_arguments *gm_arguments_of(struct gm_arena *arena, const char *text);
 
-/* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
-   that belongs to a word. Returns false when out of memory; the caller closes the list in any case. */
+/* Add one word, a formatted one, several, or the words of a text: separated by blanks, with a backslash before
+   a blank or backslash that belongs to a word. Return false when this or an earlier one was out of memory; the
+   caller closes the list in any case. */
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
+__attribute__((format(printf, 2, 3))) bool gm_arguments_print(struct gm_arguments *arguments,
+                                                              const char *format, ...);
+bool gm_arguments_append(struct gm_arguments *arguments, char *const words[], int count);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
 
 /* The first word that sets the same key as `word`, "dt=" or "dt=0.1", or NULL. Both steps= and until= set

@@ -92,9 +92,8 @@ static bool same_room(const struct gm_request *request, const char *told, char *
 /* The word that named the system now means the text stored in the picture. */
 static void recall_system(const struct gm_options *options, char *const *texts)
 {
-    struct gm_arguments *words = gm_arguments_in(options->arena);
     const char *told = texts[COMMAND] ? texts[COMMAND] : texts[ARGUMENTS];
-    gm_arena_need(options->arena, !texts[SYSTEM] || !told || gm_arguments_split(words, told));
+    const struct gm_arguments *words = gm_arguments_of(options->arena, texts[SYSTEM] && told ? told : "");
     const int place = texts[COMMAND] ? gm_provenance_scene_place(words) : 0;
     gm_arena_need(options->arena,
                   words->count <= place || gm_system_recall(words->words[place], texts[SYSTEM]));
@@ -130,8 +129,7 @@ static const struct gm_command_row *chart_of(const char *name)
 static int chart_again(const struct gm_options *options, const char *command)
 {
     char message[GM_MESSAGE] = "its command is damaged";
-    struct gm_arguments *words = gm_arguments_in(options->arena);
-    gm_arena_need(options->arena, gm_arguments_split(words, command));
+    struct gm_arguments *words = gm_arguments_of(options->arena, command);
     const struct gm_command_row *chart = words->count > 0 ? chart_of(words->words[0]) : NULL;
     /* the chart's command may leave by the arena */
     struct gm_options *again = gm_arena_take(options->arena, 1, sizeof *again);
@@ -190,8 +188,7 @@ static bool take_look(struct gm_appearance *look, char *const *texts)
 static void tell_aliases(const struct gm_options *options, const char *arguments)
 {
     static const char key[] = "scheme=";
-    struct gm_arguments *words = gm_arguments_in(options->arena);
-    gm_arena_need(options->arena, gm_arguments_split(words, arguments));
+    const struct gm_arguments *words = gm_arguments_of(options->arena, arguments);
     for (int i = 1; i < words->count; i++) {
         const char *list = words->words[i];
         struct gm_span rest = {sizeof key - 1, strlen(list)}, name;

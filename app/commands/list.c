@@ -363,8 +363,8 @@ static void list_file(const struct gm_listed *listed, const void *data)
 static int list_files(const struct list *list, const struct gm_options *options)
 {
     char message[GM_MESSAGE];
-    const bool good = gm_files_each(list->kind, list_file, &(const struct listing){list, options}, message);
-    return good ? gm_finish(GM_EXIT_OK) : gm_give_up(GM_EXIT_FILE, "%s", message);
+    const bool listed = gm_files_each(list->kind, list_file, &(const struct listing){list, options}, message);
+    return listed ? gm_finish(GM_EXIT_OK) : gm_give_up(GM_EXIT_FILE, "%s", message);
 }
 
 static const struct list *find_list(const char *word)

@@ -244,16 +244,6 @@ static bool settle_format(struct gm_options *options, char *message)
                      options->painter);
 }
 
-/* Adds the option as a word of the scene: window=... */
-static bool add_word(struct gm_options *options, const struct gm_option *row, const char *value,
-                     char *message)
-{
-    char *word = gm_text("%s=%s", row->name + strlen("--"), value);
-    const bool good = word && gm_arguments_add(&options->arguments, word);
-    free(word);
-    return good || gm_refuse(message, "not enough memory");
-}
-
 static bool store(struct gm_options *options, const struct gm_option *row, const char *value, char *message)
 {
     char *place = (char *)options + row->offset;
@@ -295,7 +285,8 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
         wrong = gm_sink_is_movie(value) ? NULL : "is no .mp4, .webm or .gif file";
         break;
     case WORD:
-        return add_word(options, row, value, message);
+        return gm_arguments_print(&options->arguments, "%s=%s", row->name + strlen("--"), value) ||
+               gm_refuse(message, "not enough memory");
     case TEXT:
         break;
     }

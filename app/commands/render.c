@@ -342,11 +342,11 @@ static void tell_written(const struct work *work)
     }
 }
 
-static int close_sinks(struct work *work, bool good, char *message)
+static int close_sinks(struct work *work, bool painted, char *message)
 {
     /* an interrupted movie is finished with the frames it has; only an error gives it up, but no picture */
     const bool written = !work->pictures || gm_sink_close(work->pictures, true, message);
-    const bool moving = !work->movie || gm_sink_close(work->movie, good && written, message);
+    const bool moving = !work->movie || gm_sink_close(work->movie, painted && written, message);
     work->pictures = work->movie = NULL;
     return written && moving;
 }
@@ -357,20 +357,19 @@ static int paint_all(struct work *work, const char *name)
     const struct gm_options *options = work->options;
     *options->end = GM_EXIT_FILE;
     work->canvas = gm_canvas_open(&options->look, message);
-    bool good = work->canvas != NULL;
-    if (good && !gm_provenance_make(&work->provenance, work->request, &options->look,
-                                    gm_canvas_backend(work->canvas))) {
-        good = gm_refuse(message, "not enough memory");
-    }
-    good = good && open_sinks(work, name, message);
-    if (good && work->frames.found > 0) {
+    const bool opened = work->canvas &&
+                        (gm_provenance_make(&work->provenance, work->request, &options->look,
+                                            gm_canvas_backend(work->canvas)) ||
+                         gm_refuse(message, "not enough memory")) &&
+                        open_sinks(work, name, message);
+    if (opened && work->frames.found > 0) {
         gm_complain("%ld of %ld frame%s %s there already", work->frames.found, work->schedule.ours,
                     gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
     }
-    good = good && resume(work, message) && make_frames(work, message);
+    const bool painted = opened && resume(work, message) && make_frames(work, message);
     gm_interrupts_seen();
-    const bool closed = close_sinks(work, good, message);
-    if (!closed || !good) {
+    const bool closed = close_sinks(work, painted, message);
+    if (!closed || !painted) {
         gm_complain("%s", message);
         if (!gm_interrupted) {
             return GM_EXIT_FILE;

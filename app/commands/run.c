@@ -435,11 +435,11 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
     if (now < pace->kept + interval) {
         return true;
     }
-    const bool good = keep_state(outcome, message);
+    const bool kept = keep_state(outcome, message);
     pace->looked = gm_clock_seconds();
     /* a saved state may be large: saving takes a small part of the time */
     pace->kept = pace->looked + fmax(0, share * (pace->looked - now) - interval);
-    return good;
+    return kept;
 }
 
 /* Returns true if steps are observed only for saving; steps and rows are then made in blocks. */
@@ -464,11 +464,11 @@ static bool make_rows(struct outcome *outcome, int64_t stop, double *trace, char
     struct gm_drive *drive = &outcome->drive;
     const int64_t most = drive->lane->run->steps + TRACED;
     drive->trace = trace;
-    const bool good = gm_drive_to(drive, stop < most ? stop : most, false, message);
+    const bool driven = gm_drive_to(drive, stop < most ? stop : most, false, message);
     const size_t count = (size_t)(drive->trace - trace) / row_width(outcome);
     drive->trace = NULL;
     outcome->paused.last_row = drive->lane->run->steps;
-    return good && gm_save_rows(outcome->outputs->save, drive->lane->run, trace, count, message);
+    return driven && gm_save_rows(outcome->outputs->save, drive->lane->run, trace, count, message);
 }
 
 /* Makes steps up to the next that is looked at, `stop` at most, and the row of that. */
@@ -511,17 +511,17 @@ static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
     struct pace pace = {.steps = 1, .looked = gm_clock_seconds(), .kept = gm_clock_seconds()};
     /* without memory for it, step by step */
     double *trace = only_saves(outcome) ? malloc(TRACED * row_width(outcome) * sizeof *trace) : NULL;
-    bool good = true;
-    for (int64_t before = -1; good && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted &&
+    bool driven = true;
+    for (int64_t before = -1; driven && gm_drive_goes_on(&outcome->drive, steps) && !gm_interrupted &&
                               run->steps != before && !is_in_vain(outcome->outputs);) {
         before = run->steps;
         const int64_t stop = keeps && pace.steps < steps - before ? before + pace.steps : steps;
-        good = trace ? make_rows(outcome, stop, trace, message) : make_steps(outcome, stop, message);
-        good = good && (!keeps || keep_pace(outcome, &pace, message));
+        driven = trace ? make_rows(outcome, stop, trace, message) : make_steps(outcome, stop, message);
+        driven = driven && (!keeps || keep_pace(outcome, &pace, message));
     }
     free(trace);
     gm_interrupts_seen();
-    return good;
+    return driven;
 }
 
 /* A description of the run, as JSON; malloc'ed. Returns NULL when out of memory. */
@@ -576,20 +576,20 @@ static bool end_rows(struct outcome *outcome, char *message)
         return false;
     }
     char *meta = meta_of(outcome);
-    const bool good =
+    const bool ended =
         meta ? gm_save_end(outputs->save, meta, message) : gm_refuse(message, "not enough memory");
     free(meta);
-    return good;
+    return ended;
 }
 
 static bool save_tracks(const struct outcome *outcome, char *message)
 {
     char *meta = meta_of(outcome);
-    const bool good = meta ? gm_tracks_add(outcome->outputs->tracks, outcome->drive.index,
-                                           outcome->drive.lane, meta, message)
-                           : gm_refuse(message, "not enough memory");
+    const bool added = meta ? gm_tracks_add(outcome->outputs->tracks, outcome->drive.index,
+                                            outcome->drive.lane, meta, message)
+                            : gm_refuse(message, "not enough memory");
     free(meta);
-    return good;
+    return added;
 }
 
 /* Ends incomplete rows, mostly after a lack of memory: the saved rows remain, even if the reason cannot be
@@ -823,7 +823,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
             return GM_EXIT_FILE;
         }
     }
-    const bool good =
+    const bool opened =
         (!options->checkpoint || (gm_folder_make_for(options->checkpoint, message) &&
                                   gm_temporary_can_replace(options->checkpoint, message))) &&
         (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
@@ -831,7 +831,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         (!options->save ||
          (outputs->save = gm_save_open(options->save, request->count, gm_pause_has_rows(outputs->pause),
                                        outputs->pause != NULL, message)));
-    return good ? GM_EXIT_OK : GM_EXIT_FILE;
+    return opened ? GM_EXIT_OK : GM_EXIT_FILE;
 }
 
 /* Finishes the opened files and reports each one; returns the exit status. */
@@ -887,7 +887,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     outcome.front = outcome.drive.lane ? front_of(request, outcome.drive.lane, index) : NULL;
     outcome.values = malloc(2 * observables * sizeof(double));
     int status = GM_EXIT_OK;
-    const bool good = outcome.front && outcome.values;
+    const bool ready = outcome.front && outcome.values;
     char note[GM_MESSAGE] = "";
     if (outcome.drive.lane && index == 0) {
         gm_lane_note(outcome.drive.lane, note);
@@ -895,16 +895,16 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     if (note[0]) {
         gm_complain("%s", note);
     }
-    if (outcome.drive.lane && !good) {
+    if (outcome.drive.lane && !ready) {
         snprintf(message, sizeof message, "not enough memory");
     }
-    if (good && options->maximum) {
+    if (ready && options->maximum) {
         outcome.maxima = outcome.values + observables;
         for (size_t k = 0; k < observables; k++) {
             outcome.maxima[k] = NAN;
         }
     }
-    if (!good) {
+    if (!ready) {
         status = gm_give_up(GM_EXIT_USAGE, "%s", message);
     } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
         if (outputs->save && gm_save_is_cut(outputs->save)) {

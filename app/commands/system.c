@@ -741,13 +741,13 @@ static void check_scene(const struct gm_options *options, bool typed)
     const int count = options->arguments.count;
     struct gm_system_trial trial;
     struct gm_words read = {0};
-    const bool good =
+    const bool known =
         gm_system_try(&trial, count, words, message) &&
         (!typed || gm_words_read(&read, trial.scene, count - 1, words + 1, GM_RUN_SCHEMES, message));
     const int status = trial.scene ? GM_EXIT_USAGE : trial.status;
     gm_words_close(&read);
     gm_system_trial_close(&trial);
-    if (!good) {
+    if (!known) {
         gm_command_end(options, status, "%s", message);
     }
 }

@@ -98,13 +98,11 @@ static int explore(const struct gm_options *options, const char *command, const 
                    ? gm_give_up(GM_EXIT_USAGE, "--keys and --screen need --shot FILE")
                    : gm_explorer(request, tour, &terminal);
     }
-    for (int i = 0; i < options->arguments.count; i++) {
-        gm_arena_need(options->arena, gm_arguments_add(words, options->arguments.words[i]));
-    }
+    gm_arguments_append(words, options->arguments.words, options->arguments.count);
     for (size_t i = 0; i < GM_COUNT(more); i++) {
-        gm_arena_need(options->arena, !more[i][1] || (gm_arguments_add(words, more[i][0]) &&
-                                                      gm_arguments_add(words, more[i][1])));
+        gm_arguments_append(words, (char **)more[i], more[i][1] ? 2 : 0);
     }
+    gm_arena_need(options->arena, !words->failed);
     terminal.words = gm_arena_keep(options->arena, gm_arguments_join(command, words), free);
     return gm_explorer(request, tour, &terminal);
 }

@@ -10,7 +10,7 @@
 #include "app/data/format.h"
 #include "core/run.h"
 
-static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *run, const double *state)
+static void put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *run, const double *state)
 {
     const struct gm_quantity *quantity = &lane->quantities[i];
     struct gm_column *column = &lane->columns[i + 1];
@@ -18,15 +18,13 @@ static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *r
     const double *values = quantity->derive ? gm_quantity_values(run, quantity, lane->scratch)
                                             : state + quantity->first * lane->members;
     if (!quantity->whole) {
-        return gm_column_put(column, values, size * sizeof *values);
+        gm_column_put(column, values, size * sizeof *values);
+        return;
     }
     for (size_t k = 0; k < size; k++) {
         const int64_t number = (int64_t)values[k];
-        if (!gm_column_put(column, &number, sizeof number)) {
-            return false;
-        }
+        gm_column_put(column, &number, sizeof number);
     }
-    return true;
 }
 
 /* Returns true if all quantities are single numbers of the state in its order, as for most ordinary
@@ -78,22 +76,18 @@ static void name_of(const struct gm_saving *saving, const struct gm_saved *lane,
     }
 }
 
-/* The archive of `file` with room for `capacity` rows, existing or new; NULL with errno. */
-static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_saved *lane, int file,
-                              uint64_t capacity, uint64_t starts[], uint32_t crcs[])
+/* The archive of `file` with room for `capacity` rows, existing or new. */
+static struct gm_npz_layout lay_out(const struct gm_saving *saving, const struct gm_saved *lane,
+                                    struct gm_bytes *file, uint64_t capacity)
 {
-    struct gm_npz *npz = gm_npz_open(file);
-    bool good = npz != NULL;
-    for (size_t i = 0; i <= lane->count && good; i++) {
+    struct gm_npz_layout layout = {.npz.file = file, .capacity = capacity};
+    for (size_t i = 0; i <= lane->count; i++) {
         char name[80];
         const struct gm_npz_shape shape = shape_of(lane, i, capacity);
         name_of(saving, lane, i > 0 ? lane->quantities[i - 1].name : "t", name);
-        good = gm_npz_reserve(npz, name, &shape, &starts[i], &crcs[i]);
+        layout.starts[i] = gm_npz_reserve(&layout.npz, name, &shape, &layout.crcs[i]);
     }
-    if (!good) {
-        gm_npz_close(npz);
-    }
-    return good ? npz : NULL;
+    return layout;
 }
 
 enum { CONTENTS = 1 << 16, HEADS = 512 /* bytes of a column's head */ };
@@ -111,66 +105,53 @@ static uint64_t size_of(const struct gm_saved *lane, size_t column)
     return bytes_of(lane, column) * (is_fixed(lane, column) ? 1 : lane->rows);
 }
 
-/* The lane's file is from now on the one of this archive. */
-static void adopt(struct gm_saved *lane, struct gm_npz *npz, int file, uint64_t capacity,
-                  const uint64_t starts[], const uint32_t crcs[])
+/* The lane's file has from now on this archive, in which its rows are, unless `empty`. */
+static void adopt(struct gm_saved *lane, const struct gm_npz_layout *layout, bool empty)
 {
-    gm_npz_close(lane->npz);
-    lane->npz = npz;
-    lane->file = file;
-    lane->capacity = capacity;
+    gm_npz_close(&lane->layout.npz);
+    lane->layout = *layout;
+    lane->layout.npz.file = &lane->file;
     for (size_t i = 0; i <= lane->count; i++) {
-        lane->starts[i] = starts[i];
-        lane->columns[i].file = file;
-        lane->columns[i].crc = crcs[i];
+        lane->columns[i].file = &lane->file;
+        lane->columns[i].place = layout->starts[i] + (empty ? 0 : size_of(lane, i));
+        lane->columns[i].crc = layout->crcs[i];
     }
 }
 
-/* Writes the lane's file again, with its rows and room for `capacity` rows. */
+/* Writes the lane's file again, with its rows and room for `capacity` rows. Returns false with errno if there is
+   no room for that: the file stays. */
 static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
-    uint64_t starts[GM_COLUMNS] = {0};
-    uint32_t crcs[GM_COLUMNS] = {0};
-    const int file = gm_part_file(saving->part, lane->index, true);
-    struct gm_npz *npz = file < 0 ? NULL : lay_out(saving, lane, file, capacity, starts, crcs);
-    bool good = npz && gm_bytes_clear(file, gm_npz_size(npz), end_size(lane));
-    for (size_t i = 0; i <= lane->count && good; i++) {
-        const uint64_t size = lane->file < 0 ? 0 : size_of(lane, i);
-        good = gm_npz_settle(npz, i, crcs[i]) &&
-               gm_bytes_copy(lane->file, lane->starts[i], size, file, starts[i], &crcs[i]);
-        lane->columns[i].place = starts[i] + size;
+    const bool empty = lane->file.file < 0;
+    struct gm_bytes file = gm_bytes_of(gm_part_file(saving->part, lane->index, true));
+    struct gm_npz_layout layout = lay_out(saving, lane, &file, capacity);
+    gm_bytes_clear(&file, layout.npz.place, end_size(lane));
+    for (size_t i = 0; i <= lane->count; i++) {
+        gm_npz_settle(&layout.npz, i, layout.crcs[i]);
+        gm_bytes_copy(&lane->file, lane->layout.starts[i], empty ? 0 : size_of(lane, i), &file,
+                      layout.starts[i], &layout.crcs[i]);
     }
-    if (!good || !gm_part_take(saving->part, lane->index)) {
-        const int why = errno;
-        gm_npz_close(npz);
-        if (file >= 0) {
-            close(file);
-            gm_part_drop(saving->part, lane->index, true);
-        }
-        errno = why;
-        return false;
+    if (file.why != 0 || !gm_part_take(saving->part, lane->index)) {
+        gm_bytes_note(&file, false);
+        gm_npz_close(&layout.npz);
+        gm_part_drop(saving->part, lane->index, true);
+        return gm_bytes_close(&file);
     }
-    if (lane->file >= 0) {
-        close(lane->file);
-    }
-    adopt(lane, npz, file, capacity, starts, crcs);
+    gm_bytes_close(&lane->file);
+    lane->file = file;
+    adopt(lane, &layout, empty);
     return true;
 }
 
 /* Opens the rows saved before. */
-static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
+static void open_again(const struct gm_saving *saving, struct gm_saved *lane)
 {
-    uint32_t crcs[GM_COLUMNS];
-    lane->file = gm_part_file(saving->part, lane->index, false);
-    if (lane->file < 0) {
-        return false;
-    }
-    lane->capacity = gm_npz_length(lane->file);
-    lane->npz = lay_out(saving, lane, lane->file, lane->capacity, lane->starts, crcs);
-    if (lane->npz && lane->capacity < lane->rows) {
+    lane->file = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
+    if (lane->file.why == 0) {
+        lane->layout = lay_out(saving, lane, &lane->file, gm_npz_length(lane->file.file));
         errno = EILSEQ;
+        gm_bytes_note(&lane->file, lane->layout.capacity >= lane->rows);
     }
-    return lane->npz && lane->capacity >= lane->rows;
 }
 
 enum { FEW_ROWS = 1 << 12, MORE = 4 };
@@ -195,48 +176,48 @@ static uint64_t capacity_of(const struct gm_saving *saving, const struct gm_save
     return fitting > lane->rows ? fitting : lane->rows + 1;
 }
 
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+static void begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected)
 {
     const bool fresh = lane->rows == 0;
     lane->plain = is_plain(lane);
-    bool good =
-        (fresh || open_again(saving, lane)) && make(saving, lane, capacity_of(saving, lane, expected));
-    for (size_t i = 0; i <= lane->count && good; i++) {
-        good = gm_column_open(&lane->columns[i]) &&
-               (!fresh || !is_fixed(lane, i) ||
-                (put_quantity(lane, i - 1, run, gm_run_state(run)) && gm_column_flush(&lane->columns[i])));
+    if (!fresh) {
+        open_again(saving, lane);
     }
-    return good;
+    if (lane->file.why == 0) {
+        gm_bytes_note(&lane->file, make(saving, lane, capacity_of(saving, lane, expected)));
+    }
+    for (size_t i = 0; i <= lane->count && lane->file.why == 0; i++) {
+        gm_column_open(&lane->columns[i]);
+        if (lane->file.why == 0 && fresh && is_fixed(lane, i)) {
+            put_quantity(lane, i - 1, run, gm_run_state(run));
+        }
+    }
+    gm_columns_flush(lane->columns, GM_COLUMNS);
 }
 
-/* Moves the full columns apart within their file. Their room is reserved first: a failure in the middle
-   would lose them. */
+/* Moves the full columns apart within their file. Their room is reserved first, since a failure in the middle
+   would lose them; returns false without that room. */
 static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
 {
-    uint64_t starts[GM_COLUMNS] = {0};
-    uint32_t crcs[GM_COLUMNS] = {0};
-    struct gm_npz *npz = lay_out(saving, lane, lane->file, capacity, starts, crcs);
-    const uint64_t before = gm_npz_size(lane->npz) + end_size(lane);
-    bool good = npz && gm_bytes_clear(lane->file, before, gm_npz_size(npz) + end_size(lane) - before);
-    if (!good) {
-        const int why = errno;
-        gm_npz_close(npz);
-        errno = ftruncate(lane->file, (off_t)before) == 0 ? why : errno;
+    struct gm_bytes *file = &lane->file;
+    const uint64_t before = lane->layout.npz.place + end_size(lane);
+    struct gm_npz_layout layout = lay_out(saving, lane, file, capacity);
+    gm_bytes_clear(file, before, layout.npz.place + end_size(lane) - before);
+    if (file->why != 0) {
+        gm_npz_close(&layout.npz);
+        file->why = ftruncate(file->file, (off_t)before) == 0 ? 0 : errno;
         return false;
     }
-    for (size_t i = lane->count + 1; i-- > 0 && good;) {
-        good = gm_bytes_raise(lane->file, lane->starts[i], size_of(lane, i), starts[i]);
+    for (size_t i = lane->count + 1; i-- > 0;) {
+        gm_bytes_move(file, lane->layout.starts[i], size_of(lane, i), file, layout.starts[i]);
     }
     for (size_t i = 0; i <= lane->count; i++) {
-        good = good && gm_npz_settle(npz, i, crcs[i]) &&
-               gm_bytes_copy(lane->file, starts[i], size_of(lane, i), -1, 0, &crcs[i]);
+        gm_npz_settle(&layout.npz, i, layout.crcs[i]);
+        gm_bytes_copy(file, layout.starts[i], size_of(lane, i), NULL, 0, &layout.crcs[i]);
     }
-    adopt(lane, npz, lane->file, capacity, starts, crcs);
-    for (size_t i = 0; i <= lane->count; i++) {
-        lane->columns[i].place = starts[i] + (good ? size_of(lane, i) : 0);
-    }
-    return good;
+    adopt(lane, &layout, file->why != 0);
+    return true;
 }
 
 /* Lengthens the file if a second one has no room: up to `wanted` rows, and by more than 1/PART of its
@@ -244,101 +225,98 @@ static bool widen(const struct gm_saving *saving, struct gm_saved *lane, uint64_
 static bool use_up(const struct gm_saving *saving, struct gm_saved *lane, uint64_t wanted)
 {
     enum { PART = 64 };
-    const uint64_t own = gm_npz_size(lane->npz) + end_size(lane), room = most_rows(saving, lane, own),
+    const uint64_t own = lane->layout.npz.place + end_size(lane), room = most_rows(saving, lane, own),
                    most = room < wanted ? room : wanted;
-    bool good = false;
-    for (uint64_t more = most > lane->rows ? most - lane->rows : 0; more > lane->rows / PART && !good;
-         more /= 2) {
-        good = widen(saving, lane, lane->rows + more);
+    uint64_t more = most > lane->rows ? most - lane->rows : 0;
+    while (more > lane->rows / PART && !widen(saving, lane, lane->rows + more)) {
+        more /= 2;
     }
-    return good;
+    return more > lane->rows / PART;
 }
 
 /* There are more rows than there is room for. */
-static bool grow(const struct gm_saving *saving, struct gm_saved *lane)
+static void grow(const struct gm_saving *saving, struct gm_saved *lane)
 {
     const uint64_t wanted = MORE * lane->rows;
-    bool good = true;
-    for (size_t i = 0; i <= lane->count && good; i++) {
-        good = gm_column_flush(&lane->columns[i]);
+    gm_columns_flush(lane->columns, GM_COLUMNS);
+    if (lane->file.why == 0 && !make(saving, lane, capacity_of(saving, lane, wanted))) {
+        const int why = errno;
+        const bool widened = !saving->kept && use_up(saving, lane, wanted);
+        errno = why;
+        gm_bytes_note(&lane->file, widened);
     }
-    if (!good || make(saving, lane, capacity_of(saving, lane, wanted))) {
-        return good;
-    }
-    const int why = errno;
-    good = !saving->kept && use_up(saving, lane, wanted);
-    errno = good ? errno : why;
-    return good;
 }
 
-static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static void row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const double *state = gm_run_state(run);
-    bool good = (lane->rows < lane->capacity || grow(saving, lane)) &&
-                gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
-    for (size_t i = 0; i < lane->count && good; i++) {
-        good = lane->quantities[i].fixed || put_quantity(lane, i, run, state);
+    if (lane->rows >= lane->layout.capacity) {
+        grow(saving, lane);
     }
-    return good;
+    if (lane->file.why == 0) {
+        gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
+    }
+    for (size_t i = 0; i < lane->count && lane->file.why == 0; i++) {
+        if (!lane->quantities[i].fixed) {
+            put_quantity(lane, i, run, state);
+        }
+    }
 }
 
 /* Copies the columns' numbers out of the rows. If a column fails the rows are counted (cut). */
-static bool rows(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+static void rows(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                  const double *rows, size_t count)
 {
     const size_t width = 1 + run->problem->n;
-    bool good = true;
-    for (size_t done = 0, part = 0; done < count && good; done += part) {
-        if (lane->rows == lane->capacity && !grow(saving, lane)) {
-            return false;
+    for (size_t done = 0, part = 0; done < count && lane->file.why == 0; done += part) {
+        if (lane->rows == lane->layout.capacity) {
+            grow(saving, lane);
         }
-        part = lane->capacity - lane->rows < count - done ? lane->capacity - lane->rows : count - done;
+        const uint64_t room = lane->file.why == 0 ? lane->layout.capacity - lane->rows : 0;
+        part = room < count - done ? room : count - done;
         for (size_t i = 0; i <= lane->count; i++) {
-            good = gm_column_put_every(&lane->columns[i], rows + done * width + i, width, part) && good;
+            gm_column_put_every(&lane->columns[i], rows + done * width + i, width, part);
         }
         lane->rows += part;
     }
-    return good;
 }
 
 static void cut(const struct gm_saving *saving, struct gm_saved *lane)
 {
     (void)saving;
     for (size_t i = 0; i <= lane->count; i++) {
-        const uint64_t there = (lane->columns[i].place - lane->starts[i]) / bytes_of(lane, i);
+        const uint64_t there = (lane->columns[i].place - lane->layout.starts[i]) / bytes_of(lane, i);
         lane->rows = !is_fixed(lane, i) && there < lane->rows ? there : lane->rows;
     }
 }
 
-static bool end(const struct gm_saving *saving, struct gm_saved *lane)
+static void end(const struct gm_saving *saving, struct gm_saved *lane)
 {
     char name[80];
-    bool good = true;
-    const bool full = lane->rows == lane->capacity || make(saving, lane, lane->rows);
-    if (!full && saving->kept) { /* rows that the checkpoint counts must not move */
-        return false;
-    }
+    const bool full = lane->rows == lane->layout.capacity || make(saving, lane, lane->rows);
+    struct gm_npz *npz = &lane->layout.npz;
+    gm_bytes_note(&lane->file, full || !saving->kept); /* rows that the checkpoint counts must not move */
     /* without room for another file the one that there is has gaps, of which a reader knows nothing */
-    for (size_t i = 0; i <= lane->count && good; i++) {
-        good = full || is_fixed(lane, i) ? gm_npz_settle(lane->npz, i, lane->columns[i].crc)
-                                         : gm_npz_shorten(lane->npz, i, lane->rows);
+    for (size_t i = 0; i <= lane->count && lane->file.why == 0; i++) {
+        if (full || is_fixed(lane, i)) {
+            gm_npz_settle(npz, i, lane->columns[i].crc);
+        } else {
+            gm_npz_shorten(npz, i, lane->rows);
+        }
     }
     name_of(saving, lane, "meta", name);
-    good = good && gm_npz_text(lane->npz, name, lane->meta);
-    lane->size = gm_npz_size(lane->npz);
-    return good;
+    gm_npz_text(npz, name, lane->meta);
+    lane->size = npz->place;
 }
 
-static bool finish(const struct gm_saving *saving, size_t lanes, int file)
+static void finish(const struct gm_saving *saving, size_t lanes, struct gm_bytes *file)
 {
-    struct gm_npz *npz = gm_npz_open(file);
-    bool good = npz != NULL;
-    for (size_t i = 0; i < lanes && good; i++) {
-        good = gm_npz_include(npz, saving->lanes[i].npz);
+    struct gm_npz npz = {.file = file};
+    for (size_t i = 0; i < lanes; i++) {
+        gm_npz_include(&npz, &saving->lanes[i].layout.npz);
     }
-    good = good && gm_npz_finish(npz);
-    gm_npz_close(npz);
-    return good;
+    gm_npz_finish(&npz);
+    gm_npz_close(&npz);
 }
 
 const struct gm_data_format gm_data_format_npz = {

@@ -9,7 +9,30 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { BLOCK = 1 << 18, SMALL_BLOCK = 1 << 14 /* without malloc */ };
+enum { BLOCK = 1 << 14 };
+
+static size_t block_of(uint64_t size)
+{
+    return size < BLOCK ? (size_t)size : BLOCK;
+}
+
+void gm_bytes_note(struct gm_bytes *bytes, bool done)
+{
+    bytes->why = done || bytes->why != 0 ? bytes->why : errno;
+}
+
+struct gm_bytes gm_bytes_of(int file)
+{
+    return (struct gm_bytes){.file = file, .why = file < 0 ? errno : 0};
+}
+
+bool gm_bytes_close(struct gm_bytes *bytes)
+{
+    gm_bytes_note(bytes, bytes->file < 0 || close(bytes->file) == 0);
+    bytes->file = -1;
+    errno = bytes->why;
+    return bytes->why == 0;
+}
 
 /* Writes as many of the bytes as possible and returns their number; sets errno if it is not all. */
 static size_t write_most(int file, const void *bytes, size_t size, uint64_t place)
@@ -29,93 +52,89 @@ static size_t write_most(int file, const void *bytes, size_t size, uint64_t plac
     return written;
 }
 
-bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place)
+void gm_bytes_write(struct gm_bytes *to, const void *bytes, size_t size, uint64_t place)
 {
-    return write_most(file, bytes, size, place) == size;
-}
-
-bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place)
-{
-    char *to = bytes;
-    while (size > 0) {
-        const ssize_t done = pread(file, to, size, (off_t)place);
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            errno = done == 0 ? EIO : errno;
-            return false;
-        }
-        to += done;
-        size -= (size_t)done;
-        place += (uint64_t)done;
+    if (to->why == 0) {
+        gm_bytes_note(to, write_most(to->file, bytes, size, place) == size);
     }
-    return true;
 }
 
-bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
+void gm_bytes_read(struct gm_bytes *from, void *bytes, size_t size, uint64_t place)
 {
-    unsigned char *block = malloc(BLOCK);
-    bool good = block != NULL;
-    errno = good ? errno : ENOMEM;
-    for (uint64_t at = 0; at < size && good;) {
-        const size_t part = size - at < BLOCK ? (size_t)(size - at) : BLOCK;
-        good = gm_bytes_read(from, block, part, place + at) &&
-               (to < 0 || gm_bytes_write(to, block, part, there + at));
+    size_t got = 0;
+    while (got < size && from->why == 0) {
+        const ssize_t done = pread(from->file, (char *)bytes + got, size - got, (off_t)(place + got));
+        got += done > 0 ? (size_t)done : 0;
+        errno = done == 0 ? EIO : errno;
+        gm_bytes_note(from, done > 0 || (done < 0 && errno == EINTR));
+    }
+}
+
+void gm_bytes_sync(struct gm_bytes *bytes)
+{
+    gm_bytes_note(bytes, bytes->why != 0 || fsync(bytes->file) == 0);
+}
+
+void gm_bytes_truncate(struct gm_bytes *bytes, uint64_t size)
+{
+    gm_bytes_note(bytes, bytes->why != 0 || ftruncate(bytes->file, (off_t)size) == 0);
+}
+
+/* Reads a block, and cuts it off if `shorten`; a failure is one of the file to which it goes. */
+static void fetch(struct gm_bytes *from, void *block, size_t size, uint64_t place, struct gm_bytes *to,
+                  bool shorten)
+{
+    gm_bytes_read(from, block, size, place);
+    if (shorten) {
+        gm_bytes_truncate(from, place);
+    }
+    to->why = to->why != 0 ? to->why : from->why;
+}
+
+void gm_bytes_copy(struct gm_bytes *from, uint64_t place, uint64_t size, struct gm_bytes *to, uint64_t there,
+                   uint32_t *crc)
+{
+    unsigned char block[BLOCK] = {0};
+    struct gm_bytes *noting = to ? to : from;
+    for (uint64_t at = 0; at < size && noting->why == 0; at += BLOCK) {
+        const size_t part = block_of(size - at);
+        fetch(from, block, part, place + at, noting, false);
+        gm_bytes_write(noting, block, to ? part : 0, there + at);
         *crc = libdeflate_crc32(*crc, block, part);
-        at += part;
     }
-    free(block);
-    return good;
 }
 
-bool gm_bytes_clear(int file, uint64_t place, uint64_t size)
+void gm_bytes_clear(struct gm_bytes *bytes, uint64_t place, uint64_t size)
 {
-    static const char nothing[SMALL_BLOCK];
-    bool good = true;
-    for (uint64_t at = 0; at < size && good; at += SMALL_BLOCK) {
-        good = gm_bytes_write(file, nothing, size - at < SMALL_BLOCK ? (size_t)(size - at) : SMALL_BLOCK,
-                              place + at);
+    static const char nothing[BLOCK];
+    for (uint64_t at = 0; at < size && bytes->why == 0; at += BLOCK) {
+        gm_bytes_write(bytes, nothing, block_of(size - at), place + at);
     }
-    return good;
 }
 
-/* Moves blocks from the end and truncates the source after each. */
-static bool move(int from, uint64_t place, uint64_t size, int to, uint64_t there, bool shorten)
-{
-    unsigned char block[SMALL_BLOCK];
-    bool good = true;
-    while (size > 0 && good) {
-        const size_t part = size < SMALL_BLOCK ? (size_t)size : SMALL_BLOCK;
-        size -= part;
-        good = gm_bytes_read(from, block, part, place + size) &&
-               (!shorten || ftruncate(from, (off_t)(place + size)) == 0) &&
-               gm_bytes_write(to, block, part, there + size);
-    }
-    return good;
-}
-
-bool gm_bytes_raise(int file, uint64_t place, uint64_t size, uint64_t there)
-{
-    return move(file, place, size, file, there, false);
-}
-
-bool gm_bytes_take(int from, uint64_t size, int to, uint64_t there)
+void gm_bytes_move(struct gm_bytes *from, uint64_t place, uint64_t size, struct gm_bytes *to, uint64_t there)
 {
     /* the end comes last: until then there is room to spare, as blocks of the disk begin elsewhere in the two */
-    unsigned char end[SMALL_BLOCK];
-    const size_t part = size < SMALL_BLOCK ? (size_t)size : SMALL_BLOCK;
-    size -= part;
-    return gm_bytes_read(from, end, part, size) && ftruncate(from, (off_t)size) == 0 &&
-           move(from, 0, size, to, there, true) && gm_bytes_write(to, end, part, there + size);
+    unsigned char end[BLOCK], block[BLOCK];
+    const bool shorten = from != to;
+    const size_t last = block_of(size);
+    uint64_t left = size - last;
+    fetch(from, end, last, place + left, to, shorten);
+    while (left > 0 && to->why == 0) {
+        const size_t part = block_of(left);
+        left -= part;
+        fetch(from, block, part, place + left, to, shorten);
+        gm_bytes_write(to, block, part, there + left);
+    }
+    gm_bytes_write(to, end, last, there + size - last);
 }
 
-bool gm_column_open(struct gm_column *column)
+void gm_column_open(struct gm_column *column)
 {
     column->used = 0;
     column->buffer = malloc(GM_COLUMN_BUFFER);
-    errno = column->buffer ? errno : ENOMEM;
-    return column->buffer != NULL;
+    errno = ENOMEM;
+    gm_bytes_note(column->file, column->buffer);
 }
 
 void gm_column_close(struct gm_column *column)
@@ -125,48 +144,64 @@ void gm_column_close(struct gm_column *column)
 }
 
 /* Writes bytes; those before a failure count, since a disk may be full in the middle. */
-static bool write_out(struct gm_column *column, const unsigned char *bytes, size_t size)
+static void write_out(struct gm_column *column, const unsigned char *bytes, size_t size)
 {
-    const size_t written = write_most(column->file, bytes, size, column->place);
-    column->crc = libdeflate_crc32(column->crc, bytes, written);
-    column->place += written;
-    return written == size;
+    if (!column->failed) {
+        const size_t written = write_most(column->file->file, bytes, size, column->place);
+        column->failed = written < size;
+        gm_bytes_note(column->file, !column->failed);
+        column->crc = libdeflate_crc32(column->crc, bytes, written);
+        column->place += written;
+    }
 }
 
-bool gm_column_flush(struct gm_column *column)
+static void flush(struct gm_column *column)
 {
-    const size_t used = column->used;
+    write_out(column, column->buffer, column->used);
     column->used = 0;
-    return write_out(column, column->buffer, used);
 }
 
-bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size)
+void gm_columns_flush(struct gm_column *columns, size_t count)
 {
-    return gm_column_flush(column) &&
-           (size > GM_COLUMN_BUFFER ? write_out(column, bytes, size) : gm_column_put(column, bytes, size));
+    for (size_t i = 0; i < count; i++) {
+        if (columns[i].buffer) {
+            flush(&columns[i]);
+        }
+    }
 }
 
-bool gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count)
+void gm_column_put_full(struct gm_column *column, const void *bytes, size_t size)
 {
-    if (count * sizeof *numbers > GM_COLUMN_BUFFER - column->used && !gm_column_flush(column)) {
-        return false;
+    flush(column);
+    if (size > GM_COLUMN_BUFFER) {
+        write_out(column, bytes, size);
+    } else {
+        gm_column_put(column, bytes, size);
+    }
+}
+
+void gm_column_put_every(struct gm_column *column, const double *numbers, size_t stride, size_t count)
+{
+    if (count * sizeof *numbers > GM_COLUMN_BUFFER - column->used) {
+        flush(column);
     }
     unsigned char *to = column->buffer + column->used;
     for (size_t i = 0; i < count; i++) {
         memcpy(to + i * sizeof *numbers, numbers + i * stride, sizeof *numbers);
     }
     column->used += count * sizeof *numbers;
-    return true;
 }
 
-bool gm_column_print(struct gm_column *column, const char *format, ...)
+void gm_column_print(struct gm_column *column, const char *format, ...)
 {
     char text[512];
     va_list arguments;
     va_start(arguments, format);
     const int length = vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return length >= 0 && (size_t)length < sizeof text && gm_column_put(column, text, (size_t)length);
+    errno = length < 0 ? errno : EOVERFLOW;
+    gm_bytes_note(column->file, length >= 0 && (size_t)length < sizeof text);
+    gm_column_put(column, text, strlen(text));
 }
 
 /* The number of lines of a file, `most` at most, and the end of the last one. */
@@ -188,19 +223,20 @@ static uint64_t count_lines(int file, uint64_t most, uint64_t *end)
     return lines;
 }
 
-bool gm_lines_open(struct gm_column *column, int file, uint64_t lines)
+void gm_lines_open(struct gm_column *column, struct gm_bytes *file, uint64_t lines)
 {
     *column = (struct gm_column){.file = file};
-    if (count_lines(file, lines, &column->place) < lines) {
+    if (file->why == 0) {
         errno = EILSEQ;
-        return false;
+        gm_bytes_note(file, count_lines(file->file, lines, &column->place) == lines &&
+                                ftruncate(file->file, (off_t)column->place) == 0);
+        gm_column_open(column);
     }
-    return ftruncate(file, (off_t)column->place) == 0 && gm_column_open(column);
 }
 
 uint64_t gm_lines_cut(struct gm_column *column)
 {
-    const uint64_t lines = count_lines(column->file, UINT64_MAX, &column->place);
+    const uint64_t lines = count_lines(column->file->file, UINT64_MAX, &column->place);
     column->used = 0;
-    return ftruncate(column->file, (off_t)column->place) == 0 ? lines : 0;
+    return ftruncate(column->file->file, (off_t)column->place) == 0 ? lines : 0;
 }

@@ -11,25 +11,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "render/cells/text.h"
 
 enum { NPY_HEAD = 256 };
 
-struct entry {
-    char *name;           /* the name with its ending */
+struct gm_npz_entry {
+    char name[112];       /* the name with its ending */
     uint64_t place, size; /* offset of the header; size of head and numbers */
     uint32_t crc;
     struct gm_npz_shape shape; /* a text has its length, and no axes */
     size_t head;               /* bytes of the head */
-};
-
-struct gm_npz {
-    int file;
-    struct entry *entries;
-    size_t count, capacity;
-    uint64_t place; /* offset of the next entry */
-    bool failed;
 };
 
 enum {
@@ -63,16 +54,9 @@ static void put(struct bytes *bytes, const char *sizes, const uint64_t *values)
     }
 }
 
-/* Returns true if no call has failed so far. */
-static bool note(struct gm_npz *npz, bool good)
-{
-    npz->failed = npz->failed || !good;
-    return !npz->failed;
-}
-
 static void emit(struct gm_npz *npz, const void *bytes, size_t size)
 {
-    note(npz, !npz->failed && gm_bytes_write(npz->file, bytes, size, npz->place));
+    gm_bytes_write(npz->file, bytes, size, npz->place);
     npz->place += size;
 }
 
@@ -82,7 +66,7 @@ static uint32_t low(uint64_t value, bool wide)
 }
 
 /* Puts the common fields of a local or central header, which follow the versions. */
-static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide, size_t extra)
+static void put_entry(struct bytes *bytes, const struct gm_npz_entry *entry, bool wide, size_t extra)
 {
     const uint64_t size = low(entry->size, wide);
     /* flags, the method "stored", time, day, ... */
@@ -92,25 +76,24 @@ static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide,
 
 /* The offset of the head of the .npy file; the header always has the 64-bit record, so this does not
    depend on the entry's size. */
-static uint64_t head_place(const struct entry *entry)
+static uint64_t head_place(const struct gm_npz_entry *entry)
 {
     return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
 }
 
-static bool write_local(struct gm_npz *npz, const struct entry *entry)
+static void write_local(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     const size_t name = strlen(entry->name);
     struct bytes bytes = {.count = 0}, extra = {.count = 0};
     put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
     put_entry(&bytes, entry, true, EXTRA_LOCAL);
     put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
-    return note(npz,
-                !npz->failed && gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place) &&
-                    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL) &&
-                    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name));
+    gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place);
+    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL);
+    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name);
 }
 
-static void emit_central(struct gm_npz *npz, const struct entry *entry)
+static void emit_central(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     const bool wide = entry->size >= most_32 || entry->place >= most_32;
     struct bytes bytes = {.count = 0};
@@ -128,50 +111,29 @@ static void emit_central(struct gm_npz *npz, const struct entry *entry)
     }
 }
 
-struct gm_npz *gm_npz_open(int file)
-{
-    struct gm_npz *npz = calloc(1, sizeof *npz);
-    if (!npz) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    npz->file = file;
-    return npz;
-}
-
 void gm_npz_close(struct gm_npz *npz)
 {
-    for (size_t i = 0; npz && i < npz->count; i++) {
-        free(npz->entries[i].name);
-    }
-    if (npz) {
-        free(npz->entries);
-    }
-    free(npz);
+    free(npz->entries);
+    npz->entries = NULL;
 }
 
-/* Takes a malloc'ed name. Returns NULL when out of memory. */
-static struct entry *add_entry(struct gm_npz *npz, char *name)
+static void add_entry(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     if (npz->count == npz->capacity) {
         const size_t capacity = npz->capacity ? 2 * npz->capacity : 16;
-        struct entry *entries = realloc(npz->entries, capacity * sizeof *entries);
+        struct gm_npz_entry *entries = realloc(npz->entries, capacity * sizeof *entries);
+        errno = ENOMEM;
+        gm_bytes_note(npz->file, entries);
         npz->capacity = entries ? capacity : npz->capacity;
         npz->entries = entries ? entries : npz->entries;
     }
-    if (!name || npz->count == npz->capacity || npz->failed) {
-        free(name);
-        errno = npz->failed ? errno : ENOMEM;
-        npz->failed = true;
-        return NULL;
+    if (npz->count < npz->capacity) {
+        npz->entries[npz->count++] = *entry;
     }
-    struct entry *entry = &npz->entries[npz->count++];
-    *entry = (struct entry){.name = name, .place = npz->place};
-    return entry;
 }
 
 /* The head of an .npy file, a multiple of 64 bytes, `least` at least; its length. */
-static size_t head_of(const struct entry *entry, char head[NPY_HEAD], size_t least)
+static size_t head_of(const struct gm_npz_entry *entry, char head[NPY_HEAD], size_t least)
 {
     enum { FRONT = 10, ALIGNED = 64 };
     static const char *const types[] = {
@@ -204,15 +166,14 @@ uint64_t gm_npz_length(int file)
 {
     static const char mark[] = "'shape': (";
     char front[2 * NPY_HEAD + 1] = "";
-    if (!gm_bytes_read(file, front, 2 * NPY_HEAD, 0)) {
-        return 0;
-    }
+    struct gm_bytes bytes = gm_bytes_of(file);
+    gm_bytes_read(&bytes, front, 2 * NPY_HEAD, 0);
     const char *shape = memmem(front, 2 * NPY_HEAD, mark, strlen(mark));
-    return shape ? strtoull(shape + strlen(mark), NULL, 10) : 0;
+    return bytes.why == 0 && shape ? strtoull(shape + strlen(mark), NULL, 10) : 0;
 }
 
 /* The bytes of an entry's numbers. */
-static uint64_t numbers_of(const struct entry *entry)
+static uint64_t numbers_of(const struct gm_npz_entry *entry)
 {
     const struct gm_npz_shape *shape = &entry->shape;
     if (shape->type == GM_NPZ_LETTER) {
@@ -226,104 +187,86 @@ static uint64_t numbers_of(const struct entry *entry)
 }
 
 /* The next entry: its place, and the checksum of its head. */
-static struct entry *reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape)
+static struct gm_npz_entry reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape)
 {
     char head[NPY_HEAD];
-    struct entry *entry = add_entry(npz, gm_text("%s.npy", name));
-    if (entry) {
-        entry->shape = *shape;
-        entry->head = head_of(entry, head, 0);
-        entry->size = entry->head + numbers_of(entry);
-        entry->crc = libdeflate_crc32(0, head, entry->head);
-        npz->place = head_place(entry) + entry->size;
-    }
+    struct gm_npz_entry entry = {.place = npz->place, .shape = *shape};
+    snprintf(entry.name, sizeof entry.name, "%s.npy", name);
+    entry.head = head_of(&entry, head, 0);
+    entry.size = entry.head + numbers_of(&entry);
+    entry.crc = libdeflate_crc32(0, head, entry.head);
+    npz->place = head_place(&entry) + entry.size;
     return entry;
 }
 
-static bool settle(struct gm_npz *npz, const struct entry *entry)
+static void settle(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     char head[NPY_HEAD];
-    const size_t size = head_of(entry, head, entry->head);
-    return note(npz, write_local(npz, entry) && gm_bytes_write(npz->file, head, size, head_place(entry)));
+    write_local(npz, entry);
+    gm_bytes_write(npz->file, head, head_of(entry, head, entry->head), head_place(entry));
 }
 
-bool gm_npz_array(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, const void *values)
+void gm_npz_array(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, const void *values)
 {
-    struct entry *entry = reserve(npz, name, shape);
-    if (!entry) {
-        return false;
-    }
-    const uint64_t size = numbers_of(entry);
-    entry->crc = libdeflate_crc32(entry->crc, values, size);
-    return note(npz, gm_bytes_write(npz->file, values, size, head_place(entry) + entry->head)) &&
-           settle(npz, entry);
+    struct gm_npz_entry entry = reserve(npz, name, shape);
+    const uint64_t size = numbers_of(&entry);
+    entry.crc = libdeflate_crc32(entry.crc, values, size);
+    gm_bytes_write(npz->file, values, size, head_place(&entry) + entry.head);
+    settle(npz, &entry);
+    add_entry(npz, &entry);
 }
 
-bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text)
+void gm_npz_text(struct gm_npz *npz, const char *name, const char *text)
 {
     struct gm_npz_shape shape = {.type = GM_NPZ_LETTER};
     uint32_t *letters = malloc((strlen(text) + 1) * sizeof *letters);
+    errno = ENOMEM;
+    gm_bytes_note(npz->file, letters);
     if (!letters) {
-        errno = ENOMEM;
-        return note(npz, false);
+        return;
     }
     while (*text) {
         letters[shape.lengths[0]++] = gm_text_next(&text);
     }
-    const bool good = gm_npz_array(npz, name, &shape, letters);
+    gm_npz_array(npz, name, &shape, letters);
     free(letters);
-    return good;
 }
 
-bool gm_npz_reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, uint64_t *place,
-                    uint32_t *crc)
+uint64_t gm_npz_reserve(struct gm_npz *npz, const char *name, const struct gm_npz_shape *shape, uint32_t *crc)
 {
-    const struct entry *entry = reserve(npz, name, shape);
-    if (entry) {
-        *place = head_place(entry) + entry->head;
-        *crc = entry->crc;
+    const struct gm_npz_entry entry = reserve(npz, name, shape);
+    add_entry(npz, &entry);
+    *crc = entry.crc;
+    return head_place(&entry) + entry.head;
+}
+
+void gm_npz_settle(struct gm_npz *npz, size_t index, uint32_t crc)
+{
+    if (npz->file->why == 0) {
+        npz->entries[index].crc = crc;
+        settle(npz, &npz->entries[index]);
     }
-    return entry != NULL;
 }
 
-bool gm_npz_settle(struct gm_npz *npz, size_t index, uint32_t crc)
+void gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
 {
-    npz->entries[index].crc = crc;
-    return settle(npz, &npz->entries[index]);
-}
-
-bool gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
-{
-    struct entry *entry = &npz->entries[index];
+    struct gm_npz_entry *entry = &npz->entries[index];
     char head[NPY_HEAD];
     entry->shape.lengths[0] = length;
     entry->size = entry->head + numbers_of(entry);
     entry->crc = libdeflate_crc32(0, head, head_of(entry, head, entry->head));
-    return note(npz, gm_bytes_copy(npz->file, head_place(entry) + entry->head, numbers_of(entry), -1, 0,
-                                   &entry->crc)) &&
-           settle(npz, entry);
+    gm_bytes_copy(npz->file, head_place(entry) + entry->head, numbers_of(entry), NULL, 0, &entry->crc);
+    settle(npz, entry);
 }
 
-uint64_t gm_npz_size(const struct gm_npz *npz)
+void gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
 {
-    return npz->place;
-}
-
-bool gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
-{
-    const uint64_t base = npz->place;
     for (size_t i = 0; i < other->count; i++) {
-        struct entry *entry = add_entry(npz, strdup(other->entries[i].name));
-        if (!entry) {
-            return false;
-        }
-        char *name = entry->name;
-        *entry = other->entries[i];
-        entry->name = name;
-        entry->place += base;
+        struct gm_npz_entry entry = other->entries[i];
+        entry.place += npz->place;
+        add_entry(npz, &entry);
     }
     npz->place += other->place;
-    return true;
 }
 
 static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
@@ -342,12 +285,12 @@ static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
     emit(npz, bytes.at, bytes.count);
 }
 
-bool gm_npz_finish(struct gm_npz *npz)
+void gm_npz_finish(struct gm_npz *npz)
 {
     const uint64_t contents = npz->place;
     for (size_t i = 0; i < npz->count; i++) {
         emit_central(npz, &npz->entries[i]);
     }
     emit_end(npz, contents, npz->place - contents);
-    return note(npz, !npz->failed && ftruncate(npz->file, (off_t)npz->place) == 0);
+    gm_bytes_truncate(npz->file, npz->place);
 }

@@ -15,7 +15,6 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "app/output/folder.h"
 #include "render/message.h"
 
@@ -23,8 +22,8 @@ enum { NAME = 48 };
 static const char identity[] = "identity";
 
 struct gm_part {
-    char *path;
     int folder; /* open, and locked as long as this process lives */
+    char path[];
 };
 
 static void empty(const struct gm_part *part)
@@ -62,15 +61,14 @@ static bool hold(struct gm_part *part, bool *held)
 
 struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
 {
-    struct gm_part *part = calloc(1, sizeof *part);
-    char *folder = gm_text("%s.part", path);
-    if (!part || !folder) {
-        free(part);
-        free(folder);
+    const size_t size = strlen(path) + sizeof ".part";
+    struct gm_part *part = malloc(sizeof *part + size);
+    if (!part) {
         gm_refuse(message, "not enough memory");
         return NULL;
     }
-    *part = (struct gm_part){.path = folder, .folder = -1};
+    part->folder = -1;
+    snprintf(part->path, size, "%s.part", path);
     bool held = false;
     const bool there = go_on || gm_folder_make(part->path, message);
     if (there && hold(part, &held)) {
@@ -102,7 +100,6 @@ void gm_part_close(struct gm_part *part, bool remove)
     if (part->folder >= 0) {
         close(part->folder);
     }
-    free(part->path);
     free(part);
 }
 
@@ -114,20 +111,19 @@ bool gm_part_sign(struct gm_part *part)
             return false;
         }
     }
-    const int file = openat(part->folder, identity, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    const bool good = file >= 0 && gm_bytes_write(file, &number, sizeof number, 0) && fsync(file) == 0;
-    return (file < 0 || close(file) == 0) && good;
+    struct gm_bytes file =
+        gm_bytes_of(openat(part->folder, identity, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    gm_bytes_write(&file, &number, sizeof number, 0);
+    gm_bytes_sync(&file);
+    return gm_bytes_close(&file);
 }
 
 uint64_t gm_part_identity(const struct gm_part *part)
 {
     uint64_t number = 0;
-    const int file = openat(part->folder, identity, O_RDONLY | O_CLOEXEC);
-    const bool good = file >= 0 && gm_bytes_read(file, &number, sizeof number, 0);
-    if (file >= 0) {
-        close(file);
-    }
-    return good ? number : 0;
+    struct gm_bytes file = gm_bytes_of(openat(part->folder, identity, O_RDONLY | O_CLOEXEC));
+    gm_bytes_read(&file, &number, sizeof number, 0);
+    return gm_bytes_close(&file) ? number : 0;
 }
 
 static void name_of(char name[NAME], size_t lane, bool begun)

@@ -19,10 +19,10 @@ struct gm_save {
     struct gm_saving saving;
     const struct gm_data_format *format;
     struct gm_part *part;
-    char *path, *folder;
     double due;   /* the time of the next writing of a growing file */
     int cut;      /* errno of the write after which there are no more rows, or 0 */
     size_t lanes; /* number of the started lanes that the file has */
+    struct gm_saved saved[];
 };
 
 static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
@@ -59,40 +59,35 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
     return !reason || gm_refuse(message, "%.240s cannot be saved: %s", path, reason);
 }
 
-static bool complain(const struct gm_save *save, char *message)
+static bool complain(const struct gm_save *save, int why, char *message)
 {
-    return gm_refuse(message, "%.360s could not be written: %s", save->path, strerror(errno));
+    return gm_refuse(message, "%.360s could not be written: %s", save->saving.path, strerror(why));
 }
 
 struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool resumable, char *message)
 {
-    struct gm_save *save = calloc(1, sizeof *save);
-    struct gm_saved *saved = calloc(lanes, sizeof *saved);
-    char *name = strdup(path), *folder = strndup(path, (size_t)(strrchr(path, '.') - path));
-    const bool there = save && saved && name && folder;
-    if (!there || !gm_temporary_can_replace(path, message)) {
-        if (!there) {
-            gm_refuse(message, "not enough memory");
-        }
+    struct gm_save *save = calloc(1, sizeof *save + lanes * sizeof *save->saved);
+    char *folder = strndup(path, (size_t)(strrchr(path, '.') - path));
+    if (!save || !folder) {
+        gm_refuse(message, "not enough memory");
+    } else if (gm_temporary_can_replace(path, message)) {
+        save->part = gm_part_open(path, go_on, message);
+    }
+    if (!save || !save->part) {
         free(save);
-        free(saved);
-        free(name);
         free(folder);
         return NULL;
     }
-    *save = (struct gm_save){
-        .saving = {.path = name, .folder = folder, .lanes = saved, .count = lanes, .kept = go_on},
-        .format = format_of(path),
-        .path = name,
-        .folder = folder};
-    save->saving.part = save->part = gm_part_open(path, go_on, message);
-    if (!save->part) {
-        gm_save_close(save, false, true, message);
-        return NULL;
-    }
+    save->saving = (struct gm_saving){.path = path,
+                                      .folder = folder,
+                                      .part = save->part,
+                                      .lanes = save->saved,
+                                      .count = lanes,
+                                      .kept = go_on};
+    save->format = format_of(path);
     gm_temporary_sweep(path);
     if (resumable && !go_on && !gm_part_sign(save->part)) {
-        complain(save, message);
+        complain(save, errno, message);
         gm_save_close(save, false, false, message);
         return NULL;
     }
@@ -117,12 +112,9 @@ static void release(struct gm_saved *lane, bool whole)
     }
     free(lane->scratch);
     lane->scratch = NULL;
-    if (lane->file >= 0) {
-        close(lane->file);
-    }
-    lane->file = -1;
+    gm_bytes_close(&lane->file);
     if (whole) {
-        gm_npz_close(lane->npz);
+        gm_npz_close(&lane->layout.npz);
         free(lane->meta);
     }
 }
@@ -131,7 +123,8 @@ static void release(struct gm_saved *lane, bool whole)
 static bool leave_out(struct gm_save *save, char *message)
 {
     struct gm_saved *lane = present(save);
-    const int why = errno;
+    const int why = lane->file.why;
+    lane->file.why = 0;
     save->cut = 0;
     if (!save->saving.kept && save->saving.begun > 1) {
         release(lane, true);
@@ -139,16 +132,18 @@ static bool leave_out(struct gm_save *save, char *message)
         save->saving.begun--;
         save->cut = why;
     }
-    errno = why;
-    return complain(save, message);
+    return complain(save, why, message);
 }
 
 bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
                    const struct gm_save_size *size, char *message)
 {
     struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
-    *lane = (struct gm_saved){
-        .index = index, .rows = size->rows, .members = run->problem->m, .file = -1, .meta_size = size->meta};
+    *lane = (struct gm_saved){.index = index,
+                              .rows = size->rows,
+                              .members = run->problem->m,
+                              .file.file = -1,
+                              .meta_size = size->meta};
     lane->count = gm_quantities_beside_time(run, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
@@ -156,9 +151,12 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
         longest = lane->quantities[i].derive && lane->sizes[i] > longest ? lane->sizes[i] : longest;
     }
     lane->scratch = malloc(longest * sizeof *lane->scratch);
-    errno = ENOMEM;
-    return (lane->scratch && save->format->begin(&save->saving, lane, run, size->expected)) ||
-           leave_out(save, message);
+    if (lane->scratch) {
+        save->format->begin(&save->saving, lane, run, size->expected);
+    } else {
+        lane->file.why = ENOMEM;
+    }
+    return lane->file.why == 0 || leave_out(save, message);
 }
 
 static bool list(FILE *file, const void *context)
@@ -167,27 +165,21 @@ static bool list(FILE *file, const void *context)
     return save->format->list(&save->saving, file);
 }
 
-static bool flush(struct gm_saved *lane)
-{
-    bool good = true;
-    for (size_t i = 0; i < GM_COLUMNS; i++) {
-        good = (!lane->columns[i].buffer || gm_column_flush(&lane->columns[i])) && good;
-    }
-    return good;
-}
-
 /* Ends a lane after a failed write, mostly for lack of room: its written rows stay, if there are any. */
 static bool give_up(struct gm_save *save, char *message)
 {
     struct gm_saved *lane = present(save);
-    const int why = errno;
+    const int why = lane->file.why;
     if (!save->saving.kept && save->cut == 0) {
-        flush(lane);
+        gm_columns_flush(lane->columns, GM_COLUMNS);
         save->format->cut(&save->saving, lane);
         save->cut = why;
     }
-    errno = why;
-    return lane->rows > 0 ? complain(save, message) : leave_out(save, message);
+    if (lane->rows == 0) {
+        return leave_out(save, message);
+    }
+    lane->file.why = 0;
+    return complain(save, why, message);
 }
 
 void gm_save_keep(struct gm_save *save)
@@ -204,17 +196,16 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
 {
     enum { SECONDS = 1 }; /* between two makings of a file that grows */
     struct gm_saved *lane = present(save);
-    if (!save->format->row(&save->saving, lane, run)) {
+    save->format->row(&save->saving, lane, run);
+    if (lane->file.why != 0) {
         return give_up(save, message);
     }
     lane->rows++;
     if (save->format->list && gm_clock_seconds() >= save->due) {
-        if (!flush(lane) || !gm_temporary_make(save->path, list, save)) {
-            return give_up(save, message);
-        }
+        gm_bytes_note(&lane->file, gm_temporary_make(save->saving.path, list, save));
         save->due = gm_clock_seconds() + SECONDS;
     }
-    return true;
+    return lane->file.why == 0 || give_up(save, message);
 }
 
 bool gm_save_takes_many(const struct gm_save *save)
@@ -225,28 +216,36 @@ bool gm_save_takes_many(const struct gm_save *save)
 bool gm_save_rows(struct gm_save *save, const struct gm_run *run, const double *rows, size_t count,
                   char *message)
 {
-    return save->format->rows(&save->saving, present(save), run, rows, count) || give_up(save, message);
+    save->format->rows(&save->saving, present(save), run, rows, count);
+    return present(save)->file.why == 0 || give_up(save, message);
 }
 
 bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message)
 {
     struct gm_saved *lane = present(save);
     *rows = lane->rows;
-    return (flush(lane) && fsync(lane->file) == 0) || give_up(save, message);
+    gm_columns_flush(lane->columns, GM_COLUMNS);
+    gm_bytes_sync(&lane->file);
+    return lane->file.why == 0 || give_up(save, message);
 }
 
 bool gm_save_end(struct gm_save *save, const char *meta, char *message)
 {
     struct gm_saved *lane = present(save);
-    if (lane->file < 0) {
+    if (lane->file.file < 0) {
         return true;
     }
-    if (!flush(lane)) {
+    gm_columns_flush(lane->columns, GM_COLUMNS);
+    if (lane->file.why != 0) {
         return give_up(save, message);
     }
-    lane->meta = strdup(meta);
     lane->size = lane->columns[0].place;
-    if (!lane->meta || (save->format->end && !save->format->end(&save->saving, lane))) {
+    lane->meta = strdup(meta);
+    gm_bytes_note(&lane->file, lane->meta);
+    if (lane->meta && save->format->end) {
+        save->format->end(&save->saving, lane);
+    }
+    if (lane->file.why != 0) {
         return leave_out(save, message);
     }
     release(lane, false);
@@ -255,23 +254,23 @@ bool gm_save_end(struct gm_save *save, const char *meta, char *message)
 
 /* Appends the lanes to each other in `file`, which has the first one if `there`. Without room for all of
    them, it has the first ones. */
-static bool join(struct gm_save *save, int file, bool there)
+static void join(struct gm_save *save, struct gm_bytes *file, bool there)
 {
     const struct gm_saving *saving = &save->saving;
     uint64_t place = 0;
-    bool good = true;
     for (save->lanes = 0; save->lanes < saving->begun; save->lanes++) {
         const struct gm_saved *lane = &saving->lanes[save->lanes];
         if (save->lanes > 0 || !there) {
             uint32_t crc = 0;
-            const int source = gm_part_file(save->part, lane->index, false);
-            good = source >= 0 && (saving->kept ? gm_bytes_copy(source, 0, lane->size, file, place, &crc)
-                                                : gm_bytes_take(source, lane->size, file, place));
-            if (source >= 0) {
-                close(source);
+            struct gm_bytes source = gm_bytes_of(gm_part_file(save->part, lane->index, false));
+            if (saving->kept) {
+                gm_bytes_copy(&source, 0, lane->size, file, place, &crc);
+            } else {
+                gm_bytes_move(&source, 0, lane->size, file, place);
             }
+            gm_bytes_close(&source);
         }
-        if (!good) {
+        if (file->why != 0) {
             break;
         }
         if (save->lanes > 0 && !saving->kept) {
@@ -279,18 +278,24 @@ static bool join(struct gm_save *save, int file, bool there)
         }
         place += lane->size;
     }
-    if (!good && (saving->kept || save->lanes == 0)) {
-        return false;
+    if (file->why != 0 && !saving->kept && save->lanes > 0) {
+        save->cut = file->why;
+        file->why = 0;
     }
-    save->cut = good ? save->cut : errno;
-    return save->format->finish ? save->format->finish(saving, save->lanes, file)
-                                : ftruncate(file, (off_t)place) == 0;
+    if (save->format->finish) {
+        save->format->finish(saving, save->lanes, file);
+    } else {
+        gm_bytes_truncate(file, place);
+    }
 }
 
 static bool copy(FILE *file, const void *context)
 {
     struct gm_save *const *save = context;
-    return join(*save, fileno(file), false);
+    struct gm_bytes bytes = gm_bytes_of(fileno(file));
+    join(*save, &bytes, false);
+    errno = bytes.why;
+    return bytes.why == 0;
 }
 
 static bool is_want_of_room(int why)
@@ -301,7 +306,7 @@ static bool is_want_of_room(int why)
 /* Writes the list of all rows; without room for it, the last rows are dropped. */
 static bool publish_list(struct gm_save *save)
 {
-    while (!gm_temporary_make(save->path, list, save)) {
+    while (!gm_temporary_make(save->saving.path, list, save)) {
         const int why = errno;
         if (!is_want_of_room(why) || save->saving.kept || !save->format->drop(&save->saving, present(save))) {
             errno = why;
@@ -319,15 +324,13 @@ static bool publish(struct gm_save *save, bool keep)
         return publish_list(save);
     }
     if (keep) {
-        return gm_temporary_make(save->path, copy, &save);
+        return gm_temporary_make(save->saving.path, copy, &save);
     }
     const size_t first = save->saving.lanes[0].index;
-    const int file = gm_part_file(save->part, first, false);
-    bool good = file >= 0 && join(save, file, true) && fsync(file) == 0;
-    if (file >= 0) {
-        good = close(file) == 0 && good;
-    }
-    return good && gm_part_publish(save->part, first, save->path);
+    struct gm_bytes file = gm_bytes_of(gm_part_file(save->part, first, false));
+    join(save, &file, true);
+    gm_bytes_sync(&file);
+    return gm_bytes_close(&file) && gm_part_publish(save->part, first, save->saving.path);
 }
 
 /* Refuses with the number of rows of an incomplete file. */
@@ -336,28 +339,27 @@ static bool tell_cut(const struct gm_save *save, char *message)
     const struct gm_saved *last = &save->saving.lanes[save->saving.begun - 1];
     const char *why = strerror(save->cut);
     if (!save->format->list && save->lanes < save->saving.begun) {
-        return gm_refuse(message, "%.300s has the first %zu of %zu lanes only: %s", save->path, save->lanes,
-                         save->saving.begun, why);
+        return gm_refuse(message, "%.300s has the first %zu of %zu lanes only: %s", save->saving.path,
+                         save->lanes, save->saving.begun, why);
     }
     if (save->saving.count > 1) {
-        return gm_refuse(message, "%.300s ends after %" PRIu64 " rows of lane %zu: %s", save->path,
+        return gm_refuse(message, "%.300s ends after %" PRIu64 " rows of lane %zu: %s", save->saving.path,
                          last->rows, last->index, why);
     }
-    return gm_refuse(message, "%.300s ends after %" PRIu64 " rows: %s", save->path, last->rows, why);
+    return gm_refuse(message, "%.300s ends after %" PRIu64 " rows: %s", save->saving.path, last->rows, why);
 }
 
 bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message)
 {
     const bool makes = (complete || save->cut != 0) && save->saving.begun > 0;
-    bool good = !makes || publish(save, keep && save->saving.kept) || complain(save, message);
-    good = good && (!makes || save->cut == 0 || tell_cut(save, message));
+    const bool whole =
+        !makes || ((publish(save, keep && save->saving.kept) || complain(save, errno, message)) &&
+                   (save->cut == 0 || tell_cut(save, message)));
     for (size_t i = 0; i < save->saving.begun; i++) {
         release(&save->saving.lanes[i], true);
     }
     gm_part_close(save->part, !keep || !save->saving.kept);
-    free(save->saving.lanes);
-    free(save->path);
-    free(save->folder);
+    free(save->saving.folder);
     free(save);
-    return good;
+    return whole;
 }

@@ -5,56 +5,60 @@
 #include "app/data/format.h"
 
 /* A name for each number of a row, in their order: "q", "u[3]", "velocity[7][1]". */
-static bool put_names(const struct gm_saving *saving, const struct gm_saved *lane, struct gm_column *column)
+static void put_names(const struct gm_saving *saving, const struct gm_saved *lane, struct gm_column *column)
 {
-    bool good = gm_column_print(column, saving->count > 1 ? "t,lane" : "t");
+    gm_column_print(column, saving->count > 1 ? "t,lane" : "t");
     for (size_t i = 0; i < lane->count; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
         size_t lengths[GM_QUANTITY_AXES];
         const size_t axes = gm_quantity_shape(quantity, lane->members, lengths);
         const size_t size = quantity->count * lane->members * quantity->width;
-        for (size_t k = 0; k < size && !quantity->fixed && good; k++) {
+        for (size_t k = 0; k < size && !quantity->fixed; k++) {
             size_t block = size, rest = k;
-            good = gm_column_print(column, ",%s", quantity->name);
-            for (size_t axis = 0; axis < axes && good; axis++) {
+            gm_column_print(column, ",%s", quantity->name);
+            for (size_t axis = 0; axis < axes; axis++) {
                 block /= lengths[axis];
-                good = gm_column_print(column, "[%zu]", rest / block);
+                gm_column_print(column, "[%zu]", rest / block);
                 rest %= block;
             }
         }
     }
-    return good && gm_column_put(column, "\n", 1);
+    gm_column_put(column, "\n", 1);
 }
 
 /* The head of the table is the first line of the first lane's file. */
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+static void begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected)
 {
     (void)run, (void)expected;
     struct gm_column *column = &lane->columns[0];
     const bool fresh = lane->rows == 0;
     lane->heads = saving->begun == 1;
-    lane->file = gm_part_file(saving->part, lane->index, false);
-    return lane->file >= 0 && gm_lines_open(column, lane->file, fresh ? 0 : lane->heads + lane->rows) &&
-           (lane->heads == 0 || !fresh || put_names(saving, lane, column));
+    lane->file = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
+    gm_lines_open(column, &lane->file, fresh ? 0 : lane->heads + lane->rows);
+    if (lane->file.why == 0 && fresh && lane->heads > 0) {
+        put_names(saving, lane, column);
+    }
 }
 
-static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static void row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     struct gm_column *column = &lane->columns[0];
-    bool good = gm_column_print(column, "%.17g", run->t) &&
-                (saving->count == 1 || gm_column_print(column, ",%zu", lane->index));
-    for (size_t i = 0; i < lane->count && good; i++) {
+    gm_column_print(column, "%.17g", run->t);
+    if (saving->count > 1) {
+        gm_column_print(column, ",%zu", lane->index);
+    }
+    for (size_t i = 0; i < lane->count; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
         if (quantity->fixed) {
             continue;
         }
         const double *values = gm_quantity_values(run, quantity, lane->scratch);
-        for (size_t k = 0; k < lane->sizes[i] && good; k++) {
-            good = gm_column_print(column, ",%.17g", values[k]);
+        for (size_t k = 0; k < lane->sizes[i]; k++) {
+            gm_column_print(column, ",%.17g", values[k]);
         }
     }
-    return good && gm_column_put(column, "\n", 1);
+    gm_column_put(column, "\n", 1);
 }
 
 static void cut(const struct gm_saving *saving, struct gm_saved *lane)

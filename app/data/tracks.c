@@ -18,8 +18,8 @@
 struct gm_tracks {
     const char *path;
     char *temporary;
-    int file;
-    struct gm_npz *npz;
+    struct gm_bytes file;
+    struct gm_npz npz;
     size_t lanes;
 };
 
@@ -34,7 +34,7 @@ bool gm_tracks_knows(const char *path, const struct gm_scene *scene, char *messa
 
 static bool complain(const struct gm_tracks *tracks, char *message)
 {
-    return gm_refuse(message, "%.360s could not be written: %s", tracks->path, strerror(errno));
+    return gm_refuse(message, "%.360s could not be written: %s", tracks->path, strerror(tracks->file.why));
 }
 
 struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
@@ -47,16 +47,14 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
         gm_refuse(message, "not enough memory");
         return NULL;
     }
-    *tracks = (struct gm_tracks){.path = path, .lanes = lanes, .file = -1};
     gm_temporary_sweep(path);
+    *tracks = (struct gm_tracks){.path = path, .lanes = lanes, .npz.file = &tracks->file};
     errno = ENOMEM;
     tracks->temporary = gm_temporary_name(path, ".tmp");
-    tracks->file =
-        tracks->temporary ? open(tracks->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
-    tracks->npz = tracks->file >= 0 ? gm_npz_open(tracks->file) : NULL;
-    if (!tracks->npz) {
-        complain(tracks, message);
-        gm_tracks_close(tracks, false, message);
+    tracks->file = gm_bytes_of(
+        tracks->temporary ? open(tracks->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1);
+    if (tracks->file.why != 0) {
+        gm_tracks_close(tracks, true, message);
         return NULL;
     }
     return tracks;
@@ -70,32 +68,34 @@ bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane 
         snprintf(prefix, sizeof prefix, "lane%zu/", index);
     }
     snprintf(name, sizeof name, "%smeta", prefix);
-    bool good = gm_npz_text(tracks->npz, name, meta);
-    for (size_t i = 0; i < lane->scene->track_count && good; i++) {
+    gm_npz_text(&tracks->npz, name, meta);
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
         const struct gm_entries *entries = &lane->entries[i];
         struct gm_npz_shape shape = {.axes = 1, .lengths = {entries->count, entries->width}};
         snprintf(name, sizeof name, "%s%s_t", prefix, lane->scene->tracks[i].key);
-        good = gm_npz_array(tracks->npz, name, &shape, entries->times);
+        gm_npz_array(&tracks->npz, name, &shape, entries->times);
         snprintf(name, sizeof name, "%s%s", prefix, lane->scene->tracks[i].key);
         shape.axes = 2;
-        good = good && gm_npz_array(tracks->npz, name, &shape, entries->values);
+        gm_npz_array(&tracks->npz, name, &shape, entries->values);
     }
-    return good || complain(tracks, message);
+    return tracks->file.why == 0 || complain(tracks, message);
 }
 
 bool gm_tracks_close(struct gm_tracks *tracks, bool complete, char *message)
 {
-    bool good = tracks->npz && gm_npz_finish(tracks->npz);
-    gm_npz_close(tracks->npz);
-    good = tracks->file >= 0 && close(tracks->file) == 0 && good;
-    good = good && (!complete || rename(tracks->temporary, tracks->path) == 0);
-    if (complete && !good) {
+    const bool opened = tracks->file.file >= 0;
+    gm_npz_finish(&tracks->npz);
+    gm_npz_close(&tracks->npz);
+    const bool whole = gm_bytes_close(&tracks->file) && complete;
+    gm_bytes_note(&tracks->file, !whole || rename(tracks->temporary, tracks->path) == 0);
+    const bool made = whole && tracks->file.why == 0;
+    if (complete && !made) {
         complain(tracks, message);
     }
-    if (tracks->file >= 0 && !(complete && good)) {
+    if (opened && !made) {
         unlink(tracks->temporary);
     }
     free(tracks->temporary);
     free(tracks);
-    return good || !complete;
+    return made || !complete;
 }

@@ -6,6 +6,7 @@
    FILE.xdmf is a list of times, too, and of places in one file a lane, laneN.bin in the folder FILE, which has the
    arrays that do not change once, and then the others, row by row. "XDMF Model and Format", xdmf.org. */
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +45,7 @@ struct array {
     size_t components, tuples, item; /* item: bytes of a number */
     bool fixed;                      /* the same in all rows */
     const struct gm_quantity *quantity;
-    void (*write)(const struct group *group, FILE *file);
+    void (*write)(const struct group *group, struct gm_column *out);
 };
 
 static const struct gm_quantity *axis_of(const struct gm_saved *lane, enum gm_support support, int axis)
@@ -99,13 +100,15 @@ static const double *values_of(const struct group *group, const struct gm_quanti
 
 /* Corner by corner of triangles that have their own: each value is that of its vertex, a place the nearest to
    the triangle's first corner. */
-static bool write_apart(const struct group *group, const struct gm_quantity *quantity, size_t components,
-                        FILE *file)
+static void write_apart(const struct group *group, const struct gm_quantity *quantity, size_t components,
+                        struct gm_column *out)
 {
     const size_t width = quantity->width, vertices = group->axes[0]->count;
     double *values = malloc(width * vertices * sizeof *values);
+    errno = ENOMEM;
+    gm_bytes_note(out->file, values);
     if (!values) {
-        return false;
+        return;
     }
     memcpy(values, values_of(group, quantity), width * vertices * sizeof *values);
     const double *corners = values_of(group, group->corners);
@@ -118,23 +121,24 @@ static bool write_apart(const struct group *group, const struct gm_quantity *qua
             vector[c] = values[width * (size_t)corners[k] + c];
             vector[c] -= period > 0 ? period * round((vector[c] - near) / period) : 0;
         }
-        fwrite(vector, sizeof *vector, components, file);
+        gm_column_put(out, vector, components * sizeof *vector);
     }
     free(values);
-    return true;
 }
 
 /* Writes coordinates point by point. Quantities may have to be derived one by one, so x, y and z are
    collected first. */
-static void write_places(const struct group *group, FILE *file)
+static void write_places(const struct group *group, struct gm_column *out)
 {
     if (group->apart) {
-        write_apart(group, group->axes[0], SOLID, file);
+        write_apart(group, group->axes[0], SOLID, out);
         return;
     }
     double *places = calloc(group->points, SOLID * sizeof *places);
+    errno = ENOMEM;
+    gm_bytes_note(out->file, places);
     if (!places) {
-        return; /* the file is then too short, which is seen */
+        return;
     }
     for (size_t axis = 0; axis < SOLID; axis++) {
         const struct gm_quantity *quantity = group->axes[axis];
@@ -149,60 +153,61 @@ static void write_places(const struct group *group, FILE *file)
             }
         }
     }
-    fwrite(places, sizeof *places, SOLID * group->points, file);
+    gm_column_put(out, places, SOLID * group->points * sizeof *places);
     free(places);
 }
 
-static void write_whole(FILE *file, int64_t number)
+static void write_whole(struct gm_column *out, int64_t number)
 {
-    fwrite(&number, sizeof number, 1, file);
+    gm_column_put(out, &number, sizeof number);
 }
 
-static void write_connectivity(const struct group *group, FILE *file)
+static void write_connectivity(const struct group *group, struct gm_column *out)
 {
     const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
     const double *values = group->corners ? values_of(group, group->corners) : NULL;
     for (size_t k = 0; k < corners; k++) {
-        write_whole(file, values && !group->apart ? (int64_t)values[k] : (int64_t)k);
+        write_whole(out, values && !group->apart ? (int64_t)values[k] : (int64_t)k);
     }
 }
 
-static void write_offsets(const struct group *group, FILE *file)
+static void write_offsets(const struct group *group, struct gm_column *out)
 {
     for (size_t k = 1; k <= group->cells; k++) {
-        write_whole(file, (int64_t)(group->corners ? group->corners->width * k : group->points));
+        write_whole(out, (int64_t)(group->corners ? group->corners->width * k : group->points));
     }
 }
 
-static void write_types(const struct group *group, FILE *file)
+static void write_types(const struct group *group, struct gm_column *out)
 {
-    const int types[] = {[POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
+    const unsigned char types[] = {
+        [POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
     for (size_t k = 0; k < group->cells; k++) {
-        fputc(types[group->shape], file);
+        gm_column_put(out, &types[group->shape], 1);
     }
 }
 
-static void write_time(const struct group *group, FILE *file)
+static void write_time(const struct group *group, struct gm_column *out)
 {
-    fwrite(&group->run->t, sizeof group->run->t, 1, file);
+    gm_column_put(out, &group->run->t, sizeof group->run->t);
 }
 
-static void write_values(const struct group *group, const struct array *array, FILE *file)
+static void write_values(const struct group *group, const struct array *array, struct gm_column *out)
 {
     const struct gm_quantity *quantity = array->quantity;
     if (group->apart && array->section == POINT) {
-        write_apart(group, quantity, array->components, file);
+        write_apart(group, quantity, array->components, out);
         return;
     }
     const double *values = values_of(group, quantity);
     if (array->components == quantity->width) {
-        fwrite(values, sizeof *values, array->components * array->tuples, file);
+        gm_column_put(out, values, array->components * array->tuples * sizeof *values);
         return;
     }
     for (size_t k = 0; k < array->tuples; k++) {
         double vector[SOLID] = {0};
         memcpy(vector, values + quantity->width * k, quantity->width * sizeof *values);
-        fwrite(vector, sizeof *vector, SOLID, file);
+        gm_column_put(out, vector, SOLID * sizeof *vector);
     }
 }
 
@@ -260,84 +265,91 @@ static uint64_t bytes_of(const struct array *array)
     return array->components * array->tuples * array->item;
 }
 
-static void write_head(const struct group *group, const struct array *arrays, size_t count, FILE *file)
+static void write_head(const struct group *group, const struct array *arrays, size_t count,
+                       struct gm_column *out)
 {
     static const char *const names[] = {"FieldData", "PointData", "CellData", "Points", "Cells"};
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
-          file);
+    gm_column_print(out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+                         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
     for (int section = FIELD; section < SECTIONS; section++) {
         uint64_t offset = 0;
-        fprintf(file, "<%s>\n", names[section]);
+        gm_column_print(out, "<%s>\n", names[section]);
         for (size_t i = 0; i < count; i++) {
             if ((int)arrays[i].section == section) {
-                fprintf(file,
-                        "<DataArray type=\"%s\" Name=\"%s\" %s=\"%zu\" format=\"appended\" offset=\"%" PRIu64
-                        "\"/>\n",
-                        arrays[i].type, arrays[i].name,
-                        section == FIELD ? "NumberOfTuples" : "NumberOfComponents",
-                        section == FIELD ? arrays[i].tuples : arrays[i].components, offset);
+                gm_column_print(
+                    out,
+                    "<DataArray type=\"%s\" Name=\"%s\" %s=\"%zu\" format=\"appended\" offset=\"%" PRIu64
+                    "\"/>\n",
+                    arrays[i].type, arrays[i].name,
+                    section == FIELD ? "NumberOfTuples" : "NumberOfComponents",
+                    section == FIELD ? arrays[i].tuples : arrays[i].components, offset);
             }
             offset += sizeof offset + bytes_of(&arrays[i]);
         }
-        fprintf(file, "</%s>\n", names[section]);
+        gm_column_print(out, "</%s>\n", names[section]);
         if (section == FIELD) {
-            fprintf(file, "<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n", group->points,
-                    group->cells);
+            gm_column_print(out, "<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n", group->points,
+                            group->cells);
         }
     }
-    fputs("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
+    gm_column_print(out, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 }
 
-/* Returns false with errno. */
-static bool write_array(const struct group *group, const struct array *array, FILE *file)
+static void write_array(const struct group *group, const struct array *array, struct gm_column *out)
 {
-    const off_t before = ftello(file);
     if (array->write) {
-        array->write(group, file);
+        array->write(group, out);
     } else {
-        write_values(group, array, file);
+        write_values(group, array, out);
     }
-    errno = ferror(file) ? errno : ENOMEM;
-    return !ferror(file) && ftello(file) - before == (off_t)bytes_of(array);
 }
 
-static bool write_group(const struct group *group, const char *path)
+/* Writes from a place of a file on; column 0 is the list. */
+static struct gm_column *begin_file(struct gm_saved *lane, struct gm_bytes *file, uint64_t place)
+{
+    struct gm_column *out = &lane->columns[1];
+    out->file = file;
+    out->place = place;
+    out->failed = file->why != 0;
+    return out;
+}
+
+static void end_file(struct gm_saved *lane, struct gm_bytes *file)
+{
+    gm_columns_flush(&lane->columns[1], 1);
+    lane->columns[1].file = &lane->file;
+    gm_bytes_note(&lane->file, gm_bytes_close(file));
+}
+
+static void write_group(const struct group *group, struct gm_saved *lane, const char *path)
 {
     struct array arrays[LONGEST];
     const size_t count = list_arrays(group, arrays);
-    FILE *file = fopen(path, "wbe");
-    if (!file) {
-        return false;
-    }
-    write_head(group, arrays, count, file);
-    bool good = true;
+    struct gm_bytes file = gm_bytes_of(open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    struct gm_column *out = begin_file(lane, &file, 0);
+    write_head(group, arrays, count, out);
     for (size_t i = 0; i < count; i++) {
         const uint64_t size = bytes_of(&arrays[i]);
-        fwrite(&size, sizeof size, 1, file);
-        good = write_array(group, &arrays[i], file) && good;
+        gm_column_put(out, &size, sizeof size);
+        write_array(group, &arrays[i], out);
     }
-    fputs("\n</AppendedData>\n</VTKFile>\n", file);
-    int why = errno;
-    if (fclose(file) != 0 && good) {
-        why = errno;
-        good = false;
-    }
-    if (!good) { /* not the half of a row */
+    gm_column_print(out, "\n</AppendedData>\n</VTKFile>\n");
+    end_file(lane, &file);
+    if (file.why != 0) { /* not the half of a row */
         unlink(path);
     }
-    errno = why;
-    return good;
 }
 
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+static void begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
                   uint64_t expected)
 {
     (void)run, (void)expected;
     char message[GM_MESSAGE];
     const bool made = gm_folder_make(saving->folder, message);
-    lane->file = made ? gm_part_file(saving->part, lane->index, false) : -1;
-    return lane->file >= 0 && gm_lines_open(&lane->columns[0], lane->file, lane->rows);
+    lane->file = gm_bytes_of(made ? gm_part_file(saving->part, lane->index, false) : -1);
+    gm_lines_open(&lane->columns[0], &lane->file, lane->rows);
+    lane->columns[1].file = &lane->file;
+    gm_column_open(&lane->columns[1]);
 }
 
 /* Room for a path and the names below it: a longer one cannot be opened. */
@@ -361,29 +373,30 @@ static const struct {
     const char *ending;
 } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
 
-static bool row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static void row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const char *slash = strrchr(saving->path, '/');
     /* the length of the folder's path, which the list leaves out */
     const size_t front = slash ? (size_t)(slash + 1 - saving->path) : 0;
-    bool good = true;
-    errno = ENOMEM; /* the reason if no call for a file gives another one */
+    struct gm_column *lines = &lane->columns[0];
     int parts = 0;
-    for (size_t i = 0; i < GM_COUNT(groups) && good; i++) {
+    for (size_t i = 0; i < GM_COUNT(groups) && lane->file.why == 0; i++) {
         struct group group;
         if (!group_of(lane, run, groups[i].support, &group)) {
             continue;
         }
         char path[PATH];
-        good = write_group(&group, path_of(saving, lane, lane->rows, groups[i].ending, path)) &&
-               gm_column_print(&lane->columns[0], "%s<DataSet timestep=\"%.17g\" part=\"%zu\" file=\"",
-                               parts > 0 ? " " : "", run->t, 2 * lane->index + (size_t)(parts > 0)) &&
-               gm_column_put(&lane->columns[0], path + front, strlen(path + front)) &&
-               gm_column_print(&lane->columns[0], "\"/>");
+        write_group(&group, lane, path_of(saving, lane, lane->rows, groups[i].ending, path));
+        gm_column_print(lines, "%s<DataSet timestep=\"%.17g\" part=\"%zu\" file=\"", parts > 0 ? " " : "",
+                        run->t, 2 * lane->index + (size_t)(parts > 0));
+        gm_column_put(lines, path + front, strlen(path + front));
+        gm_column_print(lines, "\"/>");
         parts++;
     }
     /* one line per row, which exists with its files */
-    return good && gm_column_put(&lane->columns[0], "\n", 1) && gm_column_flush(&lane->columns[0]);
+    lines->failed = lane->file.why != 0;
+    gm_column_put(lines, "\n", 1);
+    gm_columns_flush(lines, 1);
 }
 
 /* The groups of a lane with their arrays, and the offsets in the file of all rows. */
@@ -429,7 +442,7 @@ static const char *rows_path_of(const struct gm_saving *saving, const struct gm_
 }
 
 /* An array that begins at a place of the file of that name. */
-static bool put_item(struct gm_column *lines, const struct group *group, const struct array *array,
+static void put_item(struct gm_column *lines, const struct group *group, const struct array *array,
                      uint64_t place, const char *name)
 {
     static const char *const topologies[] = {
@@ -437,76 +450,74 @@ static bool put_item(struct gm_column *lines, const struct group *group, const s
     static const char *const centres[] = {[FIELD] = "Grid", [POINT] = "Node", [CELL] = "Cell"};
     const char *element = "Attribute";
     size_t tuples = array->tuples, components = array->components;
-    bool good = true;
     if (array->section == TOPOLOGY) {
         element = "Topology";
         tuples = group->cells;
         components = array->tuples / tuples;
-        good = gm_column_print(
-            lines, "<Topology TopologyType=\"%s\" NumberOfElements=\"%zu\" NodesPerElement=\"%zu\">",
-            topologies[group->shape], tuples, components);
+        gm_column_print(lines,
+                        "<Topology TopologyType=\"%s\" NumberOfElements=\"%zu\" NodesPerElement=\"%zu\">",
+                        topologies[group->shape], tuples, components);
     } else if (array->section == PLACES) {
         element = "Geometry";
-        good = gm_column_print(lines, "<Geometry GeometryType=\"XYZ\">");
+        gm_column_print(lines, "<Geometry GeometryType=\"XYZ\">");
     } else {
-        good = gm_column_print(lines, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">",
-                               array->name, components > 1 ? "Vector" : "Scalar", centres[array->section]);
+        gm_column_print(lines, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"%s\">", array->name,
+                        components > 1 ? "Vector" : "Scalar", centres[array->section]);
     }
-    return good &&
-           gm_column_print(
-               lines,
-               "<DataItem Dimensions=\"%zu %zu\" NumberType=\"%s\" Precision=\"8\" Format=\"Binary\" "
-               "Endian=\"Little\" Seek=\"%" PRIu64 "\">",
-               tuples, components, array->section == TOPOLOGY ? "Int" : "Float", place) &&
-           gm_column_put(lines, name, strlen(name)) && gm_column_print(lines, "</DataItem></%s>", element);
+    gm_column_print(lines,
+                    "<DataItem Dimensions=\"%zu %zu\" NumberType=\"%s\" Precision=\"8\" Format=\"Binary\" "
+                    "Endian=\"Little\" Seek=\"%" PRIu64 "\">",
+                    tuples, components, array->section == TOPOLOGY ? "Int" : "Float", place);
+    gm_column_put(lines, name, strlen(name));
+    gm_column_print(lines, "</DataItem></%s>", element);
 }
 
 /* The line of a row. */
-static bool put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
+static void put_row(struct gm_saved *lane, const struct places *places, double t, const char *name)
 {
     struct gm_column *lines = &lane->columns[0];
     uint64_t at[] = {places->head + lane->rows * places->row, 0}; /* offsets of changing and fixed arrays */
-    bool good = gm_column_print(
+    gm_column_print(
         lines,
         "<Grid Name=\"row\" GridType=\"Collection\" CollectionType=\"Spatial\"><Time Value=\"%.17g\"/>", t);
-    for (size_t g = 0; g < places->groups && good; g++) {
-        good = gm_column_print(lines, "<Grid Name=\"%s\"><Time Value=\"%.17g\"/>",
-                               places->group[g].support == GM_ON_TRACERS ? "tracers" : "state", t);
-        for (size_t i = 0; i < places->counts[g] && good; i++) {
+    for (size_t g = 0; g < places->groups; g++) {
+        gm_column_print(lines, "<Grid Name=\"%s\"><Time Value=\"%.17g\"/>",
+                        places->group[g].support == GM_ON_TRACERS ? "tracers" : "state", t);
+        for (size_t i = 0; i < places->counts[g]; i++) {
             const struct array *array = &places->arrays[g][i];
-            good = put_item(lines, &places->group[g], array, at[array->fixed], name);
+            put_item(lines, &places->group[g], array, at[array->fixed], name);
             at[array->fixed] += bytes_of(array);
         }
-        good = good && gm_column_print(lines, "</Grid>");
+        gm_column_print(lines, "</Grid>");
     }
-    return good && gm_column_print(lines, "</Grid>\n") && gm_column_flush(lines);
+    gm_column_print(lines, "</Grid>\n");
+    gm_columns_flush(lines, 1);
 }
 
-static bool row_of_one_file(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static void row_of_one_file(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
+    const int first = lane->rows == 0;
+    const char *slash = strrchr(saving->path, '/');
     struct places places;
-    find_places(lane, run, &places);
-    errno = ENOMEM;
     char path[PATH];
-    FILE *file = fopen(rows_path_of(saving, lane, path), lane->rows > 0 ? "r+be" : "wbe");
-    bool good = file && fseeko(file, (off_t)place_of_row(&places, lane->rows), SEEK_SET) == 0;
-    for (int fixed = lane->rows == 0; fixed >= 0; fixed--) {
+    find_places(lane, run, &places);
+    struct gm_bytes file = gm_bytes_of(
+        open(rows_path_of(saving, lane, path), O_WRONLY | O_CLOEXEC | (first ? O_CREAT | O_TRUNC : 0), 0666));
+    struct gm_column *out = begin_file(lane, &file, place_of_row(&places, lane->rows));
+    for (int fixed = first; fixed >= 0; fixed--) {
         for (size_t g = 0; g < places.groups; g++) {
-            for (size_t i = 0; i < places.counts[g] && good; i++) {
+            for (size_t i = 0; i < places.counts[g]; i++) {
                 const struct array *array = &places.arrays[g][i];
-                good = array->fixed != (fixed == 1) || write_array(&places.group[g], array, file);
+                if (array->fixed == (fixed == 1)) {
+                    write_array(&places.group[g], array, out);
+                }
             }
         }
     }
-    const int why = errno;
-    if (file && fclose(file) != 0 && good) {
-        good = false;
-    } else {
-        errno = why;
+    end_file(lane, &file);
+    if (lane->file.why == 0) {
+        put_row(lane, &places, run->t, path + (slash ? slash + 1 - saving->path : 0));
     }
-    const char *slash = strrchr(saving->path, '/');
-    good = good && put_row(lane, &places, run->t, path + (slash ? slash + 1 - saving->path : 0));
-    return good;
 }
 
 static bool is_of_files(const struct gm_saving *saving)
@@ -544,48 +555,52 @@ static void remove_rows(const struct gm_saving *saving, const struct gm_saved *l
 }
 
 /* Writes the run's description as a comment; XML forbids "--" there, so the second is escaped as in JSON. */
-static bool put_meta(const char *meta, FILE *file)
+static void put_meta(const char *meta, FILE *file)
 {
     fputs("<!-- ", file);
     for (const char *at = meta; *at; at++) {
         const bool second = *at == '-' && at > meta && at[-1] == '-';
         fputs(second ? "\\u002d" : (char[]){*at, '\0'}, file);
     }
-    return fputs(" -->\n", file) >= 0 && !ferror(file);
+    fputs(" -->\n", file);
 }
 
 static bool copy_lines(const struct gm_saving *saving, const struct gm_saved *lane, FILE *file)
 {
     char block[1 << 14];
-    const int source = gm_part_file(saving->part, lane->index, false);
-    ssize_t got = 0;
-    bool good = source >= 0;
-    while (good && (got = read(source, block, sizeof block)) > 0) {
-        good = fwrite(block, 1, (size_t)got, file) == (size_t)got;
+    struct gm_bytes source = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
+    ssize_t got = source.why == 0 ? 1 : 0;
+    while (got > 0) {
+        got = read(source.file, block, sizeof block);
+        gm_bytes_note(&source, got <= 0 ? got == 0 : fwrite(block, 1, (size_t)got, file) == (size_t)got);
+        got = source.why == 0 ? got : 0;
     }
-    if (source >= 0) {
-        close(source);
-    }
-    return good && got == 0;
+    return gm_bytes_close(&source);
 }
 
 static bool list(const struct gm_saving *saving, FILE *file)
 {
     const bool files = is_of_files(saving);
-    bool good = fputs(files ? "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-                              "byte_order=\"LittleEndian\">\n<Collection>\n"
-                            : "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n",
-                      file) >= 0;
-    for (size_t i = 0; i < saving->begun && good; i++) {
-        const char *meta = saving->lanes[i].meta; /* not before the lane has ended */
+    fputs(files ? "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                  "byte_order=\"LittleEndian\">\n<Collection>\n"
+                : "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n",
+          file);
+    for (size_t i = 0; i < saving->begun; i++) {
+        const struct gm_saved *lane = &saving->lanes[i];
         if (!files) {
             fprintf(file, "<Grid Name=\"lane%zu\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-                    saving->lanes[i].index);
+                    lane->index);
         }
-        good = (!meta || put_meta(meta, file)) && copy_lines(saving, &saving->lanes[i], file) &&
-               (files || fputs("</Grid>\n", file) >= 0);
+        if (lane->meta) { /* not before the lane has ended */
+            put_meta(lane->meta, file);
+        }
+        if (!copy_lines(saving, lane, file)) {
+            return false;
+        }
+        fputs(files ? "" : "</Grid>\n", file);
     }
-    return good && fputs(files ? "</Collection>\n</VTKFile>\n" : "</Domain>\n</Xdmf>\n", file) >= 0;
+    fputs(files ? "</Collection>\n</VTKFile>\n" : "</Domain>\n</Xdmf>\n", file);
+    return !ferror(file);
 }
 
 static void cut(const struct gm_saving *saving, struct gm_saved *lane)
@@ -599,18 +614,18 @@ static bool drop(const struct gm_saving *saving, struct gm_saved *lane)
 {
     /* a line of the list is short beside a row's file */
     const uint64_t rows = lane->rows, part = (rows + 63) / 64;
-    struct gm_column lines;
-    const int file = rows > part ? gm_part_file(saving->part, lane->index, false) : -1;
-    const bool good = file >= 0 && gm_lines_open(&lines, file, rows - part);
-    if (good) {
-        gm_column_close(&lines);
+    if (rows == part) {
+        return false;
+    }
+    struct gm_column lines = {0};
+    struct gm_bytes file = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
+    gm_lines_open(&lines, &file, rows - part);
+    if (file.why == 0) {
         remove_rows(saving, lane, rows - part, rows);
         lane->rows = rows - part;
     }
-    if (file >= 0) {
-        close(file);
-    }
-    return good;
+    gm_column_close(&lines);
+    return gm_bytes_close(&file);
 }
 
 const struct gm_data_format gm_data_format_pvd = {

@@ -59,15 +59,15 @@ static int put_out(struct gm_explorer *explorer)
         explorer->dirty = true;
         explorer->end = 0; /* the loop waits for a slow terminal, not for a time that has passed */
     }
-    bool good = gm_writer_send(&explorer->display.writer);
+    bool sent = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();
         draw(explorer);
         explorer->end = first_end(explorer);
         explorer->draw_cost = gm_clock_seconds() - begun;
-        good = good && gm_writer_send(&explorer->display.writer);
+        sent = sent && gm_writer_send(&explorer->display.writer);
     }
-    if (!good) {
+    if (!sent) {
         gm_explorer_leave(explorer, GM_EXIT_FILE);
     }
     if (explorer->list.shown && explorer->list.look_due >= 0) {

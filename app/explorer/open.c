@@ -228,21 +228,23 @@ void gm_explorer_ask_system(struct gm_explorer *explorer)
 
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
 {
-    struct gm_arguments typed = {0}, words = {0};
-    bool good = command && gm_typed_split(&typed, command) && typed.count > 1;
-    struct gm_arguments formulas = {0};
+    struct gm_arguments typed = {0}, words = {0}, formulas = {0};
+    gm_typed_split(&typed, command ? command : "");
     explorer->editing = false;
     /* omits the program's name and `system`; after a file's name come its formulas */
-    const bool formula = good && strcmp(typed.words[1], "system") == 0;
-    good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
-                                gm_typed_file_formulas(explorer->open.scene->text, &formulas)));
-    for (int i = 0; good && i < formulas.count; i++) {
-        good = gm_arguments_add(&words, formulas.words[i]);
+    const bool formula = typed.count > 1 && strcmp(typed.words[1], "system") == 0;
+    if (typed.count > 1 && !formula) {
+        gm_arguments_add(&words, typed.words[1]);
+        gm_typed_file_formulas(explorer->open.scene->text, &formulas);
     }
-    for (int i = 2; good && i < typed.count; i++) {
-        good = gm_arguments_have(&formulas, typed.words[i]) || gm_arguments_add(&words, typed.words[i]);
+    gm_arguments_append(&words, formulas.words, formulas.count);
+    for (int i = 2; i < typed.count; i++) {
+        if (!gm_arguments_have(&formulas, typed.words[i])) {
+            gm_arguments_add(&words, typed.words[i]);
+        }
     }
-    char *text = good ? gm_typed_join(&words) : NULL;
+    const bool failed = typed.failed || words.failed || formulas.failed || typed.count < 2;
+    char *text = failed ? NULL : gm_typed_join(&words);
     if (text) { /* the cursor is after the first formula */
         size_t at = words.count > 0 ? strlen(words.words[0]) : 0;
         at += !formula && words.count > 1 ? 1 + strlen(words.words[1]) : 0;
@@ -284,15 +286,15 @@ static bool check_map(const char *line, struct gm_typed_fault *fault)
     struct gm_arguments words = {0};
     struct gm_grid grid;
     *fault = (struct gm_typed_fault){.at = -1};
-    const bool good = text && gm_arguments_split(&words, text)
-                          ? gm_grid_open(&grid, GM_STUDY_SWEEP, &words, NULL, fault->sentence)
-                          : gm_refuse(fault->sentence, "There is not enough memory.");
-    if (good) {
+    const bool opens = text && gm_arguments_split(&words, text)
+                           ? gm_grid_open(&grid, GM_STUDY_SWEEP, &words, NULL, fault->sentence)
+                           : gm_refuse(fault->sentence, "There is not enough memory.");
+    if (opens) {
         gm_grid_close(&grid);
     }
     gm_arguments_close(&words);
     free(text);
-    return good;
+    return opens;
 }
 
 /* Writes the range of a swept number: half its value to both sides. Returns false if it cannot be swept. */
@@ -325,23 +327,20 @@ static char *map_example(const struct gm_explorer *explorer)
         const size_t at = (explorer->face.parameter + i) % shot->parameter_count;
         axes += range_of(&shot->parameters[at], ranges[axes], sizeof ranges[axes]);
     }
-    bool good = said && gm_arguments_split(&present, said);
-    for (int i = 0; good && i < present.count; i++) {
+    gm_arguments_split(&present, said ? said : "");
+    for (int i = 0; i < present.count; i++) {
         const size_t key = strcspn(present.words[i], "=") + 1;
         const bool swept = (axes > 0 && strncmp(present.words[i], ranges[0], key) == 0) ||
                            (axes > 1 && strncmp(present.words[i], ranges[1], key) == 0);
-        good = swept || gm_arguments_add(&words, present.words[i]);
+        gm_arguments_append(&words, &present.words[i], !swept);
     }
-    char scheme[GM_MESSAGE], measure[GM_MESSAGE];
-    snprintf(scheme, sizeof scheme, "scheme=%.400s", gm_scheme_word(shot->lanes[shot->selected].scheme));
-    snprintf(measure, sizeof measure, "measure=%.100s",
-             shot->scene->observable_count > 0 ? shot->scene->observables[0].key : "");
-    good = good && gm_arguments_add(&words, scheme);
-    for (size_t i = 0; good && i < axes; i++) {
-        good = gm_arguments_add(&words, ranges[i]);
+    gm_arguments_print(&words, "scheme=%.400s", gm_scheme_word(shot->lanes[shot->selected].scheme));
+    for (size_t i = 0; i < axes; i++) {
+        gm_arguments_add(&words, ranges[i]);
     }
-    good = good && gm_arguments_add(&words, measure);
-    text = good ? gm_typed_join(&words) : NULL;
+    gm_arguments_print(&words, "measure=%.100s",
+                       shot->scene->observable_count > 0 ? shot->scene->observables[0].key : "");
+    text = said && !present.failed && !words.failed ? gm_typed_join(&words) : NULL;
     gm_arguments_close(&present);
     gm_arguments_close(&words);
     free(said);
@@ -367,14 +366,14 @@ static bool take_map(struct gm_explorer *explorer)
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
     struct gm_open *open = &explorer->open;
     char *words = sweep_words(prompt->line.text);
-    const bool good =
+    const bool opened =
         words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
-    if (!good) {
+    if (!opened) {
         snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
                  words ? open->studies.notice : "There is not enough memory.");
     }
     free(words);
-    return good;
+    return opened;
 }
 
 static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
@@ -420,21 +419,21 @@ static void take(struct gm_explorer *explorer)
 {
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
     prompt->entered = false;
-    bool good;
+    const char *line = prompt->line.text;
+    bool taken;
     if (prompt->kind == GM_TYPED_SYSTEM) {
-        const char *line = prompt->line.text;
-        good = gm_explorer_open_line(explorer, line, &prompt->fault);
-        explorer->open.unsaved = explorer->open.unsaved || (good && has_formula(line));
+        taken = gm_explorer_open_line(explorer, line, &prompt->fault);
+        explorer->open.unsaved = explorer->open.unsaved || (taken && has_formula(line));
     } else if (prompt->kind == GM_TYPED_MAP) {
-        good = take_map(explorer);
+        taken = take_map(explorer);
     } else {
-        const struct gm_scheme *scheme = gm_typed_scheme(prompt->line.text, &prompt->fault);
-        good = scheme != NULL;
-        if (good) {
+        const struct gm_scheme *scheme = gm_typed_scheme(line, &prompt->fault);
+        taken = scheme != NULL;
+        if (taken) {
             take_scheme(explorer, prompt->kind == GM_TYPED_FORK, scheme);
         }
     }
-    if (good) {
+    if (taken) {
         close_prompt(explorer);
     }
 }

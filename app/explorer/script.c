@@ -140,10 +140,10 @@ static bool write_text(const struct gm_cells *cells, const char *path, char *mes
         }
     }
     const bool made = (stream && fclose(stream) == 0) || gm_refuse(message, "There is not enough memory.");
-    const bool good = made && gm_folder_make_for(path, message);
-    const int error = good ? gm_temporary_write(path, text, size) : 0;
+    const bool placed = made && gm_folder_make_for(path, message);
+    const int error = placed ? gm_temporary_write(path, text, size) : 0;
     free(text);
-    return good && (error == 0 || gm_temporary_refuse(message, path, strerror(error)));
+    return placed && (error == 0 || gm_temporary_refuse(message, path, strerror(error)));
 }
 
 static void name_picture(const void *data, struct gm_picture *picture)
@@ -187,12 +187,12 @@ bool gm_script_check(const struct gm_overrides *overrides, char *message)
     const char *path = overrides->shot, *dot = strrchr(path, '.');
     const bool known =
         (gm_format_of(path, &format) && format != GM_FORMAT_PDF) || (dot && strcmp(dot, ".txt") == 0);
-    const bool good = (known || gm_refuse(message, "--shot %.300s is not a .txt, .svg or .png file", path)) &&
+    const bool fits = (known || gm_refuse(message, "--shot %.300s is not a .txt, .svg or .png file", path)) &&
                       (gm_arguments_split(&words, overrides->keys ? overrides->keys : "") ||
                        gm_refuse(message, "There is not enough memory.")) &&
                       check_words(&words, message);
     gm_arguments_close(&words);
-    return good;
+    return fits;
 }
 
 int gm_script_play(struct gm_explorer *explorer, const struct gm_overrides *overrides)

@@ -40,14 +40,11 @@ static bool parse(struct gm_request *request, const struct gm_figure_job *job, c
 {
     char sentence[GM_MESSAGE] = "not enough memory";
     struct gm_arguments words = {0};
-    const bool good = gm_arguments_add(&words, gm_figure_word(job)) &&
-                      gm_arguments_split(&words, job->arguments) &&
-                      gm_request_parse(request, words.count, words.words, FEW_SCHEMES, sentence);
+    gm_arguments_add(&words, gm_figure_word(job));
+    const bool parsed = gm_arguments_split(&words, job->arguments) &&
+                        gm_request_parse(request, words.count, words.words, FEW_SCHEMES, sentence);
     gm_arguments_close(&words);
-    if (!good) {
-        gm_refuse(message, "%s: %.400s", job->figure->name, sentence);
-    }
-    return good;
+    return parsed || gm_refuse(message, "%s: %.400s", job->figure->name, sentence);
 }
 
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
@@ -274,7 +271,7 @@ static void open_values(const struct gm_request *request, size_t lane, const cha
 /* "with strength=1": the values for which all lanes hold, texts[true], and those for which a lane does
    not, texts[false]; "" without such values. */
 static void put_values(const struct gm_request *request, const char *keys, const size_t *chosen,
-                       const bool *good, size_t count, char texts[2][GM_FIGURE_LABEL])
+                       const bool *held, size_t count, char texts[2][GM_FIGURE_LABEL])
 {
     char own[GM_FIGURE_LABEL], other[GM_FIGURE_LABEL];
     texts[false][0] = texts[true][0] = '\0';
@@ -285,7 +282,7 @@ static void put_values(const struct gm_request *request, const char *keys, const
             open_values(request, chosen[k], keys, other, sizeof other);
             const bool same = strcmp(own, other) == 0;
             first &= !same || k >= i;
-            all &= !same || good[k];
+            all &= !same || held[k];
         }
         const size_t used = strlen(texts[all]);
         if (first) {
@@ -298,7 +295,7 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
                   const struct gm_statement *statement, struct gm_outcome *outcome)
 {
     size_t chosen[GM_FIGURE_LANES], others[GM_FIGURE_LANES];
-    bool known = true, good[GM_FIGURE_LANES], all = true;
+    bool known = true, held[GM_FIGURE_LANES], all = true;
     const size_t count = gm_figure_lanes(request, statement->lanes, chosen, &known);
     const size_t other_count =
         statement->against ? gm_figure_lanes(request, statement->against, others, &known) : 0;
@@ -311,8 +308,8 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
         if (other_count > 0) {
             number /= number_of(lanes, others, other_count == count ? i : 0, other_count, statement, &failed);
         }
-        good[i] = holds(statement, number / size, failed);
-        all &= good[i];
+        held[i] = holds(statement, number / size, failed);
+        all &= held[i];
         low = isnan(number) ? number : fmin(low, number);
         high = isnan(number) ? number : fmax(high, number);
         scale = fmin(scale, size);
@@ -323,7 +320,7 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
     outcome->verdicts[at].holds = all;
     if (statement->open) {
         char with[2][GM_FIGURE_LABEL];
-        put_values(request, statement->open, chosen, good, statement->over ? 1 : count, with);
+        put_values(request, statement->open, chosen, held, statement->over ? 1 : count, with);
         outcome->verdicts[at].open = with[true][0] && with[false][0];
         snprintf(outcome->verdicts[at].note, GM_FIGURE_NOTE, "%s%s%s, not given by the document", with[true],
                  outcome->verdicts[at].open ? ", not " : "", with[false]);
@@ -390,14 +387,15 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
     const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
     const enum gm_format formats[] = {GM_FORMAT_PNG, output->format};
     char path[GM_FIGURE_PATH];
-    bool good = true;
-    for (size_t i = 0; good && i < (output->format == GM_FORMAT_PNG ? 2 : 4); i++) {
+    for (size_t i = 0; i < (output->format == GM_FORMAT_PNG ? 2 : 4); i++) {
         struct gm_print print = {.format = formats[i / 2], .look = output->look};
         print.look.theme = themes[i % 2];
         print.path = gm_figure_path(output, job->figure->name, print.look.theme, print.format, path);
-        good = gm_still_write(&print, request, (const struct gm_lane *const *)lanes, message);
+        if (!gm_still_write(&print, request, (const struct gm_lane *const *)lanes, message)) {
+            return GM_EXIT_FILE;
+        }
     }
-    return good ? GM_EXIT_OK : GM_EXIT_FILE;
+    return GM_EXIT_OK;
 }
 
 static int make(const struct gm_figure_job *job, const struct gm_figure_output *output,

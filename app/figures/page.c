@@ -101,39 +101,44 @@ static void put_sentence(FILE *page, const char *text)
     put_text(page, text + 1);
 }
 
-/* A file's bytes in base64. Returns false if it cannot be read. */
-static bool put_base64(FILE *page, const char *path)
+/* A page while it is written. */
+struct page {
+    FILE *file;
+    const struct gm_figure_output *output;
+    const struct gm_figure_job *jobs;
+    const struct gm_outcome *outcomes;
+    size_t count;
+    bool failed; /* a picture could not be read */
+};
+
+/* A picture's bytes in base64. */
+static void put_base64(struct page *page, const struct gm_figure_job *job, enum gm_theme theme)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
-    char text[4 * 1024];
+    char text[4 * 1024], path[GM_FIGURE_PATH];
     size_t count = 0;
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        return false;
-    }
-    while ((count = fread(bytes, 1, sizeof bytes, file)) > 0) {
+    FILE *file = fopen(gm_figure_path(page->output, job->figure->name, theme, GM_FORMAT_PNG, path), "rb");
+    while (file && (count = fread(bytes, 1, sizeof bytes, file)) > 0) {
         gm_base64(bytes, count, text);
-        fwrite(text, 1, gm_base64_size(count), page);
+        fwrite(text, 1, gm_base64_size(count), page->file);
     }
-    const bool good = !ferror(file);
-    fclose(file);
-    return good;
+    page->failed = page->failed || !file || ferror(file);
+    if (file) {
+        fclose(file);
+    }
 }
 
-static bool put_picture(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job)
+static void put_picture(struct page *page, const struct gm_figure_job *job)
 {
-    char path[GM_FIGURE_PATH];
-    const char *name = job->figure->name;
     fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
           "srcset=\"data:image/png;base64,",
-          page);
-    bool good = put_base64(page, gm_figure_path(output, name, GM_THEME_DARK, GM_FORMAT_PNG, path));
-    put(page, "\"><img loading=\"lazy\" alt=\"%s: %s", job->scene->title, job->figure->statement);
-    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->look.width,
-            output->look.height);
-    good = good && put_base64(page, gm_figure_path(output, name, GM_THEME_LIGHT, GM_FORMAT_PNG, path));
-    fputs("\"></picture></figure>\n", page);
-    return good;
+          page->file);
+    put_base64(page, job, GM_THEME_DARK);
+    put(page->file, "\"><img loading=\"lazy\" alt=\"%s: %s", job->scene->title, job->figure->statement);
+    fprintf(page->file, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,",
+            page->output->look.width, page->output->look.height);
+    put_base64(page, job, GM_THEME_LIGHT);
+    fputs("\"></picture></figure>\n", page->file);
 }
 
 /* "open" is not judged either: the document leaves out the deciding values. */
@@ -234,9 +239,9 @@ static void put_title(FILE *page, const struct gm_figure_job *job)
     }
 }
 
-static bool put_figure(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job,
-                       const struct gm_outcome *outcome)
+static void put_figure(struct page *all, const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
+    FILE *page = all->file;
     fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
     put_title(page, job);
     put(page, "</a> <span class=\"soft\">%s</span></h3>\n<p>", gm_figure_word(job));
@@ -247,9 +252,8 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
         fputs(".", page);
     }
     fputs("</p>\n", page);
-    bool good = true;
     if (outcome->progress == GM_MADE) {
-        good = put_picture(page, output, job);
+        put_picture(all, job);
         put_statements(page, job, outcome);
         if (job->published && job->published->remark) {
             put(page, "<p>%s</p>\n", job->published->remark);
@@ -265,7 +269,6 @@ static bool put_figure(FILE *page, const struct gm_figure_output *output, const 
         put_numbers(page, job, outcome);
     }
     fputs("</article>\n", page);
-    return good;
 }
 
 /* The heading of user-defined systems. */
@@ -281,20 +284,21 @@ static bool is_of(const struct gm_document *document, const struct gm_figure_job
 }
 
 /* The first view of each figure: the number of its statements that hold. */
-static void put_contents(FILE *page, const struct gm_document *document, const struct gm_figure_job *jobs,
-                         const struct gm_outcome *outcomes, size_t count)
+static void put_contents(const struct page *all, const struct gm_document *document)
 {
+    FILE *page = all->file;
+    const struct gm_figure_job *jobs = all->jobs;
     fputs("<nav><ol>\n", page);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < all->count; i++) {
         if (!is_of(document, &jobs[i])) {
             continue;
         }
-        const struct gm_figure_sum sum = gm_figures_sum(&jobs[i], &outcomes[i], 1);
-        struct gm_tally all = {0};
+        const struct gm_figure_sum sum = gm_figures_sum(&jobs[i], &all->outcomes[i], 1);
+        struct gm_tally tally = {0};
         for (size_t k = 0; k < GM_SOURCES; k++) {
-            all.hold += sum.of[k].hold;
-            all.fail += sum.of[k].fail;
-            all.open += sum.of[k].open;
+            tally.hold += sum.of[k].hold;
+            tally.fail += sum.of[k].fail;
+            tally.open += sum.of[k].open;
         }
         fprintf(page, "<li><a href=\"#%s\">", jobs[i].figure->name);
         put_title(page, &jobs[i]);
@@ -305,13 +309,14 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
             fputs("<span>made</span>", page);
         } else if (!sum.made) {
             fputs("<span class=\"bad\">✗ not made</span>", page);
-        } else if (all.hold + all.fail + all.open == 0) {
+        } else if (tally.hold + tally.fail + tally.open == 0) {
             fputs("<span class=\"none\">– not judged</span>", page);
-        } else if (all.fail > 0) {
-            fprintf(page, "<span class=\"bad\">✗ %zu of %zu %s not</span>", all.fail,
-                    all.hold + all.fail + all.open, all.fail == 1 ? "does" : "do");
-        } else if (all.open > 0) {
-            fprintf(page, "<span class=\"none\">– %zu of %zu open</span>", all.open, all.hold + all.open);
+        } else if (tally.fail > 0) {
+            fprintf(page, "<span class=\"bad\">✗ %zu of %zu %s not</span>", tally.fail,
+                    tally.hold + tally.fail + tally.open, tally.fail == 1 ? "does" : "do");
+        } else if (tally.open > 0) {
+            fprintf(page, "<span class=\"none\">– %zu of %zu open</span>", tally.open,
+                    tally.hold + tally.open);
         } else {
             fputs("<span class=\"good\">✓ holds</span>", page);
         }
@@ -364,29 +369,40 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
     fputs("</header>\n<main>\n", page);
 }
 
-static bool put_document(FILE *page, const struct gm_figure_output *output,
-                         const struct gm_document *document, const struct gm_figure_job *jobs,
-                         const struct gm_outcome *outcomes, size_t count)
+static void put_document(struct page *page, const struct gm_document *document)
 {
-    bool any = false, good = true;
-    for (size_t i = 0; i < count; i++) {
-        any |= is_of(document, &jobs[i]);
+    bool any = false;
+    for (size_t i = 0; i < page->count; i++) {
+        any |= is_of(document, &page->jobs[i]);
     }
     if (!any) {
-        return true;
+        return;
     }
-    put(page, "<section id=\"%s\">\n<h2>%s</h2>\n", document->prefix, document->citation);
+    put(page->file, "<section id=\"%s\">\n<h2>%s</h2>\n", document->prefix, document->citation);
     if (document->link) {
-        fprintf(page, "<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
+        fprintf(page->file, "<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
     }
-    put_contents(page, document, jobs, outcomes, count);
-    for (size_t i = 0; i < count; i++) {
-        if (is_of(document, &jobs[i])) {
-            good &= put_figure(page, output, &jobs[i], &outcomes[i]);
+    put_contents(page, document);
+    for (size_t i = 0; i < page->count; i++) {
+        if (is_of(document, &page->jobs[i])) {
+            put_figure(page, &page->jobs[i], &page->outcomes[i]);
         }
     }
-    fputs("</section>\n", page);
-    return good;
+    fputs("</section>\n", page->file);
+}
+
+static void put_page(struct page *page)
+{
+    const struct gm_figure_sum sum = gm_figures_sum(page->jobs, page->outcomes, page->count);
+    put_head(page->file, page->output, &sum, page->count);
+    for (size_t i = 0; i < gm_document_count(); i++) {
+        put_document(page, gm_document_at(i));
+    }
+    put_document(page, &own_systems);
+    fprintf(
+        page->file,
+        "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n</html>\n",
+        GM_VERSION, page->output->quick ? " --quick" : "");
 }
 
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
@@ -395,29 +411,19 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
     char *path = gm_text("%s/figures.html", output->folder),
          *partial = gm_text("%s/.figures.html", output->folder);
     errno = 0;
-    FILE *page = path && partial ? fopen(partial, "w") : NULL;
-    bool good = page != NULL;
-    if (good) {
-        const struct gm_figure_sum sum = gm_figures_sum(jobs, outcomes, count);
-        put_head(page, output, &sum, count);
-        for (size_t i = 0; i < gm_document_count(); i++) {
-            good &= put_document(page, output, gm_document_at(i), jobs, outcomes, count);
-        }
-        good &= put_document(page, output, &own_systems, jobs, outcomes, count);
-        fprintf(page,
-                "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n"
-                "</html>\n",
-                GM_VERSION, output->quick ? " --quick" : "");
-        good &= !ferror(page);
-        good &= fclose(page) == 0;
-        good = good && rename(partial, path) == 0;
+    struct page page = {path && partial ? fopen(partial, "w") : NULL, output, jobs, outcomes, count, false};
+    bool made = false;
+    if (page.file) {
+        put_page(&page);
+        const bool written = !page.failed && !ferror(page.file);
+        made = fclose(page.file) == 0 && written && rename(partial, path) == 0;
     }
-    if (!good) {
+    if (!made) {
         gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
                   gm_memory_was_short() ? "not enough memory" : strerror(errno));
         remove(partial ? partial : "");
     }
     free(path);
     free(partial);
-    return good;
+    return made;
 }

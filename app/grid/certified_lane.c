@@ -159,15 +159,14 @@ static const struct gm_request *ask(struct gm_arena *arena, const char *system,
     const struct gm_scheme *scheme = gm_scheme_find(typed->words[0]);
     struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
     struct gm_arguments *words = gm_arguments_in(arena);
-    gm_arena_need(arena, gm_arguments_add(words, system) &&
-                             gm_arguments_add(words, gm_arena_print(arena, "scheme=%s", typed->words[0])));
-    for (int i = 1; i < typed->count; i++) {
-        gm_arena_need(arena, gm_arguments_add(words, typed->words[i]));
-    }
+    gm_arguments_add(words, system);
+    gm_arguments_print(words, "scheme=%s", typed->words[0]);
+    gm_arguments_append(words, typed->words + 1, typed->count - 1);
     /* a mesh has the number of nodes on which all claims are measured, by default */
     if (scheme && scheme->family->kind == &gm_kind_mesh && !gm_arguments_have(words, "points=")) {
-        gm_arena_need(arena, gm_arguments_add(words, "points=3"));
+        gm_arguments_add(words, "points=3");
     }
+    gm_arena_need(arena, !words->failed);
     if (!gm_request_parse(request, words->count, words->words, 1, message)) {
         *status = gm_request_refusal(request);
         gm_arena_refuse(arena, "%s", message);

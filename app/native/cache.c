@@ -113,30 +113,31 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     return file;
 }
 
+/* Ends a library with its seal. */
+static bool put_seal(int file, const struct gm_cache_key *key)
+{
+    struct gm_digest digest;
+    if (file < 0 || !digest_file(file, 0, &digest, NULL)) {
+        return false;
+    }
+    gm_digest_add(&digest, key->text, sizeof key->text);
+    struct seal seal = {.a = digest.a, .b = digest.b};
+    memcpy(seal.magic, magic, sizeof magic);
+    return lseek(file, 0, SEEK_END) >= 0 && write(file, &seal, sizeof seal) == (ssize_t)sizeof seal;
+}
+
 bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key, char *sentence)
 {
     char path[GM_CACHE_PATH];
-    struct gm_digest digest;
-    struct seal seal;
     path_of(folder, key, path);
     const int file = open(library, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-    bool good = file >= 0 && digest_file(file, 0, &digest, NULL);
-    if (good) {
-        gm_digest_add(&digest, key->text, sizeof key->text);
-        memcpy(seal.magic, magic, sizeof magic);
-        seal.a = digest.a;
-        seal.b = digest.b;
-        good = lseek(file, 0, SEEK_END) >= 0 && write(file, &seal, sizeof seal) == (ssize_t)sizeof seal;
-    }
-    if (file >= 0) {
-        good = close(file) == 0 && good;
-    }
-    if (!good) {
-        gm_refuse(sentence, "the compiler wrote nothing that can be kept");
-    } else if (rename(library, path) != 0) {
-        good = gm_refuse(sentence, "%.400s could not be written: %s", path, strerror(errno));
-    }
-    size_t count = 0, kept = good ? 1 : 0, bytes = 0;
+    const bool sealed = put_seal(file, key);
+    const bool whole = (file >= 0 && close(file) == 0 && sealed) ||
+                       gm_refuse(sentence, "the compiler wrote nothing that can be kept");
+    const bool keeps =
+        whole && (rename(library, path) == 0 ||
+                  gm_refuse(sentence, "%.400s could not be written: %s", path, strerror(errno)));
+    size_t count = 0, kept = keeps, bytes = 0;
     struct gm_cache_entry *entries = NULL;
     gm_cache_list(folder, &entries, &count); /* an unreadable folder drops nothing */
     for (size_t i = 0; i < count; i++) {
@@ -151,7 +152,7 @@ bool gm_cache_keep(const char *folder, const char *library, const struct gm_cach
         }
     }
     free(entries);
-    return good;
+    return keeps;
 }
 
 static int is_entry(const struct dirent *file)

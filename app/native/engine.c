@@ -115,22 +115,6 @@ bool gm_engine_named(const char *word, enum gm_engine *engine)
     return false;
 }
 
-void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*teller)(const char *sentence),
-                      bool (*asked)(void))
-{
-    chosen = engine;
-    tell = teller;
-    interrupted = asked;
-    static bool stops;
-    /* the compiler works in a separate folder */
-    if (strlen(kernels) >= sizeof kernel_folder || !realpath(kernels, kernel_folder)) {
-        kernel_folder[0] = '\0';
-    }
-    if (!stops) {
-        stops = atexit(gm_engine_stop) == 0;
-    }
-}
-
 static bool is_written(const struct gm_lane *lane)
 {
     return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
@@ -411,27 +395,27 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
     const size_t size = gm_run_snapshot_size(run), head = size - run->half_size;
     char *before = malloc(3 * size), *one = before ? before + size : NULL,
          *other = before ? one + size : NULL;
-    bool good = before != NULL;
-    if (good) {
+    bool equal = false;
+    if (before) {
         gm_run_save(run, before);
-        good = try_steps(run, before, one);
+        const bool tried = try_steps(run, before, one);
         struct gm_run then = *run;
         gm_user_problem_take(&lane->problem, loops);
-        good = good && try_steps(run, before, other) && run->status == then.status &&
-               run->steps == then.steps && run->evaluations == then.evaluations &&
-               run->iterations == then.iterations && run->solves == then.solves;
+        equal = tried && try_steps(run, before, other) && run->status == then.status &&
+                run->steps == then.steps && run->evaluations == then.evaluations &&
+                run->iterations == then.iterations && run->solves == then.solves;
         const double *numbers = (const double *)(const void *)(one + head),
                      *others = (const double *)(const void *)(other + head);
-        for (size_t i = 0; good && i < run->half_size / sizeof *numbers; i++) {
-            good = same(numbers[i], others[i]);
+        for (size_t i = 0; equal && i < run->half_size / sizeof *numbers; i++) {
+            equal = same(numbers[i], others[i]);
         }
         gm_run_load(run, before);
     }
-    if (!good) {
+    if (!equal) {
         gm_user_problem_take(&lane->problem, NULL);
     }
     free(before);
-    return good;
+    return equal;
 }
 
 /* The loops of a build that is ready go to a lane. */
@@ -499,7 +483,8 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left)
     pthread_mutex_unlock(&making);
 }
 
-void gm_engine_stop(void)
+/* Ends all running compilations. */
+static void stop_all(void)
 {
     char folder[GM_CACHE_PATH], sentence[GM_MESSAGE];
     stopping = true;
@@ -514,4 +499,20 @@ void gm_engine_stop(void)
         }
     }
     pthread_mutex_unlock(&making);
+}
+
+void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*teller)(const char *sentence),
+                      bool (*asked)(void))
+{
+    chosen = engine;
+    tell = teller;
+    interrupted = asked;
+    static bool stops;
+    /* the compiler works in a separate folder */
+    if (strlen(kernels) >= sizeof kernel_folder || !realpath(kernels, kernel_folder)) {
+        kernel_folder[0] = '\0';
+    }
+    if (!stops) {
+        stops = atexit(stop_all) == 0;
+    }
 }

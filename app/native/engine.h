@@ -31,7 +31,4 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left);
 /* "native" or "interpreted"; NULL if the lane's problem is built in. */
 const char *gm_engine_of(const struct gm_lane *lane);
 
-/* Ends all running compilations. */
-void gm_engine_stop(void);
-
 #endif

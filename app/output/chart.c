@@ -84,6 +84,11 @@ static bool is_anothers(const struct gm_chart *chart, const char *table)
            !have_one_head(table, chart->csv);
 }
 
+static bool fail(const struct gm_chart *chart, char *message)
+{
+    return gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
+}
+
 /* Returns false with errno. */
 static bool write_table(const struct gm_chart *chart, const char *path)
 {
@@ -91,34 +96,36 @@ static bool write_table(const struct gm_chart *chart, const char *path)
     if (!table) {
         return false;
     }
-    const bool good = chart->write(chart->data, table) && !ferror(table);
-    return fclose(table) == 0 && good;
+    const bool written = chart->write(chart->data, table) && !ferror(table);
+    return fclose(table) == 0 && written;
 }
 
 /* The numbers aside first: with a table that has to stay nothing is drawn. */
+static bool write_from(struct gm_chart *chart, const char *aside, char *message)
+{
+    if (is_anothers(chart, aside)) {
+        return gm_refuse(message,
+                         "%.300s is there, with other columns than the numbers of this picture; name the "
+                         "picture otherwise",
+                         chart->csv);
+    }
+    return paint(chart, message) &&
+           (strcmp(aside, chart->csv) == 0 || rename(aside, chart->csv) == 0 || fail(chart, message));
+}
+
 static bool write_both(struct gm_chart *chart, char *message)
 {
     char *aside = gm_temporary_fits(chart->csv) ? gm_temporary_name(chart->csv, ".tmp") : strdup(chart->csv);
-    bool good = false;
     if (!aside) {
-        gm_refuse(message, "not enough memory for a table");
-    } else if (!write_table(chart, aside)) {
-        gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
-    } else if (is_anothers(chart, aside)) {
-        gm_refuse(message,
-                  "%.300s is there, with other columns than the numbers of this picture; name the picture "
-                  "otherwise",
-                  chart->csv);
-    } else {
-        good = paint(chart, message) &&
-               (strcmp(aside, chart->csv) == 0 || rename(aside, chart->csv) == 0 ||
-                gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno)));
+        return gm_refuse(message, "not enough memory for a table");
     }
-    if (!good && aside && strcmp(aside, chart->csv) != 0) {
+    const bool written =
+        (write_table(chart, aside) || fail(chart, message)) && write_from(chart, aside, message);
+    if (!written && strcmp(aside, chart->csv) != 0) {
         unlink(aside);
     }
     free(aside);
-    return good;
+    return written;
 }
 
 bool gm_chart_write(struct gm_chart *chart, char *message)

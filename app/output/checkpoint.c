@@ -330,10 +330,10 @@ bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long 
     for (size_t i = 0; i < count && noted; i++) {
         noted = gm_pause_note(pause, i, lanes[i], &nothing);
     }
-    const bool good = noted ? gm_pause_write(pause, path, message)
-                            : gm_temporary_refuse(message, path, "not enough memory");
+    const bool written = noted ? gm_pause_write(pause, path, message)
+                               : gm_temporary_refuse(message, path, "not enough memory");
     gm_pause_close(pause);
-    return good;
+    return written;
 }
 
 bool gm_checkpoint_read(const char *path, const struct gm_frames *frames, long *frame,

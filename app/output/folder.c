@@ -36,11 +36,11 @@ static bool make_all(char *path)
 static bool make(const char *path, size_t length, char *message)
 {
     char *folder = strndup(path, length);
-    const bool good =
+    const bool made =
         (folder && make_all(folder)) || gm_refuse(message, "%.*s could not be made: %s",
                                                   (int)(length < 360 ? length : 360), path, strerror(errno));
     free(folder);
-    return good;
+    return made;
 }
 
 bool gm_folder_make(const char *path, char *message)

@@ -105,17 +105,17 @@ bool gm_print_write(struct gm_print *print, const struct gm_printed *content, ch
     unsigned char *rgb = canvas ? malloc((size_t)look->width * (size_t)look->height * 3) : NULL;
     struct gm_picture *picture = gm_picture_open();
     struct gm_provenance provenance = {0};
-    bool good = false;
+    bool printed = false;
     if ((!painted || rgb) && picture &&
         content->describe(&provenance, content->data, look, painter_of(print, canvas))) {
         content->draw(content->data, picture);
-        good = write_file(print, picture, canvas, rgb, &provenance, message);
+        printed = write_file(print, picture, canvas, rgb, &provenance, message);
     }
     gm_provenance_close(&provenance);
     gm_picture_close(picture);
     free(rgb);
     gm_canvas_close(canvas);
-    return good || (gm_memory_was_short() ? no_memory(look, message) : false);
+    return printed || (gm_memory_was_short() ? no_memory(look, message) : false);
 }
 
 int gm_printer_fail(const char *path, const char *message)

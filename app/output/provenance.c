@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 #include <libdeflate.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,14 +14,35 @@
 #include "core/schemes.h"
 #include "render/cells/grid.h"
 
-static bool take(struct gm_provenance *provenance, const char *key, char *text)
+/* Adds a malloc'ed text; NULL: it was out of memory. */
+static void take(struct gm_provenance *provenance, const char *key, char *text)
 {
-    if (!text) {
-        return false;
+    provenance->failed = provenance->failed || !text;
+    if (text) {
+        provenance->texts[provenance->count++] = (struct gm_png_text){key, text};
     }
-    provenance->owned[provenance->count] = text;
-    provenance->texts[provenance->count++] = (struct gm_png_text){key, text};
-    return true;
+}
+
+/* Adds a text if `there`. */
+__attribute__((format(printf, 4, 5))) static void add(struct gm_provenance *provenance, bool there,
+                                                      const char *key, const char *format, ...)
+{
+    char *text = NULL;
+    va_list values;
+    va_start(values, format);
+    if (there) {
+        take(provenance, key, vasprintf(&text, format, values) < 0 ? NULL : text);
+    }
+    va_end(values);
+}
+
+/* Returns false, and closes it, if a text is missing. */
+static bool is_whole(struct gm_provenance *provenance)
+{
+    if (provenance->failed) {
+        gm_provenance_close(provenance);
+    }
+    return !provenance->failed;
 }
 
 /* A text that `put` writes; malloc'ed. Returns NULL when out of memory. */
@@ -83,37 +105,27 @@ static bool is_scaled(const struct gm_appearance *look)
     return look->scale > 0 && look->scale != 1;
 }
 
-/* Adds the parts of the look that differ from the default. */
-static bool take_look(struct gm_provenance *provenance, const struct gm_appearance *look)
-{
-    return (!is_scaled(look) || take(provenance, GM_KEY_SCALE, gm_text("%.17g", look->scale))) &&
-           (!(look->dpi > 0) || take(provenance, GM_KEY_DPI, gm_text("%.17g", look->dpi))) &&
-           (!(look->page_width > 0) ||
-            take(provenance, GM_KEY_PAGE, gm_text("%.17gx%.17g", look->page_width, look->page_height))) &&
-           (!look->title || take(provenance, GM_KEY_TITLE, gm_text("%s", look->title)));
-}
-
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
                         const struct gm_appearance *look, const char *backend)
 {
+    const struct gm_scene *scene = request->scene;
     *provenance = (struct gm_provenance){0};
-    const bool good =
-        take(provenance, "Title", gm_text("%s", request->scene->title)) &&
-        take(provenance, "Software", gm_text("geomint %s", GM_VERSION)) &&
-        take(provenance, "geomint:scene", gm_text("%s", request->scene->name)) &&
-        take(provenance, "geomint:schemes", text_of(put_schemes, request)) &&
-        take(provenance, "geomint:parameters", text_of(put_parameters, request)) &&
-        take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
-        take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
-        take(provenance, GM_KEY_PICTURE, gm_text("%dx%d %s", look->width, look->height, theme_name(look))) &&
-        take_look(provenance, look) &&
-        (!request->scene->source || take(provenance, GM_KEY_SYSTEM, gm_text("%s", request->scene->source))) &&
-        (!request->scene->room || take(provenance, GM_KEY_ROOM, gm_text("%s", request->scene->mark))) &&
-        take(provenance, GM_KEY_PAINTER, gm_text("%s", backend));
-    if (!good) {
-        gm_provenance_close(provenance);
-    }
-    return good;
+    add(provenance, true, "Title", "%s", scene->title);
+    add(provenance, true, "Software", "geomint %s", GM_VERSION);
+    add(provenance, true, "geomint:scene", "%s", scene->name);
+    take(provenance, "geomint:schemes", text_of(put_schemes, request));
+    take(provenance, "geomint:parameters", text_of(put_parameters, request));
+    take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request));
+    take(provenance, GM_KEY_CHANGES, gm_changes_format(request));
+    add(provenance, true, GM_KEY_PICTURE, "%dx%d %s", look->width, look->height, theme_name(look));
+    add(provenance, is_scaled(look), GM_KEY_SCALE, "%.17g", look->scale);
+    add(provenance, look->dpi > 0, GM_KEY_DPI, "%.17g", look->dpi);
+    add(provenance, look->page_width > 0, GM_KEY_PAGE, "%.17gx%.17g", look->page_width, look->page_height);
+    add(provenance, look->title, GM_KEY_TITLE, "%s", look->title);
+    add(provenance, scene->source, GM_KEY_SYSTEM, "%s", scene->source);
+    add(provenance, scene->room, GM_KEY_ROOM, "%s", scene->mark);
+    add(provenance, true, GM_KEY_PAINTER, "%s", backend);
+    return is_whole(provenance);
 }
 
 /* The options of a look, each with a blank before it. */
@@ -147,15 +159,13 @@ bool gm_provenance_of_command(struct gm_provenance *provenance, const char *comm
 {
     *provenance = (struct gm_provenance){0};
     char *options = text_of(put_options, look);
-    const bool good = options && take(provenance, "Software", gm_text("geomint %s", GM_VERSION)) &&
-                      take(provenance, GM_KEY_COMMAND, gm_text("%s%s", command, options)) &&
-                      (!system || take(provenance, GM_KEY_SYSTEM, gm_text("%s", system))) &&
-                      take(provenance, GM_KEY_PAINTER, gm_text("%s", backend));
+    provenance->failed = !options;
+    add(provenance, true, "Software", "geomint %s", GM_VERSION);
+    add(provenance, options, GM_KEY_COMMAND, "%s%s", command, options);
+    add(provenance, system, GM_KEY_SYSTEM, "%s", system);
+    add(provenance, true, GM_KEY_PAINTER, "%s", backend);
     free(options);
-    if (!good) {
-        gm_provenance_close(provenance);
-    }
-    return good;
+    return is_whole(provenance);
 }
 
 int gm_provenance_scene_place(const struct gm_arguments *command)
@@ -166,7 +176,7 @@ int gm_provenance_scene_place(const struct gm_arguments *command)
 void gm_provenance_close(struct gm_provenance *provenance)
 {
     for (size_t i = 0; i < provenance->count; i++) {
-        free(provenance->owned[i]);
+        free((char *)provenance->texts[i].text);
     }
     provenance->count = 0;
 }
@@ -211,15 +221,14 @@ char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count)
 bool gm_provenance_take_lanes(struct gm_provenance *provenance, const struct gm_lane *const *lanes,
                               size_t count, bool failures)
 {
-    if (!take(provenance, GM_KEY_STEPS, gm_provenance_steps(lanes, count))) {
-        return false;
-    }
+    take(provenance, GM_KEY_STEPS, gm_provenance_steps(lanes, count));
     char *text = failures ? gm_provenance_failures(lanes, count) : NULL;
-    if (!failures || (text && !text[0])) {
+    if (failures && (!text || text[0])) {
+        take(provenance, GM_KEY_FAILURES, text);
+    } else {
         free(text);
-        return true;
     }
-    return take(provenance, GM_KEY_FAILURES, text);
+    return !provenance->failed;
 }
 
 bool gm_program_checksum(unsigned *checksum)
@@ -234,7 +243,7 @@ bool gm_program_checksum(unsigned *checksum)
     while ((size = fread(bytes, 1, sizeof bytes, file)) > 0) {
         *checksum = libdeflate_crc32(*checksum, bytes, size);
     }
-    const bool good = !ferror(file);
+    const bool read = !ferror(file);
     fclose(file);
-    return good;
+    return read;
 }

@@ -12,9 +12,9 @@
 enum { GM_PROVENANCE_TEXTS = 15 };
 
 struct gm_provenance {
-    struct gm_png_text texts[GM_PROVENANCE_TEXTS];
+    struct gm_png_text texts[GM_PROVENANCE_TEXTS]; /* malloc'ed */
     size_t count;
-    char *owned[GM_PROVENANCE_TEXTS]; /* the texts' memory */
+    bool failed; /* true: memory was short */
 };
 
 /* Keys of the chunks that `again` reads. */

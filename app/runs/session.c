@@ -482,9 +482,9 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
         return short_of_memory(message);
     }
     settle(session);
-    const bool good = make_change(session, lane, change, message);
+    const bool made = make_change(session, lane, change, message);
     free(change);
-    if (!good) {
+    if (!made) {
         return false;
     }
     session->log.lanes[lane].shown =

@@ -206,17 +206,19 @@ static bool measure(struct show *show)
     const struct gm_listener listener = {.report = grow, .stopped = has_failed, .self = show};
     struct gm_arguments words = {0};
     struct gm_grid grid;
-    bool good = gm_arguments_split(&words, show->step->study_words) || fail(show, "not enough memory");
-    if (good && (good = gm_grid_open(&grid, show->step->study, &words, NULL, show->message))) {
+    bool measured = false;
+    if (!gm_arguments_split(&words, show->step->study_words)) {
+        fail(show, "not enough memory");
+    } else if (gm_grid_open(&grid, show->step->study, &words, NULL, show->message)) {
         show->grid = &grid;
-        good = gm_grid_measure(&grid, &listener, show->message) && paint(show) && write_page(show, "") &&
-               put(show, frames_of(show, end_seconds));
+        measured = gm_grid_measure(&grid, &listener, show->message) && paint(show) && write_page(show, "") &&
+                   put(show, frames_of(show, end_seconds));
         gm_grid_close(&grid);
     }
     show->grid = NULL;
-    show->failed = show->failed || (!good && !gm_interrupted);
+    show->failed = show->failed || (!measured && !gm_interrupted);
     gm_arguments_close(&words);
-    return good;
+    return measured;
 }
 
 static bool play(struct show *show, const struct gm_tour_step *step)
@@ -275,10 +277,10 @@ static bool open_show(struct show *show)
 int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *output)
 {
     struct show show = {.tour = tour, .output = output};
-    bool good = open_show(&show);
-    for (size_t i = 0; i < tour->count && good && !gm_interrupted; i++) {
+    bool played = open_show(&show);
+    for (size_t i = 0; i < tour->count && played && !gm_interrupted; i++) {
         gm_listener_hears(&gm_terminal_listener, tour->steps[i].title, i + 1, tour->count);
-        good = play(&show, &tour->steps[i]);
+        played = play(&show, &tour->steps[i]);
     }
     gm_terminal_listener_clear();
     if (show.open) {
@@ -287,20 +289,20 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *outp
     /* an interrupted movie is finished with the frames it has */
     char failure[GM_MESSAGE] = "";
     gm_interrupts_seen();
-    const bool made = !show.sink || gm_sink_close(show.sink, good || gm_interrupted, failure);
+    const bool made = !show.sink || gm_sink_close(show.sink, played || gm_interrupted, failure);
     if (!made) {
         gm_complain("%s", failure);
-    } else if (!good && !gm_interrupted) {
+    } else if (!played && !gm_interrupted) {
         gm_complain("%s", show.message);
     }
-    good = good && made;
-    if (good && !gm_interrupted && output->movie) {
+    played = played && made;
+    if (played && !gm_interrupted && output->movie) {
         gm_complain("wrote %s", output->movie);
-    } else if (good && !gm_interrupted) {
+    } else if (played && !gm_interrupted) {
         gm_complain("wrote %s/%s-*.png", output->folder ? output->folder : ".", tour->name);
     }
     gm_picture_close(show.picture);
     free(show.rgb);
     gm_canvas_close(show.canvas);
-    return gm_interrupted ? GM_EXIT_INTERRUPTED : good ? GM_EXIT_OK : GM_EXIT_FILE;
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : played ? GM_EXIT_OK : GM_EXIT_FILE;
 }

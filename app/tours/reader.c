@@ -90,9 +90,9 @@ static char *text_of(const struct reader *reader, struct gm_span value)
 }
 
 /* Leaves the body if the text has that fault. */
-static void need(const struct reader *reader, bool good, const struct gm_fault *fault)
+static void need(const struct reader *reader, bool whole, const struct gm_fault *fault)
 {
-    if (!good) {
+    if (!whole) {
         refuse(reader, line_of(reader, fault->offset), "%s", fault->sentence);
     }
 }
@@ -134,13 +134,6 @@ static void take_text(const struct reader *reader, const struct entry *entry, ch
     *place = entry->text;
 }
 
-static struct gm_arguments *split(const struct reader *reader, const char *text)
-{
-    struct gm_arguments *words = gm_arguments_in(reader->arena);
-    gm_arena_need(reader->arena, gm_arguments_split(words, text));
-    return words;
-}
-
 /* ---- a step ---- */
 
 static const double usual_seconds = 8;
@@ -149,7 +142,7 @@ static const double usual_seconds = 8;
 static void parse_show(const struct reader *reader, long line, struct gm_tour_step *step)
 {
     char message[GM_MESSAGE];
-    const struct gm_arguments *words = split(reader, step->show);
+    const struct gm_arguments *words = gm_arguments_of(reader->arena, step->show);
     gm_request_close(&step->request);
     if (!gm_request_parse(&step->request, words->count, words->words, MOST_SCHEMES, message)) {
         refuse(reader, line, "%s", message);
@@ -185,7 +178,7 @@ static void read_study(const struct reader *reader, const struct entry *entry, s
                entry->text);
     }
     step->study_words = entry->text + length;
-    if (!gm_grid_open(&grid, step->study, split(reader, step->study_words), NULL, message)) {
+    if (!gm_grid_open(&grid, step->study, gm_arguments_of(reader->arena, step->study_words), NULL, message)) {
         refuse(reader, entry->line, "%s", message);
     }
     gm_grid_close(&grid);
@@ -196,7 +189,7 @@ static void read_change(const struct reader *reader, const struct entry *entry,
                         const struct gm_request *shown, struct gm_tour_step *step)
 {
     char message[GM_MESSAGE];
-    const struct gm_arguments *words = split(reader, entry->text);
+    const struct gm_arguments *words = gm_arguments_of(reader->arena, entry->text);
     char *const *list = words->words;
     const int count = words->count;
     struct gm_tour_change change = {.lane = GM_EVERY_LANE};
@@ -215,9 +208,9 @@ static void read_change(const struct reader *reader, const struct entry *entry,
     change.lane = has_lane ? (long)lane - 1 : GM_EVERY_LANE;
     change.text = list[count - 1];
     struct gm_lane *trial = gm_request_open_lane(shown, has_lane ? (size_t)change.lane : 0, message);
-    const bool good = trial && gm_change_apply(trial, change.text, message);
+    const bool applied = trial && gm_change_apply(trial, change.text, message);
     gm_lane_close(trial);
-    if (!good) {
+    if (!applied) {
         refuse(reader, entry->line, "%s", message);
     }
     step->changes =
@@ -406,7 +399,7 @@ static void place_files(const struct reader *reader)
         if (!has_words || !has_files) {
             continue;
         }
-        struct gm_arguments *words = split(reader, entry->text);
+        struct gm_arguments *words = gm_arguments_of(reader->arena, entry->text);
         for (int k = 0; k < words->count; k++) {
             char *word = placed(reader->name, words->words[k]);
             gm_arena_need(reader->arena, word);
@@ -436,12 +429,12 @@ bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, siz
                             .arena = tour->arena,
                             .tour = tour,
                             .refusals = gm_memory_refusals()};
-    const bool good = gm_arena_run(tour->arena, read_tour, &reader);
-    if (!good) {
-        gm_refuse(message, "%s", gm_arena_reason(tour->arena));
-        gm_tour_close(tour);
+    if (gm_arena_run(tour->arena, read_tour, &reader)) {
+        return true;
     }
-    return good;
+    gm_refuse(message, "%s", gm_arena_reason(tour->arena));
+    gm_tour_close(tour);
+    return false;
 }
 
 /* "share/tours/area.tour" is called area. */
@@ -462,12 +455,12 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
     *tour = (struct gm_tour){0};
     size_t size = 0;
     char *text = gm_file_read(file, MOST_BYTES, &size, message);
-    const bool good = text && gm_tour_parse(tour, file->path, text, size, message);
+    const bool parsed = text && gm_tour_parse(tour, file->path, text, size, message);
     free(text);
-    if (good) {
+    if (parsed) {
         shorten_name(tour);
     }
-    return good;
+    return parsed;
 }
 
 void gm_tour_close(struct gm_tour *tour)

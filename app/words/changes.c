@@ -155,9 +155,9 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
     while (*text) {
         const size_t length = strcspn(text, "\n");
         char *line = strndup(text, length);
-        const bool good = line && parse_change(request, line);
+        const bool parsed = line && parse_change(request, line);
         free(line);
-        if (!good) {
+        if (!parsed) {
             return false;
         }
         text += length + (text[length] == '\n');
@@ -213,15 +213,15 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
         return gm_refuse(message, "not enough memory");
     }
     struct meaning meaning;
-    bool good = understand(request->scene, parameters, change->text, &meaning, message);
     const double usual = ((const struct gm_timing *)parameters)->dt;
-    if (good && !isnan(meaning.dt) && fabs(meaning.dt) != fabs(usual)) { /* the sign may change */
-        char size[64];
-        good = gm_value_read(gm_scene_parameter(request->scene, "dt"), NULL,
-                             gm_number_format(fabs(meaning.dt), size, sizeof size), message);
-    }
+    const bool understood = understand(request->scene, parameters, change->text, &meaning, message);
     free(parameters);
-    return good;
+    if (!understood || isnan(meaning.dt) || fabs(meaning.dt) == fabs(usual)) { /* the sign may change */
+        return understood;
+    }
+    char size[64];
+    return gm_value_read(gm_scene_parameter(request->scene, "dt"), NULL,
+                         gm_number_format(fabs(meaning.dt), size, sizeof size), message);
 }
 
 bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)

@@ -36,12 +36,11 @@ static bool open_defaults(struct defaults *defaults, const struct gm_scene *scen
 {
     char sentence[GM_MESSAGE];
     *defaults = (struct defaults){.scene = scene, .parameters = gm_scene_defaults(scene)};
-    const bool good =
-        defaults->parameters && scene->setup(defaults->parameters, &defaults->problem, sentence);
-    if (!good) {
-        free(defaults->parameters);
+    if (defaults->parameters && scene->setup(defaults->parameters, &defaults->problem, sentence)) {
+        return true;
     }
-    return good;
+    free(defaults->parameters);
+    return false;
 }
 
 static void close_defaults(struct defaults *defaults)
@@ -69,11 +68,11 @@ void gm_fitting_same(const struct gm_scene *scene, const struct gm_scheme *const
                      const struct gm_scheme **same)
 {
     struct defaults defaults;
-    const bool good = open_defaults(&defaults, scene);
+    const bool opened = open_defaults(&defaults, scene);
     for (size_t i = 0; i < count; i++) {
-        same[i] = good ? gm_scheme_same_as(schemes[i], &defaults.problem) : NULL;
+        same[i] = opened ? gm_scheme_same_as(schemes[i], &defaults.problem) : NULL;
     }
-    if (good) {
+    if (opened) {
         close_defaults(&defaults);
     }
 }
@@ -120,22 +119,27 @@ bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, cons
         most += *at == ',';
     }
     *chosen = (struct gm_chosen){.numbers = calloc(most, sizeof *chosen->numbers)};
-    char *copy = keys ? strdup(keys) : NULL, *rest = NULL;
-    bool good = (chosen->numbers && (!keys || copy)) || gm_refuse(message, "not enough memory");
-    for (size_t i = 0; good && !keys && i < scene->observable_count; i++) {
+    if (!chosen->numbers) {
+        return gm_refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; !keys && i < scene->observable_count; i++) {
         chosen->numbers[chosen->count++] = i;
     }
-    for (char *key = good && copy ? strtok_r(copy, ",", &rest) : NULL; good && key;
-         key = strtok_r(NULL, ",", &rest)) {
+    for (const char *at = keys; at && *(at += strspn(at, ",")); at += strcspn(at, ",")) {
+        char key[GM_TEXT_SIZE];
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(at, ","), at);
         const int found = gm_scene_observable(scene, key);
-        good = found >= 0 || gm_chosen_refuse(scene, key, message);
-        for (size_t i = 0; good && i < chosen->count; i++) {
-            good = chosen->numbers[i] != (size_t)found || gm_refuse(message, "%.60s is named twice", key);
+        if (found < 0) {
+            return gm_chosen_refuse(scene, key, message);
+        }
+        for (size_t i = 0; i < chosen->count; i++) {
+            if (chosen->numbers[i] == (size_t)found) {
+                return gm_refuse(message, "%.60s is named twice", key);
+            }
         }
         chosen->numbers[chosen->count++] = (size_t)found;
     }
-    free(copy);
-    return good;
+    return true;
 }
 
 void gm_chosen_close(void *self)

@@ -514,89 +514,96 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
     return scene;
 }
 
+/* The lanes of the words behind the scene: the given ones, or these and its default lanes. */
+static bool read_words(struct gm_request *request, const struct gm_arguments *given,
+                       const struct gm_arguments *all, size_t schemes, bool recalled, char *message)
+{
+    struct gm_words words;
+    size_t lanes;
+    bool made = gm_words_read(&words, request->scene, all->count - 1, all->words + 1, schemes, message);
+    if (made) {
+        if (all != given && !gm_arguments_have(given, "overlay=") &&
+            !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
+            gm_words_separate(&words);
+        }
+        request->overlay = gm_words_chosen(&words, "overlay");
+        made = make_lanes(request, &words, recalled, message);
+    } else {
+        memcpy(request->refused, words.refused, sizeof request->refused);
+    }
+    if (made) {
+        request->arguments = gm_words_join(request->scene, &words);
+        made = request->arguments || gm_refuse(message, "not enough memory");
+    }
+    gm_words_close(&words);
+    return made;
+}
+
 /* `scene`: the one that the first word names; NULL: it is found. */
-static bool parse(struct gm_request *request, const struct gm_scene *scene, int count, char *const typed[],
+static bool parse(struct gm_request *request, const struct gm_scene *scene, const struct gm_arguments *given,
                   size_t schemes, bool recalled, char *message)
 {
     *request = (struct gm_request){0};
-    if (count == 0) {
+    if (given->count == 0) {
         return gm_refuse(message, "which scene? geomint list names them");
     }
-    request->scene = scene ? scene : gm_request_scene(count, typed, &request->refusal, message);
+    request->scene = scene ? scene : gm_request_scene(given->count, given->words, &request->refusal, message);
     if (!request->scene) {
         return false;
     }
     /* a scene shows its default lanes, except for typed words */
     struct gm_arguments arguments = {0};
-    const struct gm_arguments given = {.words = (char **)typed, .count = count};
     const bool shown = schemes > GM_RUN_SCHEMES && request->scene->lanes;
-    if (shown && !gm_words_complete(&arguments, request->scene, &given, request->scene->lanes)) {
+    if (shown && !gm_words_complete(&arguments, request->scene, given, request->scene->lanes)) {
         gm_arguments_close(&arguments);
         return gm_refuse(message, "not enough memory");
     }
-    char *const *read = shown ? arguments.words : typed;
-    struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
-    bool good = gm_words_read(&words, request->scene, (shown ? arguments.count : count) - 1, read + 1,
-                              schemes, message);
-    if (!good) {
-        memcpy(request->refused, words.refused, sizeof request->refused);
-    }
-    size_t lanes;
-    if (good && shown && !gm_arguments_have(&given, "overlay=") &&
-        !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
-        gm_words_separate(&words);
-    }
-    request->overlay = good && gm_words_chosen(&words, "overlay");
-    good = good && make_lanes(request, &words, recalled, message);
-    if (good) {
-        request->arguments = gm_words_join(request->scene, &words);
-        good = request->arguments || gm_refuse(message, "not enough memory");
-    }
-    if (gm_memory_refusals() !=
-        refusals) { /* a lack of memory may appear as a fault of a mesh or of its file */
-        good = gm_refuse(message, "not enough memory");
+    bool made = read_words(request, given, shown ? &arguments : given, schemes, recalled, message);
+    /* a lack of memory may appear as a fault of a mesh or of its file */
+    if (gm_memory_refusals() != refusals) {
+        made = gm_refuse(message, "not enough memory");
         request->refusal = GM_EXIT_FILE;
     }
-    gm_words_close(&words);
     gm_arguments_close(&arguments);
     char key[sizeof request->refused + 1];
     snprintf(key, sizeof key, "%s=", request->refused);
-    if (!good && shown && !gm_arguments_have(&given, key) && (count == 1 || request->refused[0])) {
+    if (!made && shown && !gm_arguments_have(given, key) && (given->count == 1 || request->refused[0])) {
         char sentence[GM_MESSAGE]; /* a word that was not typed is from a file */
         snprintf(sentence, sizeof sentence, "%s", message);
         gm_refuse(message, "in the line \"lanes:\" of %.80s: %.400s", request->scene->name, sentence);
     }
-    if (!good) {
+    if (!made) {
         const struct gm_request refused = *request;
         gm_request_close(request);
         request->refusal = refused.refusal;
         memcpy(request->refused, refused.refused, sizeof refused.refused);
     }
-    return good;
+    return made;
 }
 
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message)
 {
-    return parse(request, NULL, count, words, schemes, false, message);
+    return gm_request_parse_for(request, NULL, count, words, schemes, message);
 }
 
 bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
                           char *const words[], size_t schemes, char *message)
 {
-    return parse(request, scene, count, words, schemes, false, message);
+    const struct gm_arguments given = {.words = (char **)words, .count = count};
+    return parse(request, scene, &given, schemes, false, message);
 }
 
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
 {
     struct gm_arguments words = {0};
     *request = (struct gm_request){0};
-    const bool good = gm_arguments_split(&words, arguments)
-                          ? parse(request, NULL, words.count, words.words, 1, true, message)
-                          : gm_refuse(message, "not enough memory");
+    const bool recalled = gm_arguments_split(&words, arguments)
+                              ? parse(request, NULL, &words, 1, true, message)
+                              : gm_refuse(message, "not enough memory");
     gm_arguments_close(&words);
-    return good;
+    return recalled;
 }
 
 bool gm_request_ends_together(const struct gm_request *request, char *message)

@@ -58,7 +58,7 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
    message (GM_MESSAGE bytes); the request is then empty, except `refusal` and `refused`. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message);
-/* The same for a scene that is known, and named by the first word. */
+/* The same for a scene that is known, and named by the first word; NULL: it is found. */
 bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
                           char *const words[], size_t schemes, char *message);
 /* The same for the stored arguments of an earlier request, in which a key may have no effect any more. */

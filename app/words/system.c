@@ -174,8 +174,8 @@ static bool choose_words(struct making *making)
     const struct gm_typed_file *written = &making->written;
     struct gm_arguments *words = &making->trial->made->words;
     const struct gm_user_system *system = &making->first;
-    bool good = gm_arguments_add(words, written->words[0]);
-    for (int i = 1; i < written->count && good; i++) {
+    gm_arguments_add(words, written->words[0]);
+    for (int i = 1; i < written->count; i++) {
         const char *word = written->words[i];
         bool chosen = gm_typed_file_has(written, i);
         for (size_t k = system->parameters; k < system->velocities; k++) {
@@ -192,9 +192,9 @@ static bool choose_words(struct making *making)
                 chosen = true;
             }
         }
-        good = !chosen || gm_arguments_add(words, word);
+        gm_arguments_append(words, &written->words[i], chosen);
     }
-    return good;
+    return !words->failed;
 }
 
 /* Finds the kind of a field's grid by the schemes that are given or, without one, are the file's. Returns false

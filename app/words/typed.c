@@ -81,21 +81,21 @@ bool gm_typed_split(struct gm_arguments *words, const char *line)
     char *word = malloc(strlen(line) + 1);
     size_t length = 0;
     int number = 0;
-    bool good = word != NULL;
-    for (char c; good && (c = next_letter(&walk)) != '\0'; word[length++] = c) {
+    words->failed = words->failed || !word;
+    for (char c; !words->failed && (c = next_letter(&walk)) != '\0'; word[length++] = c) {
         if (walk.word != number) {
             word[length] = '\0';
-            good = gm_arguments_add(words, word);
+            gm_arguments_add(words, word);
             number = walk.word;
             length = 0;
         }
     }
-    if (good && length > 0) {
+    if (length > 0) {
         word[length] = '\0';
-        good = gm_arguments_add(words, word);
+        gm_arguments_add(words, word);
     }
     free(word);
-    return good;
+    return !words->failed;
 }
 
 /* The offset, in a line, of a letter of a word. */
@@ -138,31 +138,28 @@ char *gm_typed_join(const struct gm_arguments *words)
 
 /* The words of a line with the scene first, which a formula does not need; `shift`: the number of words
    added, or negative, of leading words of a command line removed. */
-static bool read_words(struct gm_arguments *words, const char *line, int *shift)
+static void read_words(struct gm_arguments *words, const char *line, int *shift)
 {
     struct gm_arguments typed = {0};
-    bool good = gm_typed_split(&typed, line);
+    gm_typed_split(&typed, line);
     int from = typed.count > 0 && strcmp(typed.words[0], "geomint") == 0;
     from += from < typed.count && from > 0 && strcmp(typed.words[from], "tui") == 0;
     *shift = -from;
-    if (good && (from == typed.count || strchr(typed.words[from], '='))) {
-        good = gm_arguments_add(words, "system");
+    if (from == typed.count || strchr(typed.words[from], '=')) {
+        gm_arguments_add(words, "system");
         ++*shift;
     }
-    for (int i = from; good && i < typed.count; i++) {
-        good = gm_arguments_add(words, typed.words[i]);
-    }
+    gm_arguments_append(words, typed.words + from, typed.count - from);
+    words->failed = words->failed || typed.failed;
     gm_arguments_close(&typed);
-    return good;
 }
 
 /* The first line of a message is the fault; the others show the place. */
-static bool fail(struct gm_typed_fault *fault, const char *message)
+static void fail(struct gm_typed_fault *fault, const char *message)
 {
     const size_t length = strcspn(message, "\n");
     memcpy(fault->sentence, message, length);
     fault->sentence[length] = '\0';
-    return false;
 }
 
 /* The place of a key's value, or, for an unknown key, of the key. */
@@ -179,62 +176,66 @@ static struct gm_word_place word_of(const struct gm_arguments *words, const stru
     return (struct gm_word_place){-1, 0};
 }
 
-/* `trial` gets the scene, and no request is made. */
+/* The scene that the words name, which `trial` gets if it is made; NULL with a sentence and its place. */
+static const struct gm_scene *scene_of(const struct gm_arguments *words, struct gm_system_trial *trial,
+                                       struct gm_word_place *place, char *message)
+{
+    int status;
+    if (gm_scene_called(words->words[0]) || !gm_system_is(words->words[0])) {
+        place->word = 0;
+        return gm_request_scene(words->count, words->words, &status, message);
+    }
+    gm_system_try(trial, words->count, words->words, message);
+    *place = trial->place;
+    place->word = trial->status == GM_EXIT_FILE ? 0 : place->word; /* the file's name */
+    return trial->scene;
+}
+
+/* No request is made if the line cannot be read. */
 static bool read_line(struct gm_request *request, struct gm_system_trial *trial, const char *line,
                       size_t schemes, struct gm_typed_fault *fault)
 {
     struct gm_arguments words = {0};
     struct gm_word_place place = {-1, 0};
-    char message[GM_MESSAGE] = "";
-    int shift = 0, status;
+    char message[GM_MESSAGE] = "not enough memory";
+    int shift = 0;
     *fault = (struct gm_typed_fault){.at = -1};
     *trial = (struct gm_system_trial){0};
     *request = (struct gm_request){0};
-    bool good = read_words(&words, line, &shift) || gm_refuse(message, "not enough memory");
-    const struct gm_scene *scene = NULL;
-    if (good && !gm_scene_called(words.words[0]) && gm_system_is(words.words[0])) {
-        good = gm_system_try(trial, words.count, words.words, message);
-        scene = trial->scene;
-        place = trial->place;
-        place.word = !good && trial->status == GM_EXIT_FILE ? 0 : place.word; /* the file's name */
-    } else if (good) {
-        scene = gm_request_scene(words.count, words.words, &status, message);
-        good = scene != NULL;
-        place.word = good ? -1 : 0;
-    }
-    if (good) {
-        good = gm_request_parse_for(request, scene, words.count, words.words, schemes, message);
-        place = good ? place : word_of(&words, scene, request->refused);
-    }
-    if (!good) {
+    read_words(&words, line, &shift);
+    const struct gm_scene *scene = words.failed ? NULL : scene_of(&words, trial, &place, message);
+    const bool read =
+        scene && gm_request_parse_for(request, scene, words.count, words.words, schemes, message);
+    if (!read) {
+        place = scene ? word_of(&words, scene, request->refused) : place;
         fail(fault, message);
         const bool shown = place.word >= 0 && place.word >= shift;
         fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;
     }
     gm_arguments_close(&words);
-    return good;
+    return read;
 }
 
 bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
                       struct gm_typed_fault *fault)
 {
     struct gm_system_trial trial;
-    const bool good = read_line(request, &trial, line, schemes, fault);
-    if (good) {
+    const bool read = read_line(request, &trial, line, schemes, fault);
+    if (read) {
         gm_system_trial_keep(&trial);
     }
     gm_system_trial_close(&trial);
-    return good;
+    return read;
 }
 
 bool gm_typed_check(const char *line, struct gm_typed_fault *fault)
 {
     struct gm_request request;
     struct gm_system_trial trial;
-    const bool good = read_line(&request, &trial, line, 1, fault);
+    const bool read = read_line(&request, &trial, line, 1, fault);
     gm_request_close(&request);
     gm_system_trial_close(&trial);
-    return good;
+    return read;
 }
 
 /* ---- schemes ---- */
@@ -263,14 +264,14 @@ static bool read_scheme(const char *line, const struct gm_scheme **kept, struct 
     int status;
     char *name = scheme_of(line, &begin), message[GM_MESSAGE] = "not enough memory";
     *fault = (struct gm_typed_fault){.at = -1};
-    const bool good = name && (kept ? (*kept = gm_scheme_sought(name, &status, message)) != NULL
-                                    : gm_scheme_check(name, &at, message));
-    if (!good) {
+    const bool known = name && (kept ? (*kept = gm_scheme_sought(name, &status, message)) != NULL
+                                     : gm_scheme_check(name, &at, message));
+    if (!known) {
         fail(fault, message);
         fault->at = kept ? -1 : (long)(begin + at);
     }
     free(name);
-    return good;
+    return known;
 }
 
 const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)

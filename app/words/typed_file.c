@@ -206,15 +206,16 @@ bool gm_typed_file_formulas(const char *text, struct gm_arguments *words)
     size_t at = 0;
     struct gm_text_line line;
     struct gm_fault fault;
-    bool good = true;
-    while (good && gm_lines_next(text, strlen(text), &at, &line, &fault)) {
+    while (gm_lines_next(text, strlen(text), &at, &line, &fault)) {
         const char *key = gm_replacing_keys[gm_span_among(text, line.word, gm_replacing_keys)];
-        char *value = key ? gm_span_words(text, line.value) : NULL, *word = NULL;
-        good = !key || (value && asprintf(&word, "%s=%s", key, value) >= 0 && gm_arguments_add(words, word));
+        char *value = key ? gm_span_words(text, line.value) : NULL;
+        words->failed = words->failed || (key && !value);
+        if (value) {
+            gm_arguments_print(words, "%s=%s", key, value);
+        }
         free(value);
-        free(word);
     }
-    return good;
+    return !words->failed;
 }
 
 /* ---- a text of words alone ---- */

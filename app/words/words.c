@@ -488,19 +488,23 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
                        const struct gm_arguments *typed, const char *usual)
 {
     struct gm_arguments arguments = {0};
-    bool good = gm_arguments_split(&arguments, usual) && gm_arguments_add(words, typed->words[0]);
-    for (int i = 0; good && i < arguments.count; i++) {
+    gm_arguments_split(&arguments, usual);
+    gm_arguments_add(words, typed->words[0]);
+    for (int i = 0; i < arguments.count; i++) {
         const char *word = gm_arguments_find(typed, arguments.words[i]);
-        good = (!word && is_idle(scene, typed, arguments.words[i])) ||
-               gm_arguments_add(words, word ? word : arguments.words[i]);
+        if (word || !is_idle(scene, typed, arguments.words[i])) {
+            gm_arguments_add(words, word ? word : arguments.words[i]);
+        }
     }
-    for (int i = 1; good && i < typed->count; i++) { /* typed words without a place, or given twice */
-        const bool placed = gm_arguments_have(&arguments, typed->words[i]) &&
-                            gm_arguments_find(typed, typed->words[i]) == typed->words[i];
-        good = placed || gm_arguments_add(words, typed->words[i]);
+    for (int i = 1; i < typed->count; i++) { /* typed words without a place, or given twice */
+        if (!gm_arguments_have(&arguments, typed->words[i]) ||
+            gm_arguments_find(typed, typed->words[i]) != typed->words[i]) {
+            gm_arguments_add(words, typed->words[i]);
+        }
     }
+    words->failed = words->failed || arguments.failed;
     gm_arguments_close(&arguments);
-    return good;
+    return !words->failed;
 }
 
 /* The first `count` of these schemes, as if they had been typed in front. */
@@ -588,9 +592,9 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
     struct typing typing = {words, scene, count, typed, schemes};
     memset(words, 0, sizeof *words);
     words->arena = gm_arena_open();
-    const bool good = gm_arena_run(words->arena, read_words, &typing);
-    gm_refuse(message, "%s", good ? "" : gm_arena_reason(words->arena));
-    return good;
+    message[0] = '\0';
+    return gm_arena_run(words->arena, read_words, &typing) ||
+           gm_refuse(message, "%s", gm_arena_reason(words->arena));
 }
 
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)

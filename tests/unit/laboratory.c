@@ -403,7 +403,8 @@ static void a_plan_sets_up_once(void **unused)
     char *words[] = {(char[]){"channel"}};
     struct gm_grid table;
     flows_opened = 0;
-    assert_true(gm_grid_open(&table, GM_STUDY_WORK, &(const struct gm_arguments){words, 1}, NULL, message));
+    assert_true(gm_grid_open(&table, GM_STUDY_WORK, &(const struct gm_arguments){.words = words, .count = 1},
+                             NULL, message));
     assert_true(table.count > 1);
     assert_int_equal(flows_opened, 2);
     gm_grid_close(&table);
@@ -440,7 +441,7 @@ static void bounded_is_not_accurate(void **unused)
                  {"accurate=1e-9", "accurate to 1e-09 (energy_error)", "accurate", 1e-9}};
     char *words[] = {(char[]){"system"}, (char[]){"H=p^2/2 + q^4/4"}, (char[]){"q=1"},
                      (char[]){"p=0"},    (char[]){"scheme=verlet"},   (char[]){"until=20"}};
-    const struct gm_arguments arguments = {words, 6};
+    const struct gm_arguments arguments = {.words = words, .count = 6};
     size_t counts[3] = {0};
     for (size_t i = 0; i < 3; i++) {
         struct gm_grid table;
@@ -468,7 +469,7 @@ static void verdicts(void **unused)
 {
     (void)unused;
     char *words[] = {(char[]){"stiff"}, (char[]){"scheme=verlet,rk4,midpoint"}, (char[]){"until=20"}};
-    const struct gm_arguments arguments = {words, 3};
+    const struct gm_arguments arguments = {.words = words, .count = 3};
     struct gm_grid table;
     char message[GM_MESSAGE];
     assert_true(gm_grid_open(&table, GM_STUDY_STABILITY, &arguments, NULL, message));
@@ -489,8 +490,8 @@ static void verdicts(void **unused)
     assert_true(isnan(gm_stability_limit(&table, &table.lines[0])));
     gm_grid_close(&table);
     words[0] = (char[]){"disc"};
-    assert_false(
-        gm_grid_open(&table, GM_STUDY_STABILITY, &(const struct gm_arguments){words, 1}, NULL, message));
+    assert_false(gm_grid_open(&table, GM_STUDY_STABILITY,
+                              &(const struct gm_arguments){.words = words, .count = 1}, NULL, message));
     assert_non_null(strstr(message, "no stability map"));
 }
 
@@ -500,7 +501,7 @@ static void rows_that_cannot_be_read_are_reported(void **unused)
     (void)unused;
     char *words[] = {(char[]){"kepler"}, (char[]){"scheme=verlet"}, (char[]){"dt=0.1,0.2"},
                      (char[]){"until=1"}};
-    const struct gm_arguments arguments = {words, 4};
+    const struct gm_arguments arguments = {.words = words, .count = 4};
     struct gm_grid grid;
     char message[GM_MESSAGE], *text = NULL;
     size_t size = 0, lines = 0;

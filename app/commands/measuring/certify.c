@@ -238,10 +238,9 @@ static int chart(const struct gm_options *options, const struct gm_certificate *
     struct gm_options told = *options;
     const char *const word = certificates[0].scheme->word;
     struct gm_arguments *words = gm_arguments_in(options->arena);
-    gm_arena_need(options->arena, gm_arguments_add(words, word ? word : options->arguments.words[0]));
-    for (int i = 1; i < options->arguments.count; i++) {
-        gm_arena_need(options->arena, gm_arguments_add(words, options->arguments.words[i]));
-    }
+    gm_arguments_add(words, word ? word : options->arguments.words[0]);
+    gm_arena_need(options->arena,
+                  gm_arguments_append(words, options->arguments.words + 1, options->arguments.count - 1));
     told.arguments = *words;
     const int written = gm_command_chart(
         &told, "certify",

@@ -25,11 +25,10 @@ static const char *command_line(const char *command, const struct gm_options *op
         const char *name, *value;
     } rows[] = {{"--measure", options->measure}, {"--region", options->region}, {"--judge", options->judge}};
     struct gm_arguments *all = gm_arguments_in(arena);
-    gm_arena_need(arena,
-                  !options->on || (gm_arguments_add(all, GM_ON) && gm_arguments_add(all, options->on)));
-    for (int i = 0; i < options->arguments.count; i++) {
-        gm_arena_need(arena, gm_arguments_add(all, options->arguments.words[i]));
+    if (options->on) {
+        gm_arguments_append(all, (char *[]){GM_ON, (char *)options->on}, 2);
     }
+    gm_arena_need(arena, gm_arguments_append(all, options->arguments.words, options->arguments.count));
     const char *words = gm_arena_keep(arena, gm_arguments_join(command, all), free);
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         words = rows[i].value ? gm_arena_print(arena, "%s %s %s", words, rows[i].name, rows[i].value) : words;

@@ -111,8 +111,7 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
     char message[GM_MESSAGE];
-    struct gm_arguments *words = gm_arguments_in(options->arena);
-    gm_arena_need(options->arena, gm_arguments_split(words, sweep->arguments));
+    const struct gm_arguments *words = gm_arguments_of(options->arena, sweep->arguments);
     *options->end = GM_EXIT_FILE;
     struct gm_sweep_chart *chart = gm_sweep_chart_open(options->arena, sweep);
     if (!gm_sweep_chart_read(chart, path, message)) {
@@ -138,20 +137,20 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     struct gm_sweep_table *table = gm_sweep_table_open(options->arena, sweep, path, options->retry);
     struct gm_sweep_sum sum;
     gm_catch_interrupts();
-    bool good = gm_sweep_table_fill(table, cores_of(options), NULL, &gm_terminal_listener, &sum, message);
+    bool filled = gm_sweep_table_fill(table, cores_of(options), NULL, &gm_terminal_listener, &sum, message);
     gm_terminal_listener_clear();
     const int status = sum.unheard ? GM_EXIT_PIPE : GM_EXIT_FILE;
-    if (good) {
+    if (filled) {
         tell(sweep, &sum, gm_sweep_table_path(table));
     } else if (status != GM_EXIT_PIPE) {
         gm_complain("%s", message);
     }
     char unwritten[GM_MESSAGE];
-    if (!gm_sweep_table_close(table, unwritten) && good) {
+    if (!gm_sweep_table_close(table, unwritten) && filled) {
         gm_complain("%s", unwritten);
-        good = false;
+        filled = false;
     }
-    if (gm_interrupted || !good) {
+    if (gm_interrupted || !filled) {
         return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
     }
     return is_drawn(options) && !options->pace.shards ? paint(sweep, options, path) : GM_EXIT_OK;

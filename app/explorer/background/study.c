@@ -95,9 +95,9 @@ static void save(struct gm_study *study, enum gm_theme theme)
     snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], study_name);
     gm_folder_free_file(kind, ".png", name, sizeof name);
     name[strlen(name) - strlen(".png")] = '\0';
-    const bool good = command && gm_chart_write(&chart, message);
+    const bool saved = command && gm_chart_write(&chart, message);
     free(command);
-    if (good) {
+    if (saved) {
         snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);
     } else {
         snprintf(sentence, sizeof sentence, "Not saved: %.400s", message);
@@ -145,11 +145,11 @@ static void measure(struct gm_study *study)
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* on Linux this affects only this thread */
-    const bool good = gm_grid_measure(&study->grid, &listener, message);
+    const bool measured = gm_grid_measure(&study->grid, &listener, message);
     study->now.finished = true;
     if (is_stopped(study)) {
         say(study, "Stopped; what is finished stays.");
-    } else if (!good) {
+    } else if (!measured) {
         study->now.impossible = study->now.done == 0;
         say(study, message);
     } else {

@@ -316,9 +316,9 @@ bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
     sigset_t all, unblocked;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &unblocked);
-    const bool good = open_screen(wake, terminal, message);
+    const bool opened = open_screen(wake, terminal, message);
     sigprocmask(SIG_SETMASK, &unblocked, NULL);
-    return good;
+    return opened;
 }
 
 void gm_console_close(void)

@@ -235,9 +235,9 @@ static void drain(struct gm_display *display)
     struct gm_writer *writer = &display->writer;
     int64_t until = gm_clock_milliseconds() + PATIENCE;
     for (int64_t left = PATIENCE; left > 0; left = until - gm_clock_milliseconds()) {
-        bool good = gm_writer_send(writer);
+        const bool sent = gm_writer_send(writer);
         gm_writer_takes(writer, display->terminal->answers.ready);
-        if (!good || (gm_writer_idle(writer) && gm_writer_patience(writer) < 0)) {
+        if (!sent || (gm_writer_idle(writer) && gm_writer_patience(writer) < 0)) {
             return;
         }
         struct pollfd watched[] = {

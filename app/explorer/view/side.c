@@ -358,38 +358,41 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
 
 enum { VALUE_WIDTH = 9, SPARK_CELLS = GM_SPARK / 2 };
 
-/* Sets the common scale of an observable's graphs. */
-static bool spark_range(const struct gm_shot *shot, size_t observable, double *low, double *high)
+/* The common scale of an observable's graphs. */
+struct scale {
+    bool logarithmic;
+    double low, high;
+};
+
+/* Returns false if there is nothing to draw. */
+static bool spark_scale(const struct gm_shot *shot, size_t observable, struct scale *scale)
 {
-    bool logarithmic = shot->scene->observables[observable].logarithmic;
-    *low = INFINITY;
-    *high = -INFINITY;
+    const bool logarithmic = shot->scene->observables[observable].logarithmic;
+    double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < shot->lane_count; i++) {
         const struct gm_spark *spark = &shot->lanes[i].sparks[observable];
         for (size_t k = 0; k < GM_SPARK; k++) {
             if (spark->low[k] > spark->high[k] || (logarithmic && spark->high[k] <= 0)) {
                 continue;
             }
-            *low = fmin(*low, logarithmic && spark->low[k] <= 0 ? spark->high[k] : spark->low[k]);
-            *high = fmax(*high, spark->high[k]);
+            low = fmin(low, logarithmic && spark->low[k] <= 0 ? spark->high[k] : spark->low[k]);
+            high = fmax(high, spark->high[k]);
         }
     }
-    if (logarithmic) {
-        *low = log10(*low);
-        *high = log10(*high);
-    }
-    return *low <= *high && isfinite(*low) && isfinite(*high);
+    *scale = (struct scale){logarithmic, logarithmic ? log10(low) : low, logarithmic ? log10(high) : high};
+    return scale->low <= scale->high && isfinite(scale->low) && isfinite(scale->high);
 }
 
-static double spark_place(double value, bool logarithmic, double low, double high)
+static double spark_place(double value, const struct scale *scale)
 {
-    double at = logarithmic ? (value > 0 ? log10(value) : low) : value;
+    const double low = scale->low, high = scale->high;
+    const double at = !scale->logarithmic ? value : value > 0 ? log10(value) : low;
     return high > low ? fmin(fmax((at - low) / (high - low), 0), 1) : 0.5;
 }
 
 /* Draws a graph as braille if the picture has it, otherwise as bars or letters of growing height. */
 static void draw_spark(const struct gm_sheet *sheet, int column, int row, const struct gm_spark *spark,
-                       bool logarithmic, double low, double high, enum gm_role role)
+                       const struct scale *scale, enum gm_role role)
 {
     static const uint8_t dots[2][4] = {{0x40, 0x04, 0x02, 0x01}, {0x80, 0x20, 0x10, 0x08}}; /* from below */
     static const char letters[] = "_.-~'";
@@ -398,11 +401,10 @@ static void draw_spark(const struct gm_sheet *sheet, int column, int row, const 
         uint32_t glyph = 0, braille = 0;
         for (int half = 0; half < 2; half++) {
             double bottom = spark->low[2 * cell + half], top = spark->high[2 * cell + half];
-            if (bottom > top || (logarithmic && top <= 0)) {
+            if (bottom > top || (scale->logarithmic && top <= 0)) {
                 continue;
             }
-            double from = spark_place(bottom, logarithmic, low, high),
-                   to = spark_place(top, logarithmic, low, high);
+            double from = spark_place(bottom, scale), to = spark_place(top, scale);
             int first = (int)(from * 3 + 0.5), last = (int)(to * 3 + 0.5);
             /* joined to the previous value, so that a steep rise is a line */
             if (before >= 0 && before + 1 < first) {
@@ -447,14 +449,14 @@ static size_t first_column(const struct gm_shot *shot, size_t columns)
 
 /* The columns of numbers: `count` lanes from `first` on. */
 struct columns {
+    const struct gm_shot *shot;
     size_t first, count;
     int begin, label;
 };
 
 /* Draws the lanes' numbers in a row, under or beside a name. */
-static void draw_numbers(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
-                         const struct columns *columns, const char *name,
-                         double (*value)(const struct gm_shot_lane *, size_t), size_t k)
+static void draw_numbers(const struct gm_sheet *sheet, int row, const struct columns *columns,
+                         const char *name, double (*value)(const struct gm_shot_lane *, size_t), size_t k)
 {
     const struct gm_sheet label = gm_sheet_part(sheet, 0, 0, columns->label, sheet->height);
     char text[64];
@@ -463,7 +465,7 @@ static void draw_numbers(const struct gm_sheet *sheet, int row, const struct gm_
         row++;
     }
     for (size_t i = 0; i < columns->count; i++) {
-        const struct gm_shot_lane *lane = &shot->lanes[columns->first + i];
+        const struct gm_shot_lane *lane = &columns->shot->lanes[columns->first + i];
         gm_sheet_number(value(lane, k), text, sizeof text);
         gm_sheet_right(sheet, columns->begin + (int)i * VALUE_WIDTH + SPARK_CELLS, row, text,
                        gm_schemes_role(lane), false);
@@ -488,7 +490,7 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     }
     char text[64];
     int label = plan->stacked ? 0 : sheet->width >= 50 ? 14 : 13;
-    struct columns columns = {.count = (size_t)((sheet->width - label + 1) / VALUE_WIDTH)};
+    struct columns columns = {.shot = shot, .count = (size_t)((sheet->width - label + 1) / VALUE_WIDTH)};
     columns.count = columns.count < 1                  ? 1
                     : columns.count > shot->lane_count ? shot->lane_count
                                                        : columns.count;
@@ -504,22 +506,22 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     row++;
     int end = row + plan->observables, each = 1 + plan->stacked + plan->sparks;
     if (shot->turned) {
-        draw_numbers(sheet, row, shot, &columns, "from start", way_back, 0);
+        draw_numbers(sheet, row, &columns, "from start", way_back, 0);
         row += 1 + plan->stacked;
     }
     for (size_t k = 0; k < shot->observable_count && row + each <= end; k++) {
         const struct gm_observable *observable = &shot->scene->observables[k];
-        double low = 0, high = 0;
+        struct scale scale;
         if (!shot->measured[k]) {
             continue;
         }
         observable_name(observable, text, sizeof text);
-        draw_numbers(sheet, row, shot, &columns, text, value_of, k);
-        bool graphs = plan->sparks && spark_range(shot, k, &low, &high);
+        draw_numbers(sheet, row, &columns, text, value_of, k);
+        bool graphs = plan->sparks && spark_scale(shot, k, &scale);
         for (size_t i = 0; graphs && i < columns.count; i++) {
             const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
-            draw_spark(sheet, columns.begin + (int)i * VALUE_WIDTH, row + each - 1, &lane->sparks[k],
-                       observable->logarithmic, low, high, gm_schemes_role(lane));
+            draw_spark(sheet, columns.begin + (int)i * VALUE_WIDTH, row + each - 1, &lane->sparks[k], &scale,
+                       gm_schemes_role(lane));
         }
         row += each;
     }

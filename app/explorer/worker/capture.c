@@ -118,13 +118,12 @@ static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, 
 static bool close_recorder(struct gm_recorder *recorder, char *message)
 {
     gm_job_close(&recorder->painting);
-    bool good = gm_sink_close(recorder->sink, true, message);
+    bool closed = gm_sink_close(recorder->sink, true, message);
     if (recorder->message[0]) { /* painting failed */
-        gm_refuse(message, "%s", recorder->message);
-        good = false;
+        closed = gm_refuse(message, "%s", recorder->message);
     }
     release(recorder);
-    return good;
+    return closed;
 }
 
 double gm_recorder_length(const struct gm_recorder *recorder)
@@ -331,7 +330,7 @@ static char *tell_explorer(const struct gm_session *session)
 {
     struct gm_lane_spec lanes[GM_MOST_LANES];
     struct gm_request present = session->log;
-    bool good = true;
+    size_t copied = 0;
     present.lanes = lanes;
     present.arguments = session->log.change_count > 0 ? NULL : session->log.arguments;
     for (size_t i = 0; i < session->count; i++) {
@@ -340,12 +339,12 @@ static char *tell_explorer(const struct gm_session *session)
             .shown = session->lanes[i]->shown, .settings = *settings, .scheme = session->lanes[i]->scheme};
         lanes[i].parameters = gm_parameters_copy(session->scene, gm_session_owner(session, i, false));
         struct gm_timing *timing = lanes[i].parameters;
-        good = good && timing;
         if (timing) {
+            copied++;
             timing->dt = fabs(timing->dt); /* a run starts forwards in time */
         }
     }
-    char *text = good ? command_of(&present, NULL, GM_THEME_DARK) : NULL;
+    char *text = copied == session->count ? command_of(&present, NULL, GM_THEME_DARK) : NULL;
     for (size_t i = 0; i < session->count; i++) {
         free(lanes[i].parameters);
     }

@@ -57,7 +57,6 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
     size_t size;
     int status;
     char reason[GM_REGULAR_REASON];
-    struct gm_arguments *arguments = gm_arguments_in(arena);
     char *note = gm_regular_read(gm_arena_print(arena, "%s.sweep", path), LONGEST_NOTE, &size, reason);
     if (note) {
         gm_arena_keep(arena, note, free);
@@ -70,8 +69,7 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
                         note ? "" : ": ", note ? "" : reason);
     }
     words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
-    gm_arena_need(arena, gm_arguments_split(arguments, words));
-    gm_sweep_open(arena, sweep, arguments, measure[0] ? measure : NULL, &status);
+    gm_sweep_open(arena, sweep, gm_arguments_of(arena, words), measure[0] ? measure : NULL, &status);
     sweep->shards = strtoul(shards, NULL, 10);
 }
 

@@ -32,14 +32,6 @@ static bool is_column(const struct gm_word *word)
 
 /* ---- the words of a run ---- */
 
-static bool add_word(struct gm_arguments *arguments, const char *key, const char *value)
-{
-    char *word = gm_text("%s=%s", key, value);
-    const bool good = word && gm_arguments_add(arguments, word);
-    free(word);
-    return good;
-}
-
 /* Returns true if a word is a parameter of schemes that this one does not have. */
 static bool is_idle(const struct gm_sweep *sweep, const struct gm_word *word, const struct gm_scheme *scheme)
 {
@@ -59,12 +51,11 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
     const struct gm_scheme *scheme =
         gm_scheme_find(key && strcmp(key, "scheme") == 0 ? instead : gm_word_value(schemes, choice, text));
     *arguments = (struct gm_arguments){0};
-    bool good =
-        gm_arguments_add(arguments, sweep->scene->words ? sweep->scene->words[0] : sweep->scene->name);
-    for (size_t i = 1; good && sweep->scene->words && sweep->scene->words[i]; i++) {
-        good = gm_arguments_add(arguments, sweep->scene->words[i]);
+    gm_arguments_add(arguments, sweep->scene->words ? sweep->scene->words[0] : sweep->scene->name);
+    for (size_t i = 1; sweep->scene->words && sweep->scene->words[i]; i++) {
+        gm_arguments_add(arguments, sweep->scene->words[i]);
     }
-    for (size_t i = 0; good && i < sweep->words.count; i++) {
+    for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
         bool idle = is_idle(sweep, word, scheme);
         for (size_t k = 0; idle && k < schemes->count; k++) {
@@ -72,45 +63,26 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
         }
         if (!is_of_the_list(word) && (idle || !is_idle(sweep, word, scheme))) {
             const bool other = key && strcmp(key, word->key) == 0;
-            good =
-                add_word(arguments, word->key,
-                         other ? instead : gm_word_value(word, gm_words_choice(&sweep->words, i, run), text));
+            gm_arguments_print(arguments, "%s=%s", word->key,
+                               other ? instead
+                                     : gm_word_value(word, gm_words_choice(&sweep->words, i, run), text));
         }
     }
-    return good;
-}
-
-/* A text about a run; malloc'ed. Returns NULL when out of memory. */
-static char *text_of(const struct gm_sweep *sweep, size_t run,
-                     bool (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    const bool good = stream && put(sweep, run, stream);
-    if (stream && (fclose(stream) != 0 || !good)) {
-        free(text);
-        text = NULL;
-    }
-    return text;
-}
-
-static bool put_words(const struct gm_sweep *sweep, size_t run, FILE *stream)
-{
-    struct gm_arguments arguments;
-    const bool good = words_of(sweep, run, NULL, NULL, &arguments);
-    fputs("run", stream);
-    for (int i = 0; i < arguments.count; i++) {
-        putc(' ', stream);
-        gm_arguments_put_shell(stream, arguments.words[i]);
-    }
-    gm_arguments_close(&arguments);
-    return good;
+    return !arguments->failed;
 }
 
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
 {
-    return text_of(sweep, run, put_words);
+    struct gm_arguments arguments;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? open_memstream(&text, &size) : NULL;
+    for (int i = 0; stream && i < arguments.count; i++) {
+        fputs(i > 0 ? " " : "run ", stream);
+        gm_arguments_put_shell(stream, arguments.words[i]);
+    }
+    gm_arguments_close(&arguments);
+    return stream && fclose(stream) == 0 ? text : NULL;
 }
 
 /* ---- reading ---- */
@@ -132,21 +104,21 @@ static bool ask(const struct gm_sweep *sweep, size_t run, const char *key, const
 {
     struct gm_arguments arguments;
     *request = (struct gm_request){0};
-    const bool good =
+    const bool read =
         (words_of(sweep, run, key, instead, &arguments) || gm_refuse(message, "not enough memory")) &&
         gm_request_parse_for(request, sweep->scene, arguments.count, arguments.words, 1, message);
     gm_arguments_close(&arguments);
-    return good;
+    return read;
 }
 
 static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value, int *status,
                     char *message)
 {
     struct gm_request request;
-    const bool good = ask(sweep, run, key, value, &request, message);
-    *status = !good && request.refusal == GM_EXIT_FILE ? GM_EXIT_FILE : GM_EXIT_USAGE;
+    const bool read = ask(sweep, run, key, value, &request, message);
+    *status = !read && request.refusal == GM_EXIT_FILE ? GM_EXIT_FILE : GM_EXIT_USAGE;
     gm_request_close(&request);
-    return good;
+    return read;
 }
 
 /* Refuses a value of a key if neither the first run nor the middle one can be made with it, with the sentence on
@@ -167,13 +139,12 @@ static bool fits(const struct gm_scene *scene, const char *key, const char *valu
     char *own = gm_scene_defaults(scene);
     struct gm_settings settings;
     double steps = 0;
-    const struct gm_parameter *row = gm_scene_parameter(scene, key);
-    const bool good = row ? own && gm_parameter_set(row, own, value) == GM_PARSED
-                      : gm_setting_find(key)
-                          ? gm_parameter_set(gm_setting_find(key), &settings, value) == GM_PARSED
-                          : gm_number_parse(value, &steps) && steps >= 0 && steps <= (double)GM_MOST_STEPS;
+    const struct gm_parameter *row = gm_word_parameter(scene, key);
+    void *owner = gm_scene_parameter(scene, key) ? own : (void *)&settings;
+    const bool taken = row ? own && gm_parameter_set(row, owner, value) == GM_PARSED
+                           : gm_number_parse(value, &steps) && steps >= 0 && steps <= (double)GM_MOST_STEPS;
     free(own);
-    return good;
+    return taken;
 }
 
 /* Checks a run with each scheme, and that every list holds values of its key: for a range, both ends. */
@@ -204,7 +175,20 @@ static void check(const struct gm_sweep *sweep, int *status)
     *status = GM_EXIT_USAGE;
 }
 
-static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
+/* A text about a run; malloc'ed. Returns NULL when out of memory. */
+static char *text_of(const struct gm_sweep *sweep, size_t run,
+                     void (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (stream) {
+        put(sweep, run, stream);
+    }
+    return stream && fclose(stream) == 0 ? text : NULL;
+}
+
+static void put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
     (void)run;
     fputs("scene,scheme", stream);
@@ -220,7 +204,6 @@ static bool put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
         fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
     }
     fputc('\n', stream);
-    return true;
 }
 
 static void close_sweep(void *data)
@@ -268,7 +251,7 @@ size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
 
 /* ---- rows ---- */
 
-static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
+static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
 {
     char text[GM_TEXT_SIZE];
     fprintf(stream, "%s,", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
@@ -290,7 +273,6 @@ static bool put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
             }
         }
     }
-    return true;
 }
 
 size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line)

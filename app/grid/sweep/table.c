@@ -208,15 +208,15 @@ static void open_file(struct gm_sweep_table *table, const char *retry)
         gm_arena_need(table->arena, false);
     }
     read_rows(table, retry);
-    bool good = true;
+    bool begun = true;
     if (table->again_count > 0) {
-        good = begin_anew(table, message);
+        begun = begin_anew(table, message);
     } else if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
-        good = refuse_writing(message, table->path);
+        begun = refuse_writing(message, table->path);
     } else if (table->size == 0) {
-        good = append(table, table->sweep->head, message);
+        begun = append(table, table->sweep->head, message);
     }
-    if (!good) {
+    if (!begun) {
         gm_arena_refuse(table->arena, "%s", message);
     }
 }
@@ -373,22 +373,22 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, struct gm_sw
     /* after an interruption the remaining existing rows follow the new ones */
     filling->failed = filling->failed || !copy_old(table, SIZE_MAX, message);
     sum->unheard = table->unheard;
-    const bool good = !filling->failed;
+    const bool filled = !filling->failed;
     for (size_t i = 0; i < WINDOW; i++) {
         free(filling->slots[i].text);
     }
     free(filling);
-    if (table->part && !good) {
+    if (table->part && !filled) {
         unlink(table->part);
     } else if (table->part && (fsync(table->fd) != 0 || rename(table->part, table->path) != 0)) {
         return refuse_writing(message, table->path);
     }
-    return good;
+    return filled;
 }
 
 bool gm_sweep_table_close(struct gm_sweep_table *table, char *message)
 {
-    const bool good = !table->path || fsync(table->fd) == 0 || refuse_writing(message, table->path);
+    const bool synced = !table->path || fsync(table->fd) == 0 || refuse_writing(message, table->path);
     gm_arena_drop(table->arena, table);
-    return good;
+    return synced;
 }
