@@ -28,7 +28,8 @@ bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *pro
 {
     return scheme->family->kind == problem->kind && (scheme->needs & ~facets_of(problem)) == 0 &&
            gm_scheme_loop(scheme, problem) && (problem->passive == 0 || scheme->family->carries_passive) &&
-           (problem->m == 1 || !scheme->family->adaptive);
+           (problem->m == 1 || !scheme->family->adaptive) &&
+           !(scheme->family->lacks && scheme->family->lacks(scheme, problem));
 }
 
 /* The words of the first of these facets; NULL if none has words. */
@@ -55,7 +56,8 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
     const struct gm_facet_words *words = words_of(problem->kind, lacking);
     const char *alone =
         scheme->family->adaptive && problem->m > 1 ? "a single member, for its time is its own" : NULL;
-    return words ? words->structure : alone;
+    return words || alone || !scheme->family->lacks ? words ? words->structure : alone
+                                                    : scheme->family->lacks(scheme, problem);
 }
 
 const char *gm_scheme_problems(const struct gm_scheme *scheme)

@@ -20,8 +20,10 @@ enum {
     SPLITTING = 1 << GM_WRITTEN_SPLITTING,
     PROCESSED = 1 << GM_WRITTEN_PROCESSED,
     ADJOINT = 1 << GM_WRITTEN_ADJOINT,
+    PROJECTED = 1 << GM_WRITTEN_PROJECTED,
+    HOLDING = PROJECTED | 1 << GM_WRITTEN_RELAXED,
     TABLEAUS = ONE_TABLEAU | PARTITIONED | NYSTROM,
-    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT
+    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT | HOLDING
 };
 
 static const struct gm_line_word words[GM_SCHEME_WORDS] = {
@@ -65,6 +67,8 @@ static const struct {
     [GM_WRITTEN_SPLITTING] = {"splitting", 2, 2, {GM_SCHEME_WORD_DRIFTS, GM_SCHEME_WORD_KICKS}},
     [GM_WRITTEN_PROCESSED] = {"processed", 2, 2, {GM_SCHEME_WORD_KERNEL, GM_SCHEME_WORD_PROCESSOR}},
     [GM_WRITTEN_ADJOINT] = {"adjoint", 1, 1, {GM_SCHEME_WORD_BASE}},
+    [GM_WRITTEN_PROJECTED] = {"projected", 2, 2, {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_INVARIANTS}},
+    [GM_WRITTEN_RELAXED] = {"relaxed", 2, 2, {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_INVARIANTS}},
 };
 
 /* A number, or a let, before it is computed. */
@@ -167,7 +171,7 @@ static bool find_kind(struct reading *reading, struct gm_span name)
     return gm_fail_first(&reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
                          near ? "; did you mean "
                               : "; there are runge-kutta, explicit, partitioned, nystrom, "
-                                "composition, splitting, processed, adjoint",
+                                "composition, splitting, processed, adjoint, projected, relaxed",
                          near ? near : "");
 }
 
