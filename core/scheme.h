@@ -118,7 +118,7 @@ struct gm_family {
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
-    /* What a problem that has the facets lacks, worded like a facet; NULL: nothing. It is valid until the next call in
+    /* The structure that a problem with the facets lacks, worded like a facet; NULL: nothing. It is valid until the next call in
        this thread. NULL: the facets are all. */
     const char *(*lacks)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     /* Scratch and factors: derived from the state alone, rebuilt when a run is resumed. Returns NULL when

@@ -146,7 +146,7 @@ double gm_megno_change(const struct gm_view *view)
     return values_of(view, GM_WORKED_GROWTH).megno_change;
 }
 
-/* What the scheme, of the one or the other family, noted of the last member's last step. */
+/* The size that a scheme of this family noted of the last member's last step. */
 static double correction(const struct gm_view *view, const struct gm_family *family)
 {
     const struct gm_holding *holding = view->scheme->family == family ? view->scheme->coefficients : NULL;

@@ -9,7 +9,6 @@
 
 #include "core/kind.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/invariants/held.h"
 #include "core/ode/kernel/loops.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
@@ -35,8 +34,8 @@ bool gm_scheme_is_composition(const struct gm_scheme *scheme)
 
 int gm_scheme_over_kernels(const struct gm_scheme *scheme)
 {
-    if (gm_holding_of(scheme)) {
-        return gm_scheme_over_kernels(gm_holding_base(scheme));
+    if (scheme->base) {
+        return gm_scheme_over_kernels(scheme->base);
     }
     if (!gm_scheme_is_composition(scheme)) {
         return scheme->family->over_kernels;

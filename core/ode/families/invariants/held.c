@@ -211,7 +211,7 @@ size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *
     return holding->constraints ? 0 : (GM_HELD_VALUES + holding->count) * problem->m;
 }
 
-/* Notes the values of every member; those that a state still has stay the same, so that a run which turns round comes
+/* Notes the values of every member. They stay if the state still has them, so that a run that turns round comes
    back. */
 enum gm_status gm_held_start(const struct gm_task *task)
 {
@@ -258,5 +258,5 @@ const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_proble
     }
     const bool linear = conserved.linear && scheme->family->adaptive;
     gm_conserved_close(&conserved);
-    return linear ? "an invariant that is not linear: every step keeps a linear one" : NULL;
+    return linear ? "an invariant that is not linear; every step conserves a linear one" : NULL;
 }

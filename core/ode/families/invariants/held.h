@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What schemes that correct the steps of another scheme share: they hold invariants at their values at the start. */
+/* The common part of schemes that correct the steps of another scheme: they hold invariants at their values at the start. */
 #ifndef GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 #define GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 
-#include "core/ode/conserved.h"
+#include "core/ode/kernel/conserved.h"
 #include "core/ode/kernel/members.h"
 
 /* The coefficients of such a scheme; its base, in struct gm_scheme or by name, makes the steps. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Quantities that the motion of a problem conserves, by their names, with their gradients. */
-#ifndef GM_CORE_ODE_CONSERVED_H
-#define GM_CORE_ODE_CONSERVED_H
+#ifndef GM_CORE_ODE_KERNEL_CONSERVED_H
+#define GM_CORE_ODE_KERNEL_CONSERVED_H
 
 #include "core/expression/reader.h"
 #include "core/ode/ode.h"

@@ -2,7 +2,7 @@
 /* Formulas with exact derivatives; the energy of a Lagrangian, or of a problem computed by hand, has
        dH/dq = -p'/w,   dH/dp = q'/w
    from the field (struct gm_hamiltonian). */
-#include "core/ode/conserved.h"
+#include "core/ode/kernel/conserved.h"
 
 #include <math.h>
 #include <stdio.h>
