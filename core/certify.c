@@ -44,15 +44,19 @@ void gm_certificate_withhold_all(struct gm_certificate *certificate, unsigned cl
     }
 }
 
-void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
-                         const char *problem)
+void gm_verdict_note(struct gm_verdict *verdict, double defect, const char *problem)
 {
-    struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
     if (!verdict->measured || !(defect <= verdict->defect)) {
         verdict->defect = defect;
         verdict->problem = problem;
     }
     verdict->measured = true;
+}
+
+void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
+                         const char *problem)
+{
+    gm_verdict_note(gm_certificate_claim(certificate, claim), defect, problem);
 }
 
 double gm_distance(const double *a, const double *b, size_t n)
@@ -320,6 +324,11 @@ static void conclude(struct gm_certificate *certificate)
         const bool open = !result->measured && (result->undecided || result->reason);
         result->holds = result->measured && result->defect <= result->tolerance;
         certificate->holds &= !result->claimed || result->holds || open;
+    }
+    for (size_t i = 0; i < certificate->held_count; i++) {
+        struct gm_verdict *result = &certificate->held[i].verdict;
+        result->holds = result->measured && result->defect <= result->tolerance;
+        certificate->holds &= result->holds || !result->measured;
     }
 }
 

@@ -24,6 +24,13 @@ struct gm_verdict {
     const char *reason;  /* reason without a measurement on a given system; else NULL */
 };
 
+/* An invariant that a scheme holds by name. */
+struct gm_held_verdict {
+    const char *name;
+    struct gm_verdict verdict; /* of its relative change */
+};
+enum { GM_MOST_HELD_VERDICTS = 8 };
+
 /* Errors at smaller and smaller steps, whose slope is an order. */
 enum { GM_LADDER = 44 };
 struct gm_ladder {
@@ -52,6 +59,8 @@ struct gm_certificate {
     const char *order_problem;
     const char *order_reason; /* reason without an order on a given system, or its refutation */
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* verdicts by bit number */
+    struct gm_held_verdict held[GM_MOST_HELD_VERDICTS];
+    size_t held_count;
     /* The theory of schemes with coefficients (gm_family.coefficients_open), else not known. It holds if
        the conditions of the claimed order and the algebra of the claimed structure hold. */
     struct gm_theory theory;
@@ -111,6 +120,7 @@ struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme);
 /* Notes a defect; the worst of several counts. */
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
                          const char *problem);
+void gm_verdict_note(struct gm_verdict *verdict, double defect, const char *problem);
 /* Notes that a problem cannot decide: steps fail, or differences are lost in round-off. */
 void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem);
 /* Notes the reason why a claim was not measured on a given system, unless it was. */

@@ -87,6 +87,7 @@ struct gm_scheme {
        theory. NULL: the scheme is a row of its family. */
     const char *word;
     const struct gm_coefficients *exact;
+    const struct gm_scheme *base; /* whose steps it corrects, so that it may give up claims; NULL: none */
 };
 
 /* Opens the coefficients of a scheme; returns false without any, or when out of memory. */
@@ -117,6 +118,9 @@ struct gm_family {
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
+    /* The structure that a problem with the facets lacks, worded like a facet; NULL: nothing. It is valid until the next call in
+       this thread. NULL: the facets are all. */
+    const char *(*lacks)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     /* Scratch and factors: derived from the state alone, rebuilt when a run is resumed. Returns NULL when
        out of memory. */
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
@@ -136,9 +140,6 @@ struct gm_family {
        the two levels of the state. */
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory);
-    /* Returns a further thing that a problem with the needed facets lacks, in words, or NULL. NULL: it needs no
-       more. */
-    const char *(*lacks)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 

@@ -798,9 +798,19 @@ static const char *written_out(struct report *report, gm_node_id node)
     return text ? gm_arena_keep(report->arena, text, free) : "(a long formula)";
 }
 
-static const char *found_name(const struct report *report, const struct gm_found_invariant *invariant)
+/* I1, I2, ... (gm_found_word) if it has no other name, by the number of those before it. */
+static const char *found_name(const struct report *report, const struct gm_found_invariants *invariants,
+                              size_t number)
 {
-    return invariant->item ? kept_name(report, invariant->item) : invariant->energy ? "H" : NULL;
+    const struct gm_found_invariant *list = invariants->list, *invariant = &list[number];
+    size_t unnamed = 1;
+    for (size_t i = 0; i < number; i++) {
+        unnamed += !list[i].item && !list[i].energy;
+    }
+    return invariant->item ? kept_name(report, invariant->item)
+           : invariant->energy
+               ? "H"
+               : gm_arena_print(report->arena, "%s%zu", gm_found_word(&report->system), unnamed);
 }
 
 struct found {
@@ -833,10 +843,9 @@ static void print_found(struct report *report, const struct found *found)
     }
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];
-        const char *name = found_name(report, invariant);
-        gm_print_wrapped(gm_arena_print(report->arena, "%s%s%s (degree %zu)", name ? name : "",
-                                        name ? " = " : "", written_out(report, invariant->node),
-                                        invariant->degree),
+        gm_print_wrapped(gm_arena_print(report->arena, "%s = %s (degree %zu)",
+                                        found_name(report, invariants, i),
+                                        written_out(report, invariant->node), invariant->degree),
                          printf("  "), 2);
     }
     if (invariants->unwritten > 0) {
@@ -868,7 +877,7 @@ static void put_found(struct report *report, const struct found *found)
         const struct gm_found_invariant *invariant = &invariants->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
-                   (int)invariant->degree, "exact", found_name(report, invariant));
+                   (int)invariant->degree, "exact", found_name(report, invariants, i));
         gm_row_close(&one);
     }
     gm_row_close(&list);

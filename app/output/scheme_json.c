@@ -84,6 +84,22 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
         }
     }
     gm_row_close(&properties);
+    if (scheme->base) {
+        struct gm_row conserves = gm_row_open(&row, "conserves", '}');
+        for (size_t i = 0; i < certificate->held_count; i++) {
+            const struct gm_verdict *measure = &certificate->held[i].verdict;
+            gm_row_number(&conserves, certificate->held[i].name, measure->measured ? measure->defect : NAN,
+                          17);
+        }
+        gm_row_close(&conserves);
+        struct gm_row given_up = gm_row_open(&row, "given_up", ']');
+        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+            if ((scheme->base->claims & ~scheme->claims) >> bit & 1) {
+                gm_row_text(&given_up, NULL, gm_claim_key(bit));
+            }
+        }
+        gm_row_close(&given_up);
+    }
     if (certificate->same.other) {
         struct gm_row same = gm_row_open(&row, "same_as", '}');
         gm_row_put(&same, "scheme %s, difference %.17g, problem %s", certificate->same.other->name,

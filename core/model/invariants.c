@@ -507,3 +507,13 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     found->lowered = search.degree < degree;
     found->candidates = search.count - 1;
 }
+
+const char *gm_found_word(const struct gm_user_system *system)
+{
+    bool taken = false;
+    for (size_t i = 0; i < system->variable_count; i++) {
+        const char *name = system->variables[i].name;
+        taken |= name && name[0] == 'I' && (name[1] == '[' || (name[1] >= '0' && name[1] <= '9'));
+    }
+    return taken ? "found" : "I";
+}

@@ -30,4 +30,7 @@ struct gm_found_invariants {
 void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,
                         struct gm_found_invariants *found);
 
+/* The word before the numbers of those without a name: "I", or "found" where the system has a name such as I1. */
+const char *gm_found_word(const struct gm_user_system *system);
+
 #endif

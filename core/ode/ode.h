@@ -196,6 +196,11 @@ struct gm_ode {
     const struct gm_poisson *poisson;
     const struct gm_semilinear *semilinear;
     const struct gm_parts *parts;
+    /* Writes the quantity of that name, which the motion conserves, in a graph opened for it, of the components by
+       number. Returns GM_NO_NODE with what the problem lacks, worded like a facet, "" when out of memory, in
+       GM_FAULT_SENTENCE bytes. NULL: there are no names but H. */
+    gm_node_id (*conserved)(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                            char *lacks);
     /* Makes the parts that schemes with these needs (GM_NEEDS_...) use and that are otherwise made at first
        use; NULL: nothing to make. */
     void (*prepare)(const struct gm_problem *problem, unsigned needs);

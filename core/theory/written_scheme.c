@@ -24,8 +24,10 @@ enum {
     SPLIT = 1 << GM_WRITTEN_SPLIT,
     CALLED = 1 << GM_WRITTEN_CALLED,
     OF_PARTS = 1 << GM_WRITTEN_LIE | 1 << GM_WRITTEN_STRANG | SPLIT | CALLED,
+    PROJECTED = 1 << GM_WRITTEN_PROJECTED,
+    HOLDING = PROJECTED | 1 << GM_WRITTEN_RELAXED,
     TABLEAUS = ONE_TABLEAU | PARTITIONED | NYSTROM,
-    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT | OF_PARTS
+    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT | OF_PARTS | HOLDING
 };
 
 static const struct gm_line_word words[GM_SCHEME_WORDS] = {
@@ -69,6 +71,8 @@ static const struct {
     [GM_WRITTEN_SPLITTING] = {"splitting", 2, 2, {GM_SCHEME_WORD_DRIFTS, GM_SCHEME_WORD_KICKS}},
     [GM_WRITTEN_PROCESSED] = {"processed", 2, 2, {GM_SCHEME_WORD_KERNEL, GM_SCHEME_WORD_PROCESSOR}},
     [GM_WRITTEN_ADJOINT] = {"adjoint", 1, 1, {GM_SCHEME_WORD_BASE}},
+    [GM_WRITTEN_PROJECTED] = {"projected", 2, 2, {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_INVARIANTS}},
+    [GM_WRITTEN_RELAXED] = {"relaxed", 2, 2, {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_INVARIANTS}},
     [GM_WRITTEN_LIE] = {"lie", 1, 1, {GM_SCHEME_WORD_PARTS}},
     [GM_WRITTEN_STRANG] = {"strang", 1, 1, {GM_SCHEME_WORD_PARTS}},
     [GM_WRITTEN_SPLIT] = {"split", 2, 2, {GM_SCHEME_WORD_PARTS, GM_SCHEME_WORD_STEPS}},
@@ -174,7 +178,7 @@ static bool find_kind(struct reading *reading, struct gm_span name)
     return gm_fail_first(&reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
                          near ? "; did you mean "
                               : "; there are runge-kutta, explicit, partitioned, nystrom, "
-                                "composition, splitting, processed, adjoint, lie, strang, split",
+                                "composition, splitting, processed, adjoint, projected, relaxed, lie, strang, split",
                          near ? near : "");
 }
 

@@ -16,6 +16,8 @@ enum gm_written_kind {
     GM_WRITTEN_SPLITTING,
     GM_WRITTEN_PROCESSED,
     GM_WRITTEN_ADJOINT,
+    GM_WRITTEN_PROJECTED,
+    GM_WRITTEN_RELAXED,
     GM_WRITTEN_LIE, /* of parts of the system; so below */
     GM_WRITTEN_STRANG,
     GM_WRITTEN_SPLIT,

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
@@ -142,6 +144,34 @@ double gm_megno(const struct gm_view *view)
 double gm_megno_change(const struct gm_view *view)
 {
     return values_of(view, GM_WORKED_GROWTH).megno_change;
+}
+
+/* The size that a scheme of this family noted of the last member's last step. */
+static double correction(const struct gm_view *view, const struct gm_family *family)
+{
+    const struct gm_holding *holding = view->scheme->family == family ? view->scheme->coefficients : NULL;
+    const size_t m = view->problem->m;
+    return holding && !holding->constraints ? view->memory[GM_HELD_CORRECTION * m + m - 1] : NAN;
+}
+
+double gm_projection(const struct gm_view *view)
+{
+    return correction(view, &gm_family_projected);
+}
+
+const char *gm_projection_why(const struct gm_view *view)
+{
+    return isnan(gm_projection(view)) ? "the scheme is not projected(...; an invariant, ...)" : NULL;
+}
+
+double gm_relaxation(const struct gm_view *view)
+{
+    return correction(view, &gm_family_relaxed);
+}
+
+const char *gm_relaxation_why(const struct gm_view *view)
+{
+    return isnan(gm_relaxation(view)) ? "the scheme is not relaxed(...; an invariant)" : NULL;
 }
 
 const char *gm_growth_why(const struct gm_view *view)

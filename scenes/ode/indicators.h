@@ -19,6 +19,12 @@ double gm_log_volume(const struct gm_view *view);
 double gm_volume_error(const struct gm_view *view);
 const char *gm_volume_why(const struct gm_view *view);
 
+/* Return the length of the move that projected(...) made in the last step, and gamma - 1 of relaxed(...). */
+double gm_projection(const struct gm_view *view);
+const char *gm_projection_why(const struct gm_view *view);
+double gm_relaxation(const struct gm_view *view);
+const char *gm_relaxation_why(const struct gm_view *view);
+
 /* Returns the time until the scene's first section is first passed; NaN: not yet. */
 double gm_return_time(const struct gm_view *view);
 const char *gm_return_why(const struct gm_view *view);

@@ -471,15 +471,31 @@ static void adaptive_steps(void)
     }
 }
 
+static bool bring(const char *word)
+{
+    struct gm_fault fault;
+    const struct gm_user_scheme_source source = {.text = word, .length = strlen(word), .name = word};
+    const struct gm_scheme *scheme = gm_user_scheme_open(&source, &fault);
+    return scheme && gm_scheme_bring(scheme);
+}
+
+/* A scheme that holds the energy beside its base. */
+static void held(const char *base, const char *word)
+{
+    struct line lines[] = {{base, base, KEPLER, .m = 1, .steps = 200000},
+                           {word, word, KEPLER, .m = 1, .steps = 200000}};
+    const double taken = bring(word) ? measure(&lines[0]) : 0;
+    if (taken > 0) {
+        printf("  ratio to %s %.2f, at most 6\n", base, measure(&lines[1]) / taken);
+    }
+}
+
 /* A composition of two schemes in turns beside half a step of each. */
 static void in_turns(const char *first, const char *second, size_t m)
 {
     char word[100];
-    struct gm_fault fault;
     snprintf(word, sizeof word, "composition(%s, %s; 1/2, 1/2)", first, second);
-    const struct gm_user_scheme_source source = {.text = word, .length = strlen(word), .name = word};
-    const struct gm_scheme *scheme = gm_user_scheme_open(&source, &fault);
-    if (!scheme || !gm_scheme_bring(scheme)) {
+    if (!bring(word)) {
         return;
     }
     struct line lines[] = {{first, first, KEPLER}, {second, second, KEPLER}, {word, word, KEPLER}};
@@ -519,6 +535,8 @@ int main(int argc, char *argv[])
     }
     if (argc > 1 && strcmp(argv[1], "turns") == 0) {
         compositions();
+        held("rk4", "projected(rk4; H)");
+        held("rk4", "relaxed(rk4; H)");
         return 0;
     }
     for (size_t m = 1000; m <= 1000000; m *= 10) {

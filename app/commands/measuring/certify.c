@@ -30,6 +30,23 @@
 
 /* ---- the display of a certificate ---- */
 
+/* The claims of the base that are gone. */
+static void print_given_up(const struct gm_certificate *certificate)
+{
+    const struct gm_scheme *scheme = certificate->scheme;
+    const unsigned lost = scheme->base ? scheme->base->claims & ~scheme->claims : 0;
+    const char *before = "  given up: ";
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (lost >> bit & 1) {
+            printf("%s%s", before, gm_claim_word(bit));
+            before = ", ";
+        }
+    }
+    if (lost) {
+        printf(" (of %s)\n", scheme->base->name);
+    }
+}
+
 static void print_certificate(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -62,8 +79,11 @@ static void print_certificate(const struct gm_certificate *certificate)
         gm_theory_print(theory, "    ");
         printf("\n");
     } else if (scheme->word) {
-        printf("  theory does not apply: a part is not a tableau, splitting or Nystrom method, or they "
-               "have more than 256 stages\n");
+        printf(
+            "  theory does not apply: %s\n",
+            scheme->base
+                ? "the way back to an invariant has no coefficients"
+                : "a part is not a tableau, splitting or Nystrom method, or they have more than 256 stages");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
@@ -91,6 +111,19 @@ static void print_certificate(const struct gm_certificate *certificate)
         }
         printf("\n");
     }
+    for (size_t i = 0; i < certificate->held_count; i++) {
+        const struct gm_held_verdict *held = &certificate->held[i];
+        const struct gm_verdict *measure = &held->verdict;
+        printf("  conserves %-22s %-12s", held->name,
+               !measure->measured ? "not measured"
+               : measure->holds   ? "holds"
+                                  : "BROKEN");
+        if (measure->measured && isfinite(measure->defect)) {
+            printf(" defect %.1e (%s)", measure->defect, measure->problem);
+        }
+        printf("\n");
+    }
+    print_given_up(certificate);
     const struct gm_sameness *same = &certificate->same;
     if (same->other) {
         const char *refuted = same->undecided ? "not decided" : "BROKEN";

@@ -12,6 +12,7 @@
 #include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
@@ -251,6 +252,42 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
     }
 }
 
+/* The values of what a scheme holds. */
+struct held {
+    struct gm_conserved conserved;
+    size_t number;
+};
+
+static double value_of_held(const void *data, const double *y, const double *memory)
+{
+    const struct held *held = data;
+    double values[GM_MOST_CONSERVED];
+    (void)memory;
+    gm_conserved_values(&held->conserved, y, values);
+    return values[held->number];
+}
+
+/* Notes the changes of the invariants that the scheme holds by name. */
+static void measure_held(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const struct gm_holding *holding = gm_holding_of(certificate->scheme);
+    struct held held;
+    char lacks[GM_FAULT_SENTENCE];
+    certificate->held_count = holding ? holding->count : 0;
+    if (certificate->held_count == 0 ||
+        !gm_conserved_open(&held.conserved, &subject->problem, holding->names, holding->count, lacks)) {
+        return;
+    }
+    for (held.number = 0; held.number < holding->count; held.number++) {
+        struct gm_held_verdict *row = &certificate->held[held.number];
+        const struct gm_kept kept = {.value = value_of_held, .data = &held};
+        row->name = holding->names[held.number];
+        row->verdict.tolerance = gm_certificate_claim(certificate, GM_KEEPS_ENERGY)->tolerance;
+        gm_verdict_note(&row->verdict, gm_drift(subject, certificate->scheme, &kept), subject->problem.name);
+    }
+    gm_conserved_close(&held.conserved);
+}
+
 /* Measures the order and every claim that means something on a system; the others get the reason why not. */
 static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
@@ -299,6 +336,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     for (size_t i = 0; i < subject->kept_count; i++) {
         measure_kept(certificate, subject, &subject->kept[i]);
     }
+    measure_held(certificate, subject);
     for (size_t i = 0; i < GM_COUNT(claims); i++) {
         const enum gm_claim claim = claims[i].claim;
         const double tolerance = gm_certificate_claim(certificate, claim)->tolerance;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compositions of any schemes,
        y1 = Phi_s(g_s h) o ... o Phi_1(g_1 h) (y0),
-   with the loops of these schemes; after a step a state may be projected onto its constraints. The family has
-   no rows: they are user-defined. Hairer, Lubich & Wanner (2006), sections II.4, V.3. */
+   with the loops of these schemes. The family has no rows: they are user-defined. Hairer, Lubich & Wanner (2006), sections II.4, V.3. */
 #include "core/ode/families/composition.h"
 
 #include <stdlib.h>
@@ -11,14 +10,11 @@
 #include "core/kind.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
-#include "core/ode/variational/manifold.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
 struct workspace {
     const struct gm_substeps *substeps;
-    struct gm_substeps *projected; /* the substeps, if a state is projected after them; else NULL */
-    double *state, *carry;         /* n * m each */
-    double *member;                /* n: one that is projected */
+    double *state, *carry; /* n * m each */
     int count;
     const struct gm_family **families; /* the substeps' families; NULL: shares an earlier workspace */
     void **workspaces;
@@ -38,6 +34,9 @@ bool gm_scheme_is_composition(const struct gm_scheme *scheme)
 
 int gm_scheme_over_kernels(const struct gm_scheme *scheme)
 {
+    if (scheme->base) {
+        return gm_scheme_over_kernels(scheme->base);
+    }
     if (!gm_scheme_is_composition(scheme)) {
         return scheme->family->over_kernels;
     }
@@ -51,7 +50,7 @@ int gm_scheme_over_kernels(const struct gm_scheme *scheme)
     return over;
 }
 
-void gm_composition_close(void *data)
+static void workspace_close(void *data)
 {
     struct workspace *workspace = data;
     if (!workspace) {
@@ -62,25 +61,22 @@ void gm_composition_close(void *data)
             workspace->families[i]->workspace_close(workspace->workspaces[i]);
         }
     }
-    free(workspace->projected);
     free(workspace->families);
     free(workspace->workspaces);
     free(workspace->state);
     free(workspace);
 }
 
-void *gm_composition_open(const struct gm_problem *problem, const struct gm_substeps *substeps,
-                          struct gm_substeps *projected)
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
+    const struct gm_substeps *substeps = scheme->coefficients;
     const size_t count = problem->n * problem->m, parts = (size_t)substeps->count;
     struct workspace *workspace = calloc(1, sizeof *workspace);
     if (!workspace) {
-        free(projected);
         return NULL;
     }
     workspace->substeps = substeps;
-    workspace->projected = projected;
-    workspace->state = malloc((2 * count + problem->n) * sizeof(double));
+    workspace->state = malloc(2 * count * sizeof(double));
     workspace->families = calloc(parts, sizeof(*workspace->families));
     workspace->workspaces = calloc(parts, sizeof *workspace->workspaces);
     bool good = workspace->state && workspace->families && workspace->workspaces;
@@ -98,17 +94,11 @@ void *gm_composition_open(const struct gm_problem *problem, const struct gm_subs
         }
     }
     if (!good) {
-        gm_composition_close(workspace);
+        workspace_close(workspace);
         return NULL;
     }
     workspace->carry = workspace->state + count;
-    workspace->member = workspace->carry + count;
     return workspace;
-}
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    return gm_composition_open(problem, scheme->coefficients, NULL);
 }
 
 static void workspace_reset(void *data)
@@ -121,23 +111,7 @@ static void workspace_reset(void *data)
     }
 }
 
-/* Projects all members of a state onto the constraints. Returns false if one has no solution. */
-static bool project(const struct gm_problem *problem, double *member, double *y)
-{
-    bool good = true;
-    for (size_t l = 0; l < problem->m && good; l++) {
-        for (size_t c = 0; c < problem->n; c++) {
-            member[c] = y[c * problem->m + l];
-        }
-        good = gm_manifold_project(problem, member);
-        for (size_t c = 0; c < problem->n; c++) {
-            y[c * problem->m + l] = member[c];
-        }
-    }
-    return good;
-}
-
-struct gm_progress gm_composition_loop(const struct gm_task *task)
+static struct gm_progress loop(const struct gm_task *task)
 {
     const struct workspace *workspace = task->workspace;
     const struct gm_substeps *substeps = workspace->substeps;
@@ -145,7 +119,6 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     struct gm_task substep = *task;
     substep.steps = 1;
-    substep.carry = workspace->projected ? NULL : task->carry; /* a projected state is not a sum */
     for (; progress.done < task->steps; progress.done++) {
         for (int i = 0; i < substeps->count; i++) {
             const struct gm_scheme *scheme = substeps->at[i].scheme;
@@ -172,10 +145,6 @@ struct gm_progress gm_composition_loop(const struct gm_task *task)
             substep.y = substep.out;
             substep.carry = substep.carry_out;
         }
-        if (workspace->projected && !project(task->problem, workspace->member, substep.out)) {
-            progress.status = GM_NO_CONVERGENCE;
-            return progress;
-        }
     }
     if (substep.y != task->out) {
         memcpy(task->out, substep.y, bytes);
@@ -201,8 +170,8 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
 #define COMPOSITION(passive)                                                                                 \
     {                                                                                                        \
         .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums,                     \
-        .loop = gm_composition_loop, .carries_passive = passive, .workspace_open = workspace_open,           \
-        .workspace_close = gm_composition_close, .workspace_reset = workspace_reset, .lacks = lacks,         \
+        .loop = loop, .carries_passive = passive, .workspace_open = workspace_open,                          \
+        .workspace_close = workspace_close, .workspace_reset = workspace_reset, .lacks = lacks,              \
     }
 const struct gm_family gm_family_composition = COMPOSITION(false);
 const struct gm_family gm_family_composition_carrying = COMPOSITION(true);

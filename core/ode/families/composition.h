@@ -17,16 +17,9 @@ struct gm_substeps {
 /* Returns true if a scheme may be a part of a composition. */
 bool gm_scheme_composes(const struct gm_scheme *scheme);
 bool gm_scheme_is_composition(const struct gm_scheme *scheme);
-/* Returns the number of the loop over kernels that a scheme's steps call, or GM_OVER_ALL if the parts of a
-   composition call several. */
+/* Returns the number of the loop over kernels that a scheme's steps, or those of its base, call, or GM_OVER_ALL if the
+   parts of a composition call several. */
 int gm_scheme_over_kernels(const struct gm_scheme *scheme);
-
-/* The loop of compositions and its workspace. If `projected`, these substeps, is not NULL, states are projected
-   onto their constraints after a step, and the workspace frees it, also when out of memory. */
-struct gm_progress gm_composition_loop(const struct gm_task *task);
-void *gm_composition_open(const struct gm_problem *problem, const struct gm_substeps *substeps,
-                          struct gm_substeps *projected);
-void gm_composition_close(void *workspace);
 
 /* The family of compositions whose schemes all advance a passive block. */
 extern const struct gm_family gm_family_composition_carrying;

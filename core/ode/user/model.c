@@ -166,6 +166,25 @@ bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *syst
     return gm_arena_run(model->arena, open_model, &(struct opening){.model = model, .system = system});
 }
 
+void gm_user_system_again(struct gm_arena *arena, const struct gm_user_system *system, const double *values,
+                          bool without_tangents, struct gm_user_system *again)
+{
+    const size_t choices = system->choices.count, count = choices + system->velocities - system->parameters;
+    struct gm_system_value *chosen = gm_arena_take(arena, count + 1, sizeof *chosen);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_written_choice *choice = &system->choices.list[i];
+        const size_t number = system->parameters + i - choices;
+        chosen[i] = i < choices ? (struct gm_system_value){choice->name, choice->words[choice->chosen]}
+                                : (struct gm_system_value){system->variables[number].name,
+                                                           gm_arena_print(arena, "%.17g", values[number])};
+        gm_arena_need(arena, chosen[i].text != NULL);
+    }
+    chosen[count] = (struct gm_system_value){GM_WITHOUT_TANGENTS, ""};
+    struct gm_fault fault;
+    gm_arena_need(arena, gm_equations_open(again, system->source, system->length, chosen,
+                                           count + without_tangents, &fault));
+}
+
 const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *model, const double *values)
 {
     size_t i = model->rate_count;

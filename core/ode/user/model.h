@@ -43,6 +43,11 @@ struct gm_user_model {
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
 void gm_user_model_close(struct gm_user_model *model);
 
+/* Reads a system again with these values of its parameters, or its motion without tangents; inside a body of the
+   arena, which is left when out of memory. The caller closes it in all cases. */
+void gm_user_system_again(struct gm_arena *arena, const struct gm_user_system *system, const double *values,
+                          bool without_tangents, struct gm_user_system *again);
+
 /* Returns why no scheme can advance such a system, "" if some can. */
 const char *gm_user_model_lacks(const struct gm_user_model *model);
 

@@ -13,6 +13,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/trace_free.h"
+#include "core/ode/user/conserved.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/lazy_tape.h"
 #include "core/ode/user/parts.h"
@@ -208,6 +209,12 @@ static void drift(const struct gm_problem *problem, const double *y, double *val
 static void turning(const struct gm_problem *problem, const double *y, double *values)
 {
     gm_tape_values(&own_of(problem)->turning, y, values, 1);
+}
+
+static gm_node_id conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                            char *lacks)
+{
+    return gm_user_conserved(own_of(problem)->model, own_of(problem)->values, name, graph, lacks);
 }
 
 static double frequency(const struct gm_problem *problem, size_t i)
@@ -554,6 +561,7 @@ static void open_problem(struct gm_arena *arena, void *data)
                         .linear = !constrained && gm_user_model_holds(model, values, GM_FACT_LINEAR) &&
                                   gm_user_model_holds(model, values, GM_FACT_AUTONOMOUS),
                         .rough = !gm_user_model_holds(model, values, GM_FACT_SMOOTH),
+                        .conserved = conserved,
                         .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         self->ode.loops[isa] = &self->loops;
@@ -624,28 +632,14 @@ const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, cons
 {
     const struct own *self = own_of(problem);
     const struct gm_user_system *whole = self->model->system;
-    const size_t choices = whole->choices.count, count = choices + whole->velocities - whole->parameters;
     if (whole->tangents == 0) {
         return NULL;
     }
     struct gm_user_motion *motion = gm_arena_take(arena, 1, sizeof *motion);
-    struct gm_system_value *values = gm_arena_take(arena, count + 1, sizeof *values);
     gm_arena_keep(arena, motion, close_motion);
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_written_choice *choice = &whole->choices.list[i];
-        const size_t number = whole->parameters + i - choices;
-        values[i] = i < choices
-                        ? (struct gm_system_value){choice->name, choice->words[choice->chosen]}
-                        : (struct gm_system_value){whole->variables[number].name,
-                                                   gm_arena_print(arena, "%.17g", self->values[number])};
-        gm_arena_need(arena, values[i].text != NULL);
-    }
-    values[count] = (struct gm_system_value){GM_WITHOUT_TANGENTS, ""};
-    struct gm_fault fault;
     motion->whole = whole;
-    gm_arena_need(
-        arena, gm_equations_open(&motion->system, whole->source, whole->length, values, count + 1, &fault) &&
-                   gm_user_model_open(&motion->model, &motion->system));
+    gm_user_system_again(arena, whole, self->values, true, &motion->system);
+    gm_arena_need(arena, gm_user_model_open(&motion->model, &motion->system));
     double *start = gm_arena_keep(arena, gm_equations_start(&motion->system, NULL), free);
     gm_arena_need(arena, gm_user_problem_open(&motion->problem, &motion->model, start));
     motion->problem.name = problem->name;

@@ -21,6 +21,7 @@
 #include "core/expression/reader.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/families/runge_kutta/nystrom.h"
@@ -837,6 +838,70 @@ static struct own *make_processed(const struct making *making, const struct gm_w
     return compose(making, substeps, written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
 }
 
+/* The name in a piece of the line, of those that are held before it. */
+static const char *held_name(const struct making *making, const struct gm_holding *holding,
+                             struct gm_span piece)
+{
+    const char *text = making->source->text;
+    const char *name = gm_arena_keep(making->arena, gm_span_words(text, piece), free);
+    if (gm_name_length(text + piece.begin, piece.end - piece.begin) != piece.end - piece.begin ||
+        piece.end == piece.begin) {
+        fail(making, piece.begin, "the name of an invariant was expected: H, or one of the system");
+    }
+    for (size_t i = 0; i < holding->count; i++) {
+        if (strcmp(holding->names[i], name) == 0) {
+            fail(making, piece.begin, "%.60s is named twice", name);
+        }
+    }
+    return name;
+}
+
+/* A scheme that holds invariants keeps the order of its base, and of its claims the symmetry if that is asked for, or
+   what every part of a step keeps. */
+static struct own *make_holding(const struct making *making, const struct gm_written_scheme *written,
+                                const struct gm_scheme *base)
+{
+    const struct gm_written_line *symmetric = &written->lines[GM_SCHEME_WORD_SYMMETRIC];
+    const struct gm_span named = written->lines[GM_SCHEME_WORD_INVARIANTS].value;
+    const bool relaxed = written->kind == GM_WRITTEN_RELAXED;
+    const size_t most = relaxed ? 1 : GM_MOST_CONSERVED;
+    struct own *self = open_user(making, sizeof(struct gm_holding));
+    struct gm_holding *holding = self->coefficients;
+    struct gm_span rest = named, piece;
+    while (gm_span_take(written->text, &rest, ",", &piece)) {
+        if (holding->count == most) {
+            fail(making, piece.begin,
+                 relaxed ? "relaxed takes one invariant; projected takes several"
+                         : "projected takes at most %d invariants",
+                 GM_MOST_CONSERVED);
+        }
+        const char *name = held_name(making, holding, piece);
+        holding->names[holding->count++] = name;
+    }
+    if (holding->count == 0) {
+        fail(making, named.begin, "the name of an invariant was expected: H, or one of the system");
+    }
+    holding->constraints = strcmp(holding->names[0], "constraints") == 0;
+    holding->symmetric = symmetric->said && gm_span_is(written->text, symmetric->value, "yes");
+    if (symmetric->said && !holding->symmetric && !gm_span_is(written->text, symmetric->value, "no")) {
+        fail(making, symmetric->value.begin, "symmetric: is yes or no");
+    }
+    if (holding->constraints && (relaxed || holding->symmetric || holding->count > 1)) {
+        fail(making, named.begin, "constraints are held alone, by projected(S; constraints)");
+    }
+    self->row.family = relaxed ? &gm_family_relaxed : &gm_family_projected;
+    self->row.base = base;
+    self->row.needs = base->needs | (holding->constraints ? GM_NEEDS_CONSTRAINTS : 0);
+    self->row.claims = (relaxed ? base->claims & GM_KEEPS_LINEAR : 0) |
+                       (holding->symmetric ? base->claims & GM_SYMMETRIC : 0) |
+                       (holding->constraints ? GM_KEEPS_CONSTRAINTS | GM_KEEPS_HIDDEN : 0);
+    for (size_t i = 0; i < holding->count; i++) {
+        self->row.claims |= strcmp(holding->names[i], "H") == 0 ? GM_KEEPS_ENERGY : 0;
+    }
+    holding->count = holding->constraints ? 0 : holding->count;
+    return self;
+}
+
 /* ---- what the row says ---- */
 
 static void read_claims(const struct making *making, const struct gm_written_line *line, unsigned *claims)
@@ -878,6 +943,13 @@ static char *title_of(const struct making *making, const struct gm_written_schem
                               numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
     case GM_WRITTEN_ADJOINT:
         return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE].at[0]->title);
+    case GM_WRITTEN_PROJECTED:
+    case GM_WRITTEN_RELAXED:
+        return gm_arena_print(
+            making->arena, "%s, %s (%s)", schemes[GM_SCHEME_WORD_BASE].at[0]->title,
+            gm_written_kind_name(written->kind),
+            (char *)gm_arena_keep(
+                making->arena, gm_span_words(written->text, lines[GM_SCHEME_WORD_INVARIANTS].value), free));
     case GM_WRITTEN_PROCESSED:
         return gm_arena_print(making->arena, "%s, processed by %s",
                               schemes[GM_SCHEME_WORD_KERNEL].at[0]->title,
@@ -1033,7 +1105,9 @@ static void finish(const struct making *making, const struct gm_written_scheme *
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
     }
     row->order = written->order > 0 ? written->order : theory.order > 0 ? theory.order : 1;
-    row->claims = (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
+    row->claims = gm_holding_of(row)
+                      ? row->claims
+                      : (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
     if (lines[GM_SCHEME_WORD_CLAIMS].said) {
         read_claims(making, &lines[GM_SCHEME_WORD_CLAIMS], &row->claims);
     }
@@ -1073,6 +1147,10 @@ static struct own *make_written(const struct making *making, const struct gm_wri
         break;
     case GM_WRITTEN_ADJOINT:
         own = adjoint_of(making, bases->at[0], written->lines[GM_SCHEME_WORD_BASE].value.begin);
+        break;
+    case GM_WRITTEN_PROJECTED:
+    case GM_WRITTEN_RELAXED:
+        own = make_holding(making, written, bases->at[0]);
         break;
     case GM_WRITTEN_LIE:
     case GM_WRITTEN_STRANG:

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The common part of schemes that correct the steps of another scheme: they hold invariants at their values at the start. */
+#ifndef GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
+#define GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
+
+#include "core/ode/kernel/conserved.h"
+#include "core/ode/kernel/members.h"
+
+/* The coefficients of such a scheme; its base, in struct gm_scheme or by name, makes the steps. */
+struct gm_holding {
+    const char *base; /* of a row of the program; else NULL */
+    bool symmetric;
+    bool constraints; /* they are held instead */
+    size_t count;
+    const char *names[GM_MOST_CONSERVED];
+};
+
+/* Returns what a scheme holds; NULL if it is of no such family. */
+const struct gm_holding *gm_holding_of(const struct gm_scheme *scheme);
+const struct gm_scheme *gm_holding_base(const struct gm_scheme *scheme);
+
+/* A member's memory: HELD is 1 once the values, from VALUES on, are noted; CORRECTION is that of the last step. */
+enum { GM_HELD_IS_SET, GM_HELD_CORRECTION, GM_HELD_TIME_CARRY, GM_HELD_VALUES };
+
+/* The family's data of a struct gm_members, whose y is one member's state. */
+struct gm_held {
+    const struct gm_holding *holding;
+    const struct gm_scheme *base;
+    struct gm_problem one; /* the problem with one member */
+    void *workspace;       /* the base's */
+    struct gm_conserved conserved;
+    size_t n, count;
+    double *z, *next, *move;                /* n */
+    double *start_slopes, *slopes, *turned; /* count * n, by rows */
+    double values[GM_MOST_CONSERVED], scale[GM_MOST_CONSERVED], length[GM_MOST_CONSERVED];
+    double turn[GM_MOST_CONSERVED][GM_MOST_CONSERVED];
+    double storage[];
+};
+
+/* out := a step h of the base from y. */
+enum gm_status gm_held_step(const struct gm_held *held, const struct gm_task *task, double h, const double *y,
+                            double *out, struct gm_progress *progress);
+/* Fills slopes and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
+void gm_held_turn(struct gm_held *held, const double *y);
+/* Returns the largest distance of the invariants at y from `values`, relative to their scale, after writing these
+   distances. */
+double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off);
+/* multipliers := (D D')^+ off, D the turned slopes: singular values below 1e-12 of the largest are dropped. */
+void gm_held_solve(const struct gm_held *held, const double *off, double *multipliers);
+/* y := from + D' multipliers, returns the sum of |y - its old value|. */
+double gm_held_move(const double *from, const double *slopes, const double *multipliers, size_t count,
+                    size_t n, double *y);
+
+/* The hooks of these families. */
+void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_held_close(void *members);
+void gm_held_reset(void *members);
+size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
+enum gm_status gm_held_start(const struct gm_task *task);
+const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
+
+#define GM_HELD_FAMILY(make)                                                                                 \
+    .kind = &gm_kind_ode, .loop = gm_members_loop, .workspace_open = gm_held_open,                           \
+    .workspace_close = gm_held_close, .workspace_reset = gm_held_reset, .memory = gm_held_memory,            \
+    .start = gm_held_start, .lacks = gm_held_lacks, .members = &(const struct gm_member_family)              \
+    {                                                                                                        \
+        .step = make                                                                                         \
+    }
+
+/* An invariant is met at this part of its scale, an iteration ends after this number of corrections. */
+#define GM_HELD_MET 1e-12
+enum { GM_HELD_MOST = 50 };
+
+/* Returns true if this miss is round-off, or is met and no longer falls. The one before starts as infinity. */
+static inline bool gm_held_is_met(double miss, double *before)
+{
+    const bool met = miss <= 4 * GM_EPSILON || (miss <= GM_HELD_MET && miss >= *before);
+    *before = miss;
+    return met;
+}
+
+#endif

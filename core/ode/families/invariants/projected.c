@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any scheme Phi, and the way back to the invariants I_j at their values at the start, D(y) = the rows dI_j/dy:
+       z = Phi_h(y_0),   y_1 = z + D(z)' lambda,   I(y_1) = I(start)
+   keeps the order of Phi, for every I is constant along the exact motion. Moved before and after the step by the same
+   multipliers,
+       z = Phi_h(y_0 + D(y_0)' mu),   y_1 = z + D(y_1)' mu,   I(y_1) = I(start)
+   it is symmetric if Phi is. It is not symplectic. Hairer, Lubich & Wanner (2006), sections IV.4.2, V.4.1.
+
+   On systems with constraints g(q) = 0, G = dg/dq, a step of the motion with the multipliers of g'' = 0,
+       (q, p) = Phi_h(y_0),   q_1 = q + M^-1 G' mu,  g(q_1) = 0,   p_1 = p + G' nu,  G v_1 = 0
+   E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.2. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/basics.h"
+#include "core/linear/iteration.h"
+#include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
+#include "core/ode/variational/manifold.h"
+#include "core/ode_scheme_texts.h"
+
+/* z := z + D(z)' lambda, D at the first z */
+static enum gm_status project(struct gm_held *held, const double *values)
+{
+    double off[GM_MOST_CONSERVED], multipliers[GM_MOST_CONSERVED], before = INFINITY;
+    gm_held_turn(held, held->z);
+    for (int i = 0; i < GM_HELD_MOST; i++) {
+        if (gm_held_is_met(gm_held_miss(held, values, held->z, off), &before)) {
+            return GM_OK;
+        }
+        gm_held_solve(held, off, multipliers);
+        gm_held_move(held->z, held->slopes, multipliers, held->count, held->n, held->z);
+    }
+    return before <= GM_HELD_MET ? GM_OK : GM_NO_CONVERGENCE;
+}
+
+static enum gm_status project_symmetrically(struct gm_held *held, const struct gm_task *task, const double *y,
+                                            const double *values, struct gm_progress *progress)
+{
+    const size_t n = held->n, count = held->count;
+    double off[GM_MOST_CONSERVED], sum[GM_MOST_CONSERVED], mu[GM_MOST_CONSERVED] = {0};
+    double miss = INFINITY, before = INFINITY, change = INFINITY;
+    gm_conserved_slopes(&held->conserved, y, held->start_slopes);
+    for (int i = 0; i < GM_HELD_MOST; i++) {
+        gm_held_move(y, held->start_slopes, mu, count, n, held->move);
+        const enum gm_status status = gm_held_step(held, task, task->dt, held->move, held->next, progress);
+        if (status != GM_OK) {
+            return status;
+        }
+        if (i == 0) {
+            memcpy(held->z, held->next, n * sizeof *held->z);
+        }
+        gm_held_turn(held, held->z);
+        change = gm_held_move(held->next, held->slopes, mu, count, n, held->z);
+        miss = gm_held_miss(held, values, held->z, off);
+        if (gm_held_is_met(miss, &before) && change <= 16 * GM_EPSILON * gm_sum_of(held->z, n)) {
+            return GM_OK;
+        }
+        gm_held_solve(held, off, sum); /* both moves change the invariants, by about the same */
+        for (size_t j = 0; j < count; j++) {
+            mu[j] += sum[j] / 2;
+        }
+    }
+    return miss <= GM_HELD_MET && change <= GM_HELD_MET * gm_sum_of(held->z, n) ? GM_OK : GM_NO_CONVERGENCE;
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    struct gm_held *held = members->family;
+    const double *values = members->memory + GM_HELD_VALUES;
+    enum gm_status status = GM_OK;
+    if (held->holding->symmetric) {
+        status = project_symmetrically(held, task, members->y, values, progress);
+    } else {
+        status = gm_held_step(held, task, task->dt, members->y, held->z, progress);
+        memcpy(held->next, held->z, held->n * sizeof *held->z);
+        if (status == GM_OK && held->holding->constraints) {
+            status = gm_manifold_project(&held->one, held->z) ? GM_OK : GM_NO_CONVERGENCE;
+        } else if (status == GM_OK) {
+            status = project(held, values);
+        }
+    }
+    memcpy(members->y, held->z, held->n * sizeof *held->z);
+    for (size_t c = 0; !held->holding->constraints && c < held->n; c++) {
+        const double moved = held->z[c] - held->next[c];
+        members->memory[GM_HELD_CORRECTION] = hypot(c > 0 ? members->memory[GM_HELD_CORRECTION] : 0, moved);
+    }
+    return status;
+}
+
+#define ONTO_CONSTRAINTS(phi)                                                                                \
+    .family = &gm_family_projected, .needs = GM_NEEDS_CONSTRAINTS,                                           \
+    .coefficients = &(const struct gm_holding)                                                               \
+    {                                                                                                        \
+        .base = phi, .constraints = true                                                                     \
+    }
+
+static const struct gm_scheme schemes[] = {
+    {GM_TEXTS_projected_gauss4, ONTO_CONSTRAINTS("gauss4")},
+    {GM_TEXTS_projected_gauss6, ONTO_CONSTRAINTS("gauss6")},
+    {GM_TEXTS_projected_rk4, ONTO_CONSTRAINTS("rk4")},
+};
+
+const struct gm_family gm_family_projected = {
+    .title = "projected onto invariants",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    GM_HELD_FAMILY(step),
+};

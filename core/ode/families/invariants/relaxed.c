@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any scheme Phi, whose step goes as far in its direction as an invariant I allows:
+       d = Phi_h(y_0) - y_0,   y_1 = y_0 + gamma d,   t_1 = t_0 + gamma h,   I(y_1) = I(start),   gamma near 1
+   gamma - 1 is of the size of h^(p - 1), and the order p of Phi is kept at the time t_1. D.I. Ketcheson, SIAM J. Numer.
+   Anal. 57 (2019) 2850; H. Ranocha, M. Sayyari, L. Dalcin, M. Parsani & D.I. Ketcheson, SIAM J. Sci. Comput. 42 (2020)
+   A612. The family has no rows: they are user-defined. */
+#include <math.h>
+#include <string.h>
+
+#include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
+
+/* The slope of the invariant in the direction of the step. */
+static double slope_along(const struct gm_held *held)
+{
+    double slope = 0;
+    for (size_t c = 0; c < held->n; c++) {
+        slope += held->slopes[c] * held->move[c];
+    }
+    return slope;
+}
+
+/* z := y + gamma move: from gamma = 1 a step of Newton's method, then the secant method. */
+static enum gm_status relax(struct gm_held *held, const double *y, double value, double *gamma)
+{
+    double off = 0, slope, change = 0, before = INFINITY;
+    *gamma = 1;
+    for (int i = 0; i < GM_HELD_MOST; i++) {
+        const double last = off;
+        for (size_t c = 0; c < held->n; c++) {
+            held->z[c] = y[c] + *gamma * held->move[c];
+        }
+        if (i == 0) {
+            gm_held_turn(held, held->z);
+        }
+        const double miss = gm_held_miss(held, &value, held->z, &off);
+        if (gm_held_is_met(miss, &before)) {
+            return GM_OK;
+        }
+        slope = i > 0 ? (last - off) / change : slope_along(held);
+        change = off / slope;
+        if (!(fabs(*gamma + change - 1) <= 0.5)) {
+            break;
+        }
+        *gamma += change;
+    }
+    return before <= GM_HELD_MET ? GM_OK : GM_NO_CONVERGENCE;
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    struct gm_held *held = members->family;
+    double *memory = members->memory, gamma;
+    enum gm_status status = gm_held_step(held, task, task->dt, members->y, held->z, progress);
+    for (size_t c = 0; c < held->n; c++) {
+        held->move[c] = held->z[c] - members->y[c];
+    }
+    status = status == GM_OK ? relax(held, members->y, memory[GM_HELD_VALUES], &gamma) : status;
+    if (status != GM_OK) {
+        return status;
+    }
+    memcpy(members->y, held->z, held->n * sizeof *held->z);
+    memory[GM_HELD_CORRECTION] = gamma - 1;
+    const double before = progress->t, whole = memory[GM_HELD_TIME_CARRY] + gamma * task->dt;
+    progress->t += whole;
+    memory[GM_HELD_TIME_CARRY] = whole + (before - progress->t);
+    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+}
+
+const struct gm_family gm_family_relaxed = {
+    .title = "relaxed along the step",
+    GM_HELD_FAMILY(step),
+    .adaptive = true,
+};

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Formulas with exact derivatives; the energy of a Lagrangian, or of a problem computed by hand, has
+       dH/dq = -p'/w,   dH/dp = q'/w
+   from the field (struct gm_hamiltonian). */
+#include "core/ode/kernel/conserved.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+
+static gm_node_id node_of(struct gm_conserved *conserved, size_t i, const char *name,
+                          struct gm_formula *graph, char *lacks)
+{
+    const struct gm_ode *ode = gm_ode_of(conserved->problem);
+    const bool energy = strcmp(name, "H") == 0 && ode->hamiltonian && !ode->hamiltonian->partial;
+    gm_node_id node = GM_NO_NODE;
+    if (energy && !ode->hamiltonian->formula) {
+        conserved->energy = i;
+        return gm_formula_constant(graph, 0);
+    }
+    if (ode->conserved) {
+        return ode->conserved(conserved->problem, name, graph, lacks);
+    }
+    if (energy) {
+        return ode->hamiltonian->formula(conserved->problem, graph, &node) ? node : GM_NO_NODE;
+    }
+    snprintf(lacks, GM_FAULT_SENTENCE, "an invariant %.60s", name);
+    return GM_NO_NODE;
+}
+
+bool gm_conserved_open(struct gm_conserved *conserved, const struct gm_problem *problem,
+                       const char *const *names, size_t count, char lacks[GM_FAULT_SENTENCE])
+{
+    const size_t n = problem->n - 2 * problem->passive;
+    struct gm_formula graph;
+    gm_node_id nodes[GM_MOST_CONSERVED], *slopes = malloc((count * n + 1) * sizeof *slopes);
+    bool good = slopes != NULL;
+    *conserved =
+        (struct gm_conserved){.problem = problem, .count = count, .n = n, .energy = count, .linear = true};
+    lacks[0] = '\0';
+    gm_formula_open(&graph);
+    for (size_t i = 0; good && i < count; i++) {
+        nodes[i] = node_of(conserved, i, names[i], &graph, lacks);
+        good = nodes[i] != GM_NO_NODE && gm_gradient(&graph, nodes[i], NULL, n, slopes + i * n);
+    }
+    for (size_t i = 0; good && i < count * n; i++) {
+        conserved->linear &= graph.nodes[slopes[i]].operation == GM_CONSTANT && conserved->energy == count;
+    }
+    good = good && gm_tape_open(&conserved->values, &graph, nodes, count, n, NULL) &&
+           gm_tape_open(&conserved->slopes, &graph, slopes, count * n, n, NULL);
+    if (!good) {
+        gm_conserved_close(conserved);
+    }
+    gm_formula_close(&graph);
+    free(slopes);
+    return good;
+}
+
+void gm_conserved_close(struct gm_conserved *conserved)
+{
+    gm_tape_close(&conserved->values);
+    gm_tape_close(&conserved->slopes);
+}
+
+void gm_conserved_values(const struct gm_conserved *conserved, const double *y, double *values)
+{
+    gm_tape_values(&conserved->values, y, values, 1);
+    if (conserved->energy < conserved->count) {
+        values[conserved->energy] = gm_energy(conserved->problem, y);
+    }
+}
+
+void gm_conserved_slopes(const struct gm_conserved *conserved, const double *y, double *slopes)
+{
+    gm_tape_values(&conserved->slopes, y, slopes, 1);
+    if (conserved->energy < conserved->count) {
+        const struct gm_problem *problem = conserved->problem;
+        const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
+        const double weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
+        const size_t n = conserved->n, half = n / 2;
+        double *gradient = slopes + conserved->energy * n;
+        gm_field(problem, y, gradient, 1);
+        for (size_t i = 0; i < half; i++) {
+            const double velocity = gradient[i];
+            gradient[i] = -gradient[half + i] / weight;
+            gradient[half + i] = velocity / weight;
+        }
+    }
+}
