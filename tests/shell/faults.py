@@ -106,7 +106,6 @@ COMMANDS = [
     ("run MESHES/../pieces.system steps=2 --json", {}),
     ("run SHARE/systems/argon.system steps=2 --json", {}),
     ("run SHARE/systems/phi4.system steps=2 --json", {}),
-    ("list MESHES/../pieces.system --long", {}),
     ("run SHARE/rooms/heated.room steps=1 --json", {"statuses": (1, 3)}),
     ("run disc scheme=composition(verlet;1/2,1/2) steps=3 --json", {}),
     ("certify SHARE/schemes/kutta38.scheme --json", {}),
