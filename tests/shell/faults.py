@@ -103,6 +103,7 @@ COMMANDS = [
     ("tour area --size 128x96 --out OUT", {}),
     ("run system H=p^2/2-cos(q) q=1 p=0 steps=5 --json", {}),
     ("run system H=p^2/2-cos(q) q=1 p=0 steps=5 scheme=gauss4 --engine native --json", {}),
+    ("run MESHES/../pieces.system steps=2 --json", {}),
     ("run SHARE/systems/argon.system steps=2 --json", {}),
     ("run SHARE/systems/phi4.system steps=2 --json", {}),
     ("run SHARE/rooms/heated.room steps=1 --json", {"statuses": (1, 3)}),

@@ -119,12 +119,13 @@ static void words_choose_systems(void **unused)
 static void choices_are_combined(void **unused)
 {
     (void)unused;
-    static const char text[] = "choice: sign = plus of plus, minus\nchoice: power = first of first, second\n"
-                               "rate: x = x\nstart: x = 1\ndt: 0.01\nuntil: 1\nschemes: gauss8\n"
-                               "let: f = 1\nlet: g = 1\n"
-                               "when: sign = minus\nlet: f = -1\nobserve: lower = f\n"
-                               "when: always\nwhen: power = second\nlet: g = 2\nobserve: twice = g\n"
-                               "when: always\nrate: y = f*g\nstart: y = 0\n";
+    static const char text[] =
+        "choice: branch = plus of plus, minus\nchoice: power = first of first, second\n"
+        "rate: x = x\nstart: x = 1\ndt: 0.01\nuntil: 1\nschemes: gauss8\n"
+        "let: f = 1\nlet: g = 1\n"
+        "when: branch = minus\nlet: f = -1\nobserve: lower = f\n"
+        "when: always\nwhen: power = second\nlet: g = 2\nobserve: twice = g\n"
+        "when: always\nrate: y = f*g\nstart: y = 0\n";
     struct gm_fault fault;
     char sentence[GM_MESSAGE] = "";
     const struct gm_scene *scene = open_scene(text, &fault, sentence);
@@ -132,21 +133,21 @@ static void choices_are_combined(void **unused)
         fail_msg("%s", sentence);
     }
     static const struct {
-        const char *sign, *power;
+        const char *branch, *power;
         double y;
         const char *lower, *twice; /* why there is no such observable */
     } rows[] = {
-        {"plus", "first", 1, "it is not defined with sign=plus", "it is not defined with power=first"},
+        {"plus", "first", 1, "it is not defined with branch=plus", "it is not defined with power=first"},
         {"minus", "first", -1, NULL, "it is not defined with power=first"},
-        {"plus", "second", 2, "it is not defined with sign=plus", NULL},
+        {"plus", "second", 2, "it is not defined with branch=plus", NULL},
         {"minus", "second", -2, NULL, NULL},
         {"minus", "second", -2, NULL, NULL}};
     const struct gm_scene *last = NULL;
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         static const struct gm_settings settings = {.binding = 20};
-        const char *const keys[] = {"sign", "power"};
+        const char *const keys[] = {"branch", "power"};
         void *parameters = gm_scene_defaults(scene);
-        gm_parameter_set(gm_scene_parameter(scene, "sign"), parameters, rows[i].sign);
+        gm_parameter_set(gm_scene_parameter(scene, "branch"), parameters, rows[i].branch);
         gm_parameter_set(gm_scene_parameter(scene, "power"), parameters, rows[i].power);
         assert_true(scene->settle(parameters, keys, 2, sentence));
         struct gm_lane *lane = gm_lane_open(scene, parameters, &settings, gm_scheme_find("gauss8"), sentence);

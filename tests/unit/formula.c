@@ -168,6 +168,42 @@ static void a_slope(const char *formula, const char *expected, const char *unuse
     gm_formula_close(&graph);
 }
 
+/* Derivatives over y = -1.3, where the value that is not chosen has none. */
+static void chosen_values_alone_are_finite(void **unused)
+{
+    static const double x = .7, y = -1.3;
+    const struct {
+        const char *formula;
+        double slope;
+    } rows[] = {
+        {"x*if(y > 0, log(y)*sqrt(y), y^2)", 2 * x * y},
+        {"if(y > 0, log(y), if(y < -2, sqrt(-2 - y), y^3))", 3 * y * y},
+        {"sin(if(y > 0, sqrt(y), y) + if(x < 0, log(y), 2*y))", 3 * cos(3 * y)},
+        {"sqrt(y^2)*if(y > 0, log(y), 1) + if(not (y > 0 or y < -5), exp(y), sqrt(y))", -1 + exp(y)},
+        {"if(x > 0 and y <= 0, y, log(y))/if(y < 0, x, sqrt(y))", 1 / x},
+    };
+    (void)unused;
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_formula graph;
+        struct gm_fault fault;
+        gm_node_id node, gradient[NAMES], along[NAMES];
+        const bool marked[NAMES] = {false, true};
+        gm_formula_open(&graph);
+        assert_true(read_formula(&graph, rows[i].formula, &node, &fault));
+        assert_true(gm_gradient(&graph, node, marked, NAMES, gradient));
+        for (size_t k = 0; k < NAMES; k++) {
+            along[k] = gm_formula_constant(&graph, k == 1);
+        }
+        const double by_gradient = value_of(&graph, gradient[1], numbers),
+                     by_vector = value_of(&graph, gm_derivative_along(&graph, node, along, NAMES), numbers);
+        if (!(fabs(by_gradient - rows[i].slope) < 1e-14) || !(fabs(by_vector - rows[i].slope) < 1e-14)) {
+            fail_msg("%s: %.17g and %.17g, not %.17g", rows[i].formula, by_gradient, by_vector,
+                     rows[i].slope);
+        }
+        gm_formula_close(&graph);
+    }
+}
+
 /* The value for these numbers, on the scale of the largest part, is that of the formula as it was derived. */
 static void same_value(const char *formula, const struct gm_formula *graph, gm_node_id derived,
                        gm_node_id tidied)
@@ -580,6 +616,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_hold),
+        cmocka_unit_test(chosen_values_alone_are_finite),
         cmocka_unit_test(tidied_formulas_have_their_values),
         cmocka_unit_test(derivatives_are_exact),
         cmocka_unit_test(jacobians_are_sparse),

@@ -160,6 +160,23 @@ static void exact_solutions_are_values(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* A membrane whose current is a function with an argument; the state is from an integrator of order 8 with tolerance
+   1e-13. */
+static void functions_are_called(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene =
+        scene_of("parameter: I = 0.1\nlet: m(v) = (1 + tanh((v + 0.01)/0.15))/2\n"
+                 "rate: v = I + 0.5*(-0.5 - v) + 2*w*(-0.7 - v) - m(v)*(v - 1)\n"
+                 "rate: w = 0.333*cosh((v - 0.1)/0.29)*((1 + tanh((v - 0.1)/0.145))/2 - w)\n"
+                 "start: v = 0, w = 0\ndt: 0.05\n");
+    struct gm_lane *lane = running(scene, "", "gauss8", 100);
+    assert_float_equal(gm_run_state(lane->run)[0], 0.25239867, 5e-9);
+    assert_float_equal(gm_run_state(lane->run)[1], 0.27887723, 5e-9);
+    gm_lane_close(lane);
+    gm_system_scene_close(scene);
+}
+
 /* x(0) in rates and lets is the start of the run, not of the file. */
 static void starts_are_known(void **unused)
 {
@@ -611,6 +628,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(options_describe_observables),
         cmocka_unit_test(exact_solutions_are_values),
+        cmocka_unit_test(functions_are_called),
         cmocka_unit_test(starts_are_known),
         cmocka_unit_test(requirements_refuse),
         cmocka_unit_test(derived_starts_follow),
