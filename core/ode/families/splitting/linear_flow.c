@@ -30,6 +30,9 @@ bool gm_linear_flow_derive(struct gm_arena *arena, struct gm_linear_flow *flow, 
         const gm_node_id slope = flow->slopes.entries[i].node;
         linear = linear && !gm_formula_holds(graph, slope, moving, variables);
     }
+    if (flow->slopes.count == 0) {
+        return true;
+    }
     struct gm_sparse *all = gm_arena_take(arena, 1, sizeof *all);
     gm_sparse_keep(arena, all, gm_sparse_jacobian(graph, rates, n, components, variables, all));
     for (size_t i = 0; i < all->count && flow->constant; i++) {

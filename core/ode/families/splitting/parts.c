@@ -184,15 +184,22 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     part->how = slopes == 0 ? SHEAR : part->flow.constant && n <= GM_NEWTON_LARGEST ? EXPONENTIAL : SERIES;
 }
 
+/* Returns true if the file gives a part of that name. */
+static bool is_given(const struct gm_parts *parts, const char *name)
+{
+    bool given = false;
+    for (size_t i = 0; parts && i < parts->given; i++) {
+        given = given || strcmp(parts->names[i], name) == 0;
+    }
+    return given;
+}
+
 /* Opens a part by its name: what the structure's facets solve, unless the file gives the name, or a formula. */
 static void open_part(struct work *work, struct part *part, const struct gm_named_part *named)
 {
     const struct gm_ode *ode = gm_ode_of(work->problem);
     const char *name = named->name;
-    bool given = named->by != NULL;
-    for (size_t i = 0; ode->parts && i < ode->parts->given; i++) {
-        given = given || strcmp(ode->parts->names[i], name) == 0;
-    }
+    const bool given = named->by || is_given(ode->parts, name);
     part->by = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
         part->how = KEPLER;
@@ -610,6 +617,11 @@ static void open_one(struct gm_arena *arena, void *data)
 
 const char *gm_part_flow(const struct gm_problem *problem, const char *name)
 {
+    const struct gm_ode *ode = gm_ode_of(problem);
+    const bool kinetic = strcmp(name, "kinetic") == 0;
+    if (ode->split && (kinetic || strcmp(name, "potential") == 0) && !is_given(ode->parts, name)) {
+        return kinetic ? "a drift" : words[KICK];
+    }
     const struct gm_parts_row row = {.list = {{name, NULL}}};
     struct part part = {.how = KICK};
     struct work work = {.arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part};
