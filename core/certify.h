@@ -31,6 +31,14 @@ struct gm_held_verdict {
 };
 enum { GM_MOST_HELD_VERDICTS = 8 };
 
+/* An invariant of the system along a run. */
+struct gm_followed {
+    char name[40];
+    const char *verdict; /* "conserved", "oscillates" or "drifts" */
+    double defect;       /* the largest |x - x0| / |x0|, or |x - x0| if x0 is round-off */
+};
+enum { GM_MOST_FOLLOWED = 16 };
+
 /* Errors at smaller and smaller steps, whose slope is an order. */
 enum { GM_LADDER = 44 };
 struct gm_ladder {
@@ -61,6 +69,8 @@ struct gm_certificate {
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* verdicts by bit number */
     struct gm_held_verdict held[GM_MOST_HELD_VERDICTS];
     size_t held_count;
+    struct gm_followed followed[GM_MOST_FOLLOWED]; /* on a given system */
+    size_t followed_count;
     /* The theory of schemes with coefficients (gm_family.coefficients_open), else not known. It holds if
        the conditions of the claimed order and the algebra of the claimed structure hold. */
     struct gm_theory theory;

@@ -84,6 +84,17 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
         }
     }
     gm_row_close(&properties);
+    if (system) {
+        struct gm_row list = gm_row_open(&row, "invariants", ']');
+        for (size_t i = 0; i < certificate->followed_count; i++) {
+            const struct gm_followed *followed = &certificate->followed[i];
+            struct gm_row one = gm_row_open(&list, NULL, '}');
+            gm_row_put(&one, "name %s, verdict %s, defect %.17g", followed->name, followed->verdict,
+                       followed->defect);
+            gm_row_close(&one);
+        }
+        gm_row_close(&list);
+    }
     if (scheme->base) {
         struct gm_row conserves = gm_row_open(&row, "conserves", '}');
         for (size_t i = 0; i < certificate->held_count; i++) {

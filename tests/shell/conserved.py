@@ -143,6 +143,12 @@ for words, order, holds, lost in (
     symmetric = certificate.get("properties", {}).get("symmetric", {})
     check(symmetric.get("claimed") == ("symmetric: yes" in words[0]), f"{words} is symmetric")
 
+# ---- the invariants that a system has, along a run of any scheme ----
+for scheme, verdicts in (("gauss4", ["oscillates", "conserved", "drifts", "oscillates"]), ("rk4", ["drifts"] * 4)):
+    followed = json.loads(run("certify", scheme, "--on", "kepler", "--json").stdout)["invariants"]
+    check([i["verdict"] for i in followed] == verdicts and [i["name"] for i in followed] == ["H", "angular_momentum", "I1", "I2"],
+          f"{scheme} on kepler: {followed}")
+
 # ---- engines, members, files ----
 states = [numbers("kepler", "perturbation=0.01", "scheme=projected(rk4; H, L)", "dt=.05", "steps=200", "--state", "--engine", e)
           for e in ("interpreted", "auto")]

@@ -124,6 +124,11 @@ static void print_certificate(const struct gm_certificate *certificate)
         printf("\n");
     }
     print_given_up(certificate);
+    for (size_t i = 0; i < certificate->followed_count; i++) {
+        const struct gm_followed *followed = &certificate->followed[i];
+        printf("  in 4000 steps %-30s %-12s change %.1e\n", followed->name, followed->verdict,
+               followed->defect);
+    }
     const struct gm_sameness *same = &certificate->same;
     if (same->other) {
         const char *refuted = same->undecided ? "not decided" : "BROKEN";

@@ -5,6 +5,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +18,7 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
 #include "core/quantity.h"
+#include "core/run.h"
 
 static unsigned facets_of_bracket(const struct gm_poisson *poisson)
 {
@@ -350,6 +352,69 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     gm_certificate_note_same(certificate, &subject->problem, &settings, subject->dt, subject->start);
 }
 
+/* Notes what becomes of an invariant in 4000 steps. An error that grows in proportion to the time is four times as large
+   in the last quarter as in the first, one that oscillates is not twice as large. */
+static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
+                   const struct gm_kept *kept)
+{
+    enum { QUARTERS = 4, LOOKS = 100, STEPS = 10 };
+    const double round_off = 1e-12, x0 = kept->value(kept->data, subject->start, NULL);
+    const char *end = strstr(name, "_error");
+    const struct gm_settings settings = gm_subject_settings(subject->dt);
+    double largest[QUARTERS] = {0};
+    struct gm_run *run =
+        certificate->followed_count < GM_MOST_FOLLOWED
+            ? gm_run_open(&subject->problem, certificate->scheme, &settings, 0, subject->dt, subject->start)
+            : NULL;
+    bool good = run != NULL;
+    for (int look = 0; good && look < QUARTERS * LOOKS; look++) {
+        good = gm_run_advance(run, STEPS) == GM_OK;
+        const double change = fabs(kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0);
+        largest[look / LOOKS] = fmax(largest[look / LOOKS], change);
+    }
+    gm_run_close(run);
+    if (good) {
+        struct gm_followed *row = &certificate->followed[certificate->followed_count++];
+        const double scale = fabs(x0) > round_off ? fabs(x0) : 1;
+        snprintf(row->name, sizeof row->name, "%.*s", (int)(end ? end - name : (ptrdiff_t)strlen(name)),
+                 name);
+        row->defect = fmax(fmax(largest[0], largest[1]), fmax(largest[2], largest[3])) / scale;
+        row->verdict = row->defect <= round_off                 ? "conserved"
+                       : largest[QUARTERS - 1] > 2 * largest[0] ? "drifts"
+                                                                : "oscillates";
+    }
+}
+
+/* Follows H, the invariants that the system names, and those that are found: I1, I2, ... */
+static void follow_all(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const struct gm_ode *ode = gm_ode_of(&subject->problem);
+    const struct gm_invariant energy = {ode->hamiltonian ? gm_energy
+                                        : ode->poisson   ? ode->poisson->energy
+                                                         : NULL,
+                                        &subject->problem};
+    char name[16] = "H", lacks[GM_FAULT_SENTENCE];
+    const char *const names[] = {name};
+    struct held held = {.number = 0};
+    if (energy.value && !(ode->hamiltonian && ode->hamiltonian->partial)) {
+        follow(certificate, subject, name,
+               &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
+    }
+    for (size_t i = 0; i < subject->kept_count; i++) {
+        if (strcmp(subject->kept[i].name, "energy_error") != 0) {
+            follow(certificate, subject, subject->kept[i].name, &subject->kept[i]);
+        }
+    }
+    for (int number = 1; ode->conserved && number < GM_MOST_FOLLOWED; number++) {
+        snprintf(name, sizeof name, "I%d", number);
+        if (!gm_conserved_open(&held.conserved, &subject->problem, names, 1, lacks)) {
+            return;
+        }
+        follow(certificate, subject, name, &(const struct gm_kept){.value = value_of_held, .data = &held});
+        gm_conserved_close(&held.conserved);
+    }
+}
+
 /* Leaves satisfied claims undecided on a system that is not smooth: the few steps may all lie on one side of
    a corner. A failed claim stays so. */
 static void doubt(struct gm_certificate *certificate)
@@ -380,6 +445,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
     measure(certificate, &subject);
+    follow_all(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
         subject.unit /= 8;
