@@ -13,6 +13,7 @@
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/memory.h"
+#include "core/model/invariants.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
 
@@ -23,6 +24,7 @@ enum kind {
     FORMAT,
     MOVIE,
     WHOLE,
+    DEGREE,
     TIME,
     RATE,
     FPS,
@@ -48,7 +50,7 @@ const struct gm_option gm_option_rows[] = {
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
     {"--invariants", FLAG, GM_LIST, AT(invariants), "", "find the invariants of a system, and prove them"},
-    {"--degree", WHOLE, GM_LIST, AT(degree), "D", "their largest degree, 1 to 8 (4)"},
+    {"--degree", DEGREE, GM_LIST, AT(degree), "D", "their largest degree, 1 to 8 (4)"},
     {"--source", FLAG, GM_LIST, AT(source), "",
      "the text of a system's, a room's, a scheme's or a tour's file"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
@@ -145,18 +147,20 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
                                        [FPS] = {0.01, 1000},
                                        [SCALE] = {GM_LEAST_SCALE, GM_MOST_SCALE},
                                        [DPI] = {GM_LEAST_DPI, GM_MOST_DPI},
-                                       [WHOLE] = {1, 1e9}};
+                                       [WHOLE] = {1, 1e9},
+                                       [DEGREE] = {1, GM_LARGEST_DEGREE}};
     const double low = bounds[row->kind][0], high = bounds[row->kind][1];
-    const bool open = isinf(high), whole = row->kind == WHOLE;
+    const bool open = isinf(high), whole = row->kind == WHOLE || row->kind == DEGREE;
     double number = NAN;
     char what[64];
     if (!gm_number_parse(value, &number) || !isfinite(number) || number > high ||
         !(open ? number > low : number >= low) || (whole && number != floor(number))) {
         snprintf(what, sizeof what,
-                 whole        ? "is not a whole number from 1 to 1e9"
-                 : !open      ? "is not a number from %g to %g"
-                 : isinf(low) ? "is not a number"
-                              : "is not a number above 0",
+                 row->kind == DEGREE ? "is not a whole number from %g to %g"
+                 : whole             ? "is not a whole number from 1 to 1e9"
+                 : !open             ? "is not a number from %g to %g"
+                 : isinf(low)        ? "is not a number"
+                                     : "is not a number above 0",
                  low, high);
         return gm_memory_was_short() ? gm_refuse(message, "not enough memory")
                                      : refuse(message, row->name, value, what);
@@ -253,6 +257,7 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
         memcpy(place, &(int){1}, sizeof(int));
         return true;
     case WHOLE:
+    case DEGREE:
     case TIME:
     case RATE:
     case FPS:

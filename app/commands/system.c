@@ -898,10 +898,6 @@ static void put_found(struct report *report, const struct found *found)
 static int list_invariants(const struct gm_options *options, struct report *report)
 {
     const size_t usual = 4, degree = options->degree ? (size_t)options->degree : usual;
-    if (degree > GM_LARGEST_DEGREE) {
-        return gm_give_up(GM_EXIT_USAGE, "--degree %zu is not a whole number from 1 to %d", degree,
-                          GM_LARGEST_DEGREE);
-    }
     struct found found;
     gm_invariants_find(&report->system, options->arena, degree, &found.invariants);
     if (found.invariants.lacks) {

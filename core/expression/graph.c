@@ -7,11 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/expression/residue.h"
+
 const struct gm_operation_row gm_operation_rows[GM_OPERATIONS] = {
 #define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
     [GM_OPERATION_##constant] = {name, latex, arity, smooth, #value, {over_a, over_b}},
 #include "core/expression/operations.def"
 #undef GM_OPERATION
+};
+
+struct gm_exact_value {
+    gm_residue residue;
+    bool known; /* false: of a pseudorandom residue */
 };
 
 double gm_operation_value(enum gm_operation operation, double a, double b)
@@ -30,6 +37,32 @@ double gm_operation_value(enum gm_operation operation, double a, double b)
     return NAN;
 }
 
+bool gm_rational_residue(enum gm_operation operation, gm_residue a, gm_residue b, double exponent,
+                         gm_residue *value)
+{
+    const bool reciprocal = operation == GM_OPERATION_WHOLE_POWER && exponent < 0;
+    switch (operation) {
+    case GM_OPERATION_ADD:
+        *value = gm_residue_plus(a, b);
+        break;
+    case GM_OPERATION_SUBTRACT:
+        *value = gm_residue_plus(a, gm_residue_minus(b));
+        break;
+    case GM_OPERATION_MULTIPLY:
+        *value = gm_residue_times(a, b);
+        break;
+    case GM_OPERATION_DIVIDE:
+        *value = gm_residue_times(a, gm_residue_inverse(b));
+        return b != 0;
+    case GM_OPERATION_NEGATE:
+        *value = gm_residue_minus(a);
+        break;
+    default:
+        *value = gm_residue_power(reciprocal ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
+    }
+    return !reciprocal || a != 0;
+}
+
 void gm_formula_open(struct gm_formula *graph)
 {
     *graph = (struct gm_formula){.place = GM_NO_PLACE, .origin = GM_NO_PLACE};
@@ -40,6 +73,7 @@ void gm_formula_close(struct gm_formula *graph)
     free(graph->nodes);
     free(graph->places);
     free(graph->origins);
+    free(graph->exact);
     free(graph->table);
     *graph = (struct gm_formula){0};
 }
@@ -72,10 +106,17 @@ static uint32_t hash_of(const struct gm_node *node)
     return (uint32_t)(hash ^ (hash >> 32));
 }
 
-static bool is_same(const struct gm_node *x, const struct gm_node *y)
+static bool is_same(const struct gm_formula *graph, const struct gm_node *x, const struct gm_node *y)
 {
-    if (x->operation != y->operation || x->operation == GM_CONSTANT) {
-        return x->operation == y->operation && bits_of(x->value) == bits_of(y->value);
+    if (x->operation != y->operation) {
+        return false;
+    }
+    if (x->operation == GM_CONSTANT) {
+        const bool natural = x->a == 0 || y->a == 0;
+        return bits_of(x->value) == bits_of(y->value) &&
+               (natural ? x->a == y->a
+                        : graph->exact[x->a - 1].residue == graph->exact[y->a - 1].residue &&
+                              graph->exact[x->a - 1].known == graph->exact[y->a - 1].known);
     }
     return (x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x));
 }
@@ -91,7 +132,7 @@ static uint64_t *entry_of(const struct gm_formula *graph, const struct gm_node *
 {
     size_t slot = hash & (graph->slots - 1);
     while (graph->table[slot] && (graph->table[slot] >> 32 != hash ||
-                                  !is_same(&graph->nodes[number_in(graph->table[slot])], node))) {
+                                  !is_same(graph, &graph->nodes[number_in(graph->table[slot])], node))) {
         slot = (slot + 1) & (graph->slots - 1);
     }
     return &graph->table[slot];
@@ -158,6 +199,58 @@ gm_node_id gm_formula_constant(struct gm_formula *graph, double value)
     return intern(graph, (struct gm_node){.operation = GM_CONSTANT, .value = isnan(value) ? NAN : value});
 }
 
+bool gm_formula_residue(const struct gm_formula *graph, gm_node_id constant, gm_residue *residue)
+{
+    const struct gm_node *node = &graph->nodes[constant];
+    if (node->a == 0) {
+        return gm_residue_of(node->value, residue);
+    }
+    *residue = graph->exact[node->a - 1].residue;
+    return graph->exact[node->a - 1].known;
+}
+
+/* A constant with an exact value of its own. */
+static gm_node_id exact_constant(struct gm_formula *graph, double value, struct gm_exact_value exact)
+{
+    if ((graph->exact_count & (graph->exact_count - 1)) == 0) { /* full */
+        struct gm_exact_value *more =
+            realloc(graph->exact, (graph->exact_count ? 2 * (size_t)graph->exact_count : 1) * sizeof *more);
+        graph->failed |= !more;
+        graph->exact = more ? more : graph->exact;
+    }
+    if (graph->failed) {
+        return 0;
+    }
+    graph->exact[graph->exact_count++] = exact;
+    const struct gm_node node = {.operation = GM_CONSTANT, .a = graph->exact_count, .value = value};
+    const gm_node_id number = intern(graph, node);
+    graph->exact_count -= !graph->failed && graph->nodes[number].a != node.a; /* it was there */
+    return number;
+}
+
+static bool is_short_whole(double value)
+{
+    return value == floor(value) && fabs(value) < 0x1p36;
+}
+
+/* The value of an operation on constants; it stands for that of what they stand for. */
+static gm_node_id folded(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    const double x = graph->nodes[a].value, y = graph->nodes[b].value,
+                 value = gm_operation_value(operation, x, y);
+    if (!gm_is_rational(operation) || value == 0 || !isfinite(value) || !isfinite(x) || !isfinite(y) ||
+        (is_short_whole(value) && is_short_whole(x) && is_short_whole(y))) {
+        return gm_formula_constant(graph, value);
+    }
+    gm_residue of_x, of_y, natural;
+    const bool known_x = gm_formula_residue(graph, a, &of_x), known_y = gm_formula_residue(graph, b, &of_y);
+    struct gm_exact_value exact = {.known = known_x && known_y};
+    const bool exists = gm_rational_residue(operation, of_x, of_y, y, &exact.residue);
+    return !exists || (gm_residue_of(value, &natural) == exact.known && natural == exact.residue)
+               ? gm_formula_constant(graph, value)
+               : exact_constant(graph, value, exact);
+}
+
 gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number)
 {
     return intern(graph, (struct gm_node){.operation = GM_VARIABLE, .a = (gm_node_id)number});
@@ -173,26 +266,25 @@ static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
     return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
 }
 
-/* node = coefficient * rest; false if no coefficient is written */
-static bool scaled(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+/* node = coefficient * rest; false, and GM_NO_NODE for 1, if no coefficient is written */
+static bool scaled(const struct gm_formula *graph, gm_node_id node, gm_node_id *coefficient, gm_node_id *rest)
 {
     const struct gm_node *product = &graph->nodes[node];
     const bool is_scaled =
         product->operation == GM_OPERATION_MULTIPLY && is_operation(graph, product->a, GM_CONSTANT);
-    *coefficient = is_scaled ? graph->nodes[product->a].value : 1;
+    *coefficient = is_scaled ? product->a : GM_NO_NODE;
     *rest = is_scaled ? product->b : node;
     return is_scaled;
 }
 
-static gm_node_id scale(struct gm_formula *graph, double coefficient, gm_node_id rest)
+static gm_node_id or_one(struct gm_formula *graph, gm_node_id coefficient)
 {
-    return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, gm_formula_constant(graph, coefficient), rest);
+    return coefficient == GM_NO_NODE ? gm_formula_constant(graph, 1) : coefficient;
 }
 
 static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
 {
-    double of_a, of_b;
-    gm_node_id rest_a, rest_b;
+    gm_node_id of_a, of_b, rest_a, rest_b;
     if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 0)) {
         *simple = gm_is_constant(graph, a, 0) ? b : a;
     } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
@@ -200,7 +292,8 @@ static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_
     } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
         *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b, graph->nodes[a].a);
     } else if (scaled(graph, a, &of_a, &rest_a), scaled(graph, b, &of_b, &rest_b), rest_a == rest_b) {
-        *simple = scale(graph, of_a + of_b, rest_a);
+        const gm_node_id both = folded(graph, GM_OPERATION_ADD, or_one(graph, of_a), or_one(graph, of_b));
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, both, rest_a);
     } else {
         return false;
     }
@@ -233,11 +326,11 @@ static bool is_reciprocal(const struct gm_formula *graph, gm_node_id node)
 }
 
 /* (c / y) * factor as (c factor) / y, where the constants are gathered above */
-static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, double factor)
+static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, gm_node_id factor)
 {
     const struct gm_node node = graph->nodes[quotient];
-    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
-                            gm_formula_constant(graph, graph->nodes[node.a].value * factor), node.b);
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE, folded(graph, GM_OPERATION_MULTIPLY, node.a, factor),
+                            node.b);
 }
 
 /* A reciprocal times another node: the reciprocal stays a factor, which other products share, and takes up
@@ -245,15 +338,13 @@ static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, dou
 static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotient, gm_node_id other,
                                     gm_node_id *simple)
 {
-    double coefficient;
-    gm_node_id rest;
+    gm_node_id coefficient, rest;
     if (is_reciprocal(graph, other)) {
-        const double above = graph->nodes[graph->nodes[other].a].value;
         const gm_node_id below =
             gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].b, graph->nodes[other].b);
-        *simple = gm_formula_apply(
-            graph, GM_OPERATION_DIVIDE,
-            gm_formula_constant(graph, graph->nodes[graph->nodes[quotient].a].value * above), below);
+        const gm_node_id above =
+            folded(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].a, graph->nodes[other].a);
+        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, above, below);
     } else if (scaled(graph, other, &coefficient, &rest)) {
         *simple =
             gm_formula_apply(graph, GM_OPERATION_MULTIPLY, times_above(graph, quotient, coefficient), rest);
@@ -265,8 +356,7 @@ static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotien
 
 static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
 {
-    double coefficient;
-    gm_node_id rest;
+    gm_node_id coefficient, rest;
     if (a == b && is_operation(graph, a, GM_OPERATION_SQRT)) {
         *simple = graph->nodes[a].a;
     } else if (a == b && !is_operation(graph, a, GM_CONSTANT)) {
@@ -286,15 +376,18 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
     } else if (is_reciprocal(graph, a)) {
         return product_with_reciprocal(graph, a, b, simple);
     } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
-        *simple = times_above(graph, b, graph->nodes[a].value);
+        *simple = times_above(graph, b, a);
     } else if (is_reciprocal(graph, b)) {
         *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
     } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = scale(graph, graph->nodes[a].value * coefficient, rest);
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
+                                   folded(graph, GM_OPERATION_MULTIPLY, a, coefficient), rest);
     } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, rest));
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, coefficient,
+                                   gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, rest));
     } else if (scaled(graph, a, &coefficient, &rest)) {
-        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, rest, b));
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, coefficient,
+                                   gm_formula_apply(graph, GM_OPERATION_MULTIPLY, rest, b));
     } else {
         return false;
     }
@@ -302,18 +395,18 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
 }
 
 /* node = coefficient * rest; false if the node is a constant, without a rest */
-static bool divided(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+static bool divided(const struct gm_formula *graph, gm_node_id node, gm_node_id *coefficient,
+                    gm_node_id *rest)
 {
     scaled(graph, node, coefficient, rest);
     const bool constant = is_operation(graph, node, GM_CONSTANT);
-    *coefficient = constant ? graph->nodes[node].value : *coefficient;
+    *coefficient = constant ? node : *coefficient;
     return !constant;
 }
 
 static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
 {
-    double of_a, of_b;
-    gm_node_id rest_a, rest_b;
+    gm_node_id of_a, of_b, rest_a, rest_b;
     if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 1)) {
         *simple = a;
         return true;
@@ -328,16 +421,19 @@ static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b
         return true;
     }
     const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
-    const double ratio = of_a / of_b;
-    const bool exact = isnormal(ratio) && fma(ratio, of_b, -of_a) == 0;
-    if (exact && of_b != 1) {
-        const gm_node_id top = above ? rest_a : gm_formula_constant(graph, ratio);
+    const double value_a = of_a == GM_NO_NODE ? 1 : graph->nodes[of_a].value,
+                 value_b = of_b == GM_NO_NODE ? 1 : graph->nodes[of_b].value, ratio = value_a / value_b;
+    const bool exact = isnormal(ratio) && fma(ratio, value_b, -value_a) == 0;
+    if (exact && value_b != 1) {
+        const gm_node_id quotient = folded(graph, GM_OPERATION_DIVIDE, or_one(graph, of_a), of_b);
+        const gm_node_id top = above ? rest_a : quotient;
         const gm_node_id rest = below ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b) : top;
-        *simple = above ? scale(graph, ratio, rest) : rest;
+        *simple = above ? gm_formula_apply(graph, GM_OPERATION_MULTIPLY, quotient, rest) : rest;
         return true;
     }
-    if (above && of_a != 1) {
-        *simple = scale(graph, of_a, gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
+    if (above && value_a != 1) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, of_a,
+                                   gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
         return true;
     }
     return false;
@@ -368,13 +464,14 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
             return true;
         }
         if (is_reciprocal(graph, a)) {
-            *simple = times_above(graph, a, -1);
+            *simple = times_above(graph, a, gm_formula_constant(graph, -1));
             return true;
         }
         if (is_operation(graph, a, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, graph->nodes[a].a)) {
             const gm_node_id other = graph->nodes[a].b;
             *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
-                                       times_above(graph, graph->nodes[a].a, -1), other);
+                                       times_above(graph, graph->nodes[a].a, gm_formula_constant(graph, -1)),
+                                       other);
             return true;
         }
         return is_operation(graph, a, GM_OPERATION_NEGATE);
@@ -403,7 +500,7 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
     }
     if (!graph->keeps && is_operation(graph, a, GM_CONSTANT) &&
         (single || is_operation(graph, b, GM_CONSTANT))) {
-        return gm_formula_constant(graph, gm_operation_value(operation, graph->nodes[a].value, exponent));
+        return folded(graph, operation, a, single ? a : b);
     }
     gm_node_id simple;
     if (graph->simplifies && simplify(graph, operation, a, b, &simple)) {
@@ -748,7 +845,8 @@ gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *o
     for (size_t k = 0; k < count && !graph->failed; k++) {
         const struct gm_node *node = &other->nodes[parts[k]];
         if (node->operation == GM_CONSTANT) {
-            made[parts[k]] = gm_formula_constant(graph, node->value);
+            made[parts[k]] = node->a ? exact_constant(graph, node->value, other->exact[node->a - 1])
+                                     : gm_formula_constant(graph, node->value);
         } else if (node->operation == GM_VARIABLE) {
             made[parts[k]] = node->a < inputs ? gm_formula_variable(graph, node->a)
                                               : gm_formula_constant(graph, values[node->a]);

@@ -31,6 +31,15 @@ extern const struct gm_operation_row gm_operation_rows[GM_OPERATIONS];
 /* The value of an operation: the same bits wherever a formula is computed. */
 double gm_operation_value(enum gm_operation operation, double a, double b);
 
+static inline bool gm_is_rational(enum gm_operation operation)
+{
+    return (operation > GM_VARIABLE && operation <= GM_OPERATION_NEGATE) ||
+           operation == GM_OPERATION_WHOLE_POWER;
+}
+/* The value of such an operation on residues. `exponent` is the value of b. False: a division by 0. */
+bool gm_rational_residue(enum gm_operation operation, uint64_t a, uint64_t b, double exponent,
+                         uint64_t *value);
+
 /* A node's number. Operands have smaller numbers, so that a pass upwards evaluates, and one downwards gathers
    derivatives, without recursion. */
 typedef uint32_t gm_node_id;
@@ -41,12 +50,15 @@ static const uint32_t GM_NO_PLACE = UINT32_MAX;
 
 struct gm_node {
     enum gm_operation operation;
-    gm_node_id a;
+    gm_node_id a; /* of a constant: 1 + the number of its exact value; 0: gm_residue_of(value) */
     union {
         gm_node_id b;
         double value; /* value of a constant */
     };
 };
+
+/* What a constant stands for that was computed from others: 0.1 + 0.2 is 3/10, and not the double 0.3 + 5.6e-17. */
+struct gm_exact_value;
 
 struct gm_formula {
     struct gm_node *nodes;
@@ -54,6 +66,8 @@ struct gm_formula {
     uint32_t *origins; /* byte offset of the text it was derived from */
     gm_node_id count;
     size_t capacity;
+    struct gm_exact_value *exact;
+    gm_node_id exact_count;
     uint64_t *table; /* open addressing; 0: free, else number + 1, with the hash in the high 32 bits */
     size_t slots;
     uint32_t place;  /* place of further nodes that are written */
@@ -71,6 +85,8 @@ void gm_formula_close(struct gm_formula *graph);
 
 gm_node_id gm_formula_constant(struct gm_formula *graph, double value);
 gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
+/* The residue of what a constant stands for, as gm_residue_of. */
+bool gm_formula_residue(const struct gm_formula *graph, gm_node_id constant, uint64_t *residue);
 /* b of an operation of one operand is ignored. A power whose exponent is a constant whole number up to 16
    becomes a chain. While `simplifies` is set also, for finite x and y:
      0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0

@@ -2,6 +2,7 @@
 #include "core/expression/residue.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 gm_residue gm_residue_power(gm_residue a, uint64_t n)
@@ -27,9 +28,26 @@ uint64_t gm_mixed(uint64_t x)
     return x ^ (x >> 31);
 }
 
-gm_residue gm_residue_of(double value)
+/* The decimal m 10^n of up to 15 digits that is read as this double. */
+static bool find_decimal(double size, gm_residue *residue)
+{
+    char text[32];
+    uint64_t digits = 0;
+    snprintf(text, sizeof text, "%.14e", size);
+    const char *c = text;
+    for (; *c != 'e'; c++) {
+        digits = *c >= '0' && *c <= '9' ? 10 * digits + (uint64_t)(*c - '0') : digits;
+    }
+    const long exponent = strtol(c + 1, NULL, 10) - 14;
+    const gm_residue power = gm_residue_power(10, (uint64_t)labs(exponent));
+    *residue = gm_residue_times(digits, exponent < 0 ? gm_residue_inverse(power) : power);
+    return strtod(text, NULL) == size;
+}
+
+bool gm_residue_of(double value, gm_residue *residue)
 {
     const double largest = 0x1p36, size = fabs(value);
+    bool found = true;
     gm_residue result = 0;
     double rest = size, p[2] = {1, floor(size)}, q[2] = {0, 1}; /* the last two continued fractions */
     while (p[1] * q[1] < largest && fabs(p[1] / q[1] - size) > 0x1p-52 * size) {
@@ -42,7 +60,9 @@ gm_residue gm_residue_of(double value)
     }
     if (p[1] * q[1] < largest) {
         result = gm_residue_times((gm_residue)p[1], gm_residue_inverse((gm_residue)q[1]));
-    } else { /* m 2^e: 2^61 = 1 in the field, so that 1 + 2^-52 would be 513 */
+    } else if (!find_decimal(size,
+                             &result)) { /* m 2^e: 2^61 = 1 in the field, so that 1 + 2^-52 would be 513 */
+        found = false;
         int exponent = 0;
         uint64_t whole = (uint64_t)ldexp(frexp(size, &exponent), 53);
         exponent -= 53;
@@ -53,7 +73,8 @@ gm_residue gm_residue_of(double value)
         result = gm_residue_times(gm_mixed(gm_mixed(whole) ^ (uint64_t)(exponent - small)) % GM_PRIME,
                                   (gm_residue)1 << small);
     }
-    return value < 0 ? gm_residue_minus(result) : result;
+    *residue = value < 0 ? gm_residue_minus(result) : result;
+    return found;
 }
 
 static int64_t divisor(int64_t a, int64_t b)

@@ -26,23 +26,47 @@ struct gm_echelon gm_echelon_open(struct gm_arena *arena, size_t columns)
     return echelon;
 }
 
-/* row += factor * other, from column `first` on */
-static void add_multiple(gm_residue *row, gm_residue factor, const gm_residue *other, size_t first,
-                         size_t columns)
+enum { TOGETHER = 8 }; /* products that are added with one reduction modulo the prime */
+
+struct multiples {
+    gm_residue factors[TOGETHER]; /* 0: none */
+    const gm_residue *rows[TOGETHER];
+};
+
+static inline gm_residue with_multiples(const struct multiples *multiples, gm_residue entry, size_t column)
 {
-    for (size_t i = first; i < columns; i++) {
-        row[i] = gm_residue_fused(factor, other[i], row[i]);
+    gm_wide sum = entry;
+    for (size_t k = 0; k < TOGETHER; k++) {
+        sum += (gm_wide)multiples->factors[k] * multiples->rows[k][column];
     }
+    return gm_residue_folded(sum);
 }
 
 size_t gm_echelon_reduce(const struct gm_echelon *echelon, gm_residue *row)
 {
+    struct multiples multiples;
     size_t c = 0;
-    while (c < echelon->columns && (!row[c] || echelon->rows[c])) {
-        if (row[c]) {
-            add_multiple(row, gm_residue_minus(row[c]), echelon->rows[c], c, echelon->columns);
+    for (bool stopped = false; !stopped;) { /* rows wait for others */
+        size_t count = 0;
+        for (size_t k = 0; k < TOGETHER; k++) {
+            multiples.factors[k] = 0;
+            multiples.rows[k] = row;
         }
-        c++;
+        for (; count < TOGETHER && !stopped; c += !stopped) {
+            stopped = c == echelon->columns;
+            if (!stopped) {
+                row[c] = count ? with_multiples(&multiples, row[c], c) : row[c];
+                stopped = row[c] && !echelon->rows[c];
+            }
+            if (!stopped && row[c]) {
+                multiples.factors[count] = gm_residue_minus(row[c]);
+                multiples.rows[count++] = echelon->rows[c];
+                row[c] = 0;
+            }
+        }
+        for (size_t i = c + stopped; i < echelon->columns && count; i++) {
+            row[i] = with_multiples(&multiples, row[i], i);
+        }
     }
     return c;
 }
@@ -54,7 +78,10 @@ bool gm_echelon_add(struct gm_echelon *echelon, gm_residue *row)
         return false;
     }
     gm_residue *rest = gm_arena_take(echelon->arena, echelon->columns, sizeof *rest);
-    add_multiple(rest, gm_residue_inverse(row[c]), row, c, echelon->columns);
+    const gm_residue factor = gm_residue_inverse(row[c]);
+    for (size_t i = c; i < echelon->columns; i++) {
+        rest[i] = gm_residue_times(factor, row[i]);
+    }
     echelon->rows[c] = rest;
     return true;
 }
@@ -72,8 +99,12 @@ struct gm_null_vector *gm_echelon_null_space(const struct gm_echelon *echelon, s
         entries[last] = 1;
         for (size_t c = last; c-- > 0;) {
             gm_residue sum = 0;
-            for (size_t i = c + 1; i <= last && echelon->rows[c]; i++) {
-                sum = gm_residue_fused(echelon->rows[c][i], entries[i], sum);
+            for (size_t i = c + 1; i <= last && echelon->rows[c];) {
+                gm_wide part = sum;
+                for (const size_t end = i + TOGETHER; i < end && i <= last; i++) {
+                    part += (gm_wide)echelon->rows[c][i] * entries[i];
+                }
+                sum = gm_residue_folded(part);
             }
             entries[c] = gm_residue_minus(sum);
             terms += sum != 0;

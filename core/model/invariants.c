@@ -9,6 +9,7 @@
    (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
 #include "core/model/invariants.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,8 +47,7 @@ struct search {
     struct candidate *candidates;
     size_t count, points;
     gm_residue **values, **slope_values; /* [points][count] */
-    size_t *kept, kept_count;            /* candidates that are independent as functions, but for 1 */
-    struct gm_null_vector *basis;        /* of all invariants, by rising degree */
+    struct gm_null_vector *basis;        /* of all invariants, by rising degree; of candidates but for 1 */
     size_t basis_count, samples;         /* points at which invariants differ */
     struct named *named;
     size_t named_count;
@@ -80,6 +80,15 @@ static void add_function(struct search *search, gm_node_id node)
     }
 }
 
+/* sqrt(x) of x^(k/2), which is a power of it; else the node. */
+static gm_node_id base_of(struct gm_formula *graph, gm_node_id node)
+{
+    const struct gm_node power = graph->nodes[node], *exponent = &graph->nodes[power.b];
+    const bool halves = exponent->operation == GM_CONSTANT && fmod(exponent->value, 1) != 0 &&
+                        fmod(2 * exponent->value, 1) == 0;
+    return halves ? gm_simplified(graph, GM_OPERATION_SQRT, power.a, power.a) : node;
+}
+
 /* The components, then the parts of H, or else of the rates, that are not polynomials: functions, and 1/b of a
    quotient a/b. */
 static void find_variables(struct search *search)
@@ -107,7 +116,8 @@ static void find_variables(struct search *search)
     for (size_t k = count; k-- > 0 && !graph->failed;) {
         const struct gm_node node = graph->nodes[parts[k]];
         const unsigned here = use[parts[k]], turned = here / 2 + here % 2 * 2;
-        bool whole = true; /* a quotient has 1/node as a variable, not 1/factor */
+        gm_node_id part = parts[k];
+        bool whole = true, turns = false; /* a quotient has 1/node as a variable, not 1/factor */
         switch (here && moving[parts[k]] ? node.operation : GM_CONSTANT) {
         case GM_CONSTANT:
             whole = false;
@@ -133,12 +143,17 @@ static void find_variables(struct search *search)
             use[node.a] |= graph->nodes[node.b].value < 0 ? turned : here;
             whole = false;
             break;
+        case GM_OPERATION_POWER:
+            part = base_of(graph, parts[k]);
+            turns = part != parts[k] && graph->nodes[node.b].value < 0;
+            add_function(search, part);
+            break;
         default:
             add_function(search, parts[k]);
         }
-        if (whole && here & DIVISOR) {
+        if (whole && (turns ? turned : here) & DIVISOR) {
             add_variable(search,
-                         gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1), parts[k]));
+                         gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1), part));
         }
     }
 }
@@ -212,34 +227,12 @@ static bool take_values(struct search *search)
     return true;
 }
 
-/* Takes out candidates that as functions are combinations of earlier ones: r^2 = x^2 + y^2. */
-static void keep_independent(struct search *search)
-{
-    struct gm_echelon functions = gm_echelon_open(search->arena, search->count);
-    gm_residue *row = gm_arena_take(search->arena, search->count, sizeof *row);
-    const bool related = search->variable_count > search->n;
-    for (size_t p = 0; p < search->points && related; p++) {
-        memcpy(row, search->values[p], search->count * sizeof *row);
-        gm_echelon_add(&functions, row);
-    }
-    search->kept = gm_arena_take(search->arena, search->count, sizeof *search->kept);
-    for (size_t i = 1; i < search->count; i++) {
-        if (!related || functions.rows[i]) {
-            search->kept[search->kept_count++] = i;
-        }
-    }
-}
-
 /* Solves the equations for the coefficients. */
 static void solve(struct search *search)
 {
-    struct gm_echelon equations = gm_echelon_open(search->arena, search->kept_count);
-    gm_residue *row = gm_arena_take(search->arena, search->kept_count + 1, sizeof *row);
+    struct gm_echelon equations = gm_echelon_open(search->arena, search->count - 1);
     for (size_t p = 0; p < search->points; p++) {
-        for (size_t i = 0; i < search->kept_count; i++) {
-            row[i] = search->slope_values[p][search->kept[i]];
-        }
-        gm_echelon_add(&equations, row);
+        gm_echelon_add(&equations, search->slope_values[p] + 1);
     }
     search->basis = gm_echelon_null_space(&equations, &search->basis_count);
     search->samples = search->basis_count + 1 + SPARE_POINTS;
@@ -247,7 +240,7 @@ static void solve(struct search *search)
 
 static size_t degree_of(const struct search *search, const struct gm_null_vector *vector)
 {
-    return search->candidates[search->kept[vector->last]].degree;
+    return search->candidates[1 + vector->last].degree;
 }
 
 /* The values of an invariant at the samples. */
@@ -257,8 +250,7 @@ static gm_residue *values_of(const struct search *search, const struct gm_null_v
     for (size_t p = 0; p < search->samples; p++) {
         for (size_t i = 0; i <= vector->last; i++) {
             if (vector->entries[i]) {
-                values[p] =
-                    gm_residue_fused(vector->entries[i], search->values[p][search->kept[i]], values[p]);
+                values[p] = gm_residue_fused(vector->entries[i], search->values[p][1 + i], values[p]);
             }
         }
     }
@@ -270,6 +262,26 @@ static bool add_copy(struct gm_echelon *echelon, const gm_residue *row, gm_resid
 {
     memcpy(scratch, row, echelon->columns * sizeof *scratch);
     return gm_echelon_add(echelon, scratch);
+}
+
+/* Takes out invariants that as functions are combinations of earlier ones. They come from candidates that are such
+   combinations, r^2 = x^2 + y^2: an invariant whose last candidate is one is of earlier candidates, too. */
+static void keep_independent(struct search *search)
+{
+    struct gm_echelon functions = gm_echelon_open(search->arena, search->samples);
+    gm_residue *scratch = gm_arena_take(search->arena, search->samples, sizeof *scratch);
+    size_t kept = 0;
+    for (size_t p = 0; p < search->samples; p++) {
+        scratch[p] = 1;
+    }
+    gm_echelon_add(&functions, scratch);
+    for (size_t i = 0; i < search->basis_count; i++) {
+        if (gm_echelon_add(&functions, values_of(search, &search->basis[i]))) {
+            search->basis[kept++] = search->basis[i];
+        }
+    }
+    search->basis_count = kept;
+    search->samples = kept + 1 + SPARE_POINTS;
 }
 
 /* Adds all products of a degree of generators from number `first` on, times products[degree]. */
@@ -353,22 +365,23 @@ static void find_generators(struct search *search)
 static gm_node_id formula_of(const struct search *search, const struct gm_null_vector *vector)
 {
     struct gm_formula *graph = &search->system->graph;
-    double *coefficients = gm_arena_take(search->arena, search->kept_count, sizeof *coefficients);
+    const size_t count = search->count - 1;
+    double *coefficients = gm_arena_take(search->arena, count + 1, sizeof *coefficients);
     gm_node_id sum = gm_formula_constant(graph, 0);
-    if (!gm_residues_whole(vector->entries, search->kept_count, coefficients)) {
+    if (!gm_residues_whole(vector->entries, count, coefficients)) {
         return GM_NO_NODE;
     }
-    for (size_t i = 0; i < search->kept_count; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (coefficients[i] == 0) {
             continue;
         }
         gm_node_id product = gm_formula_constant(graph, 1);
-        size_t factors[GM_LARGEST_DEGREE], count = 0; /* the last first */
-        for (size_t c = search->kept[i]; c > 0; c = search->candidates[c].parent) {
-            factors[count++] = search->candidates[c].factor;
+        size_t factors[GM_LARGEST_DEGREE], degree = 0; /* the last first */
+        for (size_t c = 1 + i; c > 0; c = search->candidates[c].parent) {
+            factors[degree++] = search->candidates[c].factor;
         }
-        while (count-- > 0) {
-            product = gm_product(graph, product, search->variables[factors[count]]);
+        while (degree-- > 0) {
+            product = gm_product(graph, product, search->variables[factors[degree]]);
         }
         product = gm_product(graph, gm_formula_constant(graph, coefficients[i]), product);
         sum = gm_sum(graph, sum, product);
@@ -499,8 +512,8 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
         found->lacks = "the search finds no values of its roots";
         return;
     }
-    keep_independent(&search);
     solve(&search);
+    keep_independent(&search);
     find_generators(&search);
     write_generators(&search, found);
     found->degree = search.degree;

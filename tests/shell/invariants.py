@@ -33,6 +33,12 @@ TABLE = [
     ("van der Pol", {"x": "y", "y": "(1 - x^2)*y - x"}, {}, 5, [], 0, 0),
     ("kepler", kepler, {"perturbation": 0}, 3, [2, 2, 3, 3], 3, 2),
     ("kepler", kepler, {"perturbation": 0}, 4, [2, 2, 3, 3], 3, 2),
+    ("kepler with a power", kepler.replace("1/sqrt(q1^2 + q2^2)", "1/(q1^2 + q2^2)^(1/2)"), {"perturbation": 0}, 4,
+     [2, 2, 3, 3], 3, 2),
+    ("kepler by rates", dict(q1="p1", q2="p2", p1="-q1*(q1^2 + q2^2)^(-1.5)", p2="-q2/(q1^2 + q2^2)^1.5"), {}, 4,
+     [2, 2, 3, 3], 3, 2),
+    ("decimals", {"x": "0.1*y", "y": "-0.3*x"}, {}, 4, [2], 1, None),
+    ("long decimals", {"x": "0.123457*y", "y": "-0.7*x"}, {}, 4, [2], 1, None),
     ("perturbed Kepler", kepler, {"perturbation": 0.01}, 4, [2, 2], 2, 1),
     ("pendulum", "p1^2/2 - cos(q1)", {}, 4, [2], 1, 0),
     ("cosh", "p1^2/2 + cosh(q1)", {}, 4, [2], 1, 0),
@@ -158,6 +164,8 @@ if "and 3 whose coefficients are not short fractions" not in irrational.stdout:
     fail(f"irrational coefficients: {irrational.stdout}{irrational.stderr}")
 for words, sentence in [
     (["kepler", "--invariants", "--degree", "9"], "--degree 9 is not a whole number from 1 to 8"),
+    *[(["kepler", "--invariants", "--degree", degree], f"--degree {degree} is not a whole number from 1 to 8")
+      for degree in ("0", "-1", "1.5", "x")],
     (["kepler", "--degree", "3"], "--degree is that of --invariants, which is missing"),
     (["rk4", "--invariants"], "--invariants are those of a system: list kepler --invariants"),
     (["wave", "--invariants"], "not searched: it is a field"),

@@ -75,6 +75,22 @@ for energy in 'abs(p + q)' 'max(p, q)' 'mod(p + q, 1)' 'sqrt((p + q)^2)'; do
 done
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + abs(q) + sqrt(1 + q^2)\nstart: q = 1, p = 2\n' >kink.system
 holds ./kink.system nystrom 'yes'
+# a perturbation that rounding hides, too, and another one near it
+for rate in 'x = y, y = -x + 1e-12*y' 'x = y, y = -x + 1e-17*y' 'x = 1e8*y, y = -1e8*x + 1e-9*y' 'x = 2^30*y*2^31, y = -x'; do
+    printf 'components: x y\nrate: %s\ninvariant: C = x^2 + y^2\nstart: x = 1, y = 0\n' "$rate" >kink.system
+    "$geomint" run ./kink.system steps=1 >out 2>&1 && fail "an invariant of $rate: $(cat out)"
+done
+# decimals are fractions, also where constants are multiplied: 6*0.1 = 2*0.3
+printf 'components: x y\nrate: x = 0.1*y, y = -0.3*x\ninvariant: C = 3*x^2 + y^2\nstart: x = 1, y = 0\n' >kink.system
+"$geomint" run ./kink.system steps=1 >out 2>&1 || fail "decimals: $(cat out)"
+printf 'rate: x = 0.1*x + 0.2*x, y = -0.3*y\nstart: x = 1, y = 1\n' >kink.system
+holds ./kink.system divergence-free 'yes'
+magnetic() { # RATES ANSWER
+    printf 'rate: x = u, y = v, %s\nstart: x = 1, y = 0, u = 0, v = 1\n' "$1" >kink.system
+    holds ./kink.system magnetic "$2"
+}
+magnetic 'u = -x + 0.1*3*v, v = -y - 0.3*u' 'yes'
+magnetic 'u = -x + 0.3*v, v = -y - 0.3000000000001*u' 'no'
 for law in 'abs(x) - x' 'min(x, 3) - x' 'sqrt(x^2) - x'; do
     printf 'components: x\nrate: x = 1\ninvariant: s = %s\nstart: x = 1\n' "$law" >kink.system
     "$geomint" run ./kink.system steps=1 >out 2>&1 && fail "the invariant $law: $(cat out)"
