@@ -231,7 +231,7 @@ static bool is_known(const struct gm_random_values *random)
     return known;
 }
 
-/* How many of `enough` points have the value 0, of at most `tries`; -1: one has another value. */
+/* Returns how many of `enough` points have the value 0, of at most `tries`; -1: one has another value. */
 static int zeros(struct gm_random_values *random, gm_node_id node, int enough, uint64_t tries)
 {
     int found = 0;

@@ -10,7 +10,7 @@
 #include "core/schemes.h"
 #include "scenes/common/system/pieces.h"
 
-/* Refuses an option that names what is no observable. */
+/* Refuses an option unless it names an observable. */
 static void check_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,
                              enum gm_system_option_word word)
 {

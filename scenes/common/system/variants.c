@@ -284,7 +284,7 @@ static void keep_common_schemes(struct gm_system_scene *first)
     }
 }
 
-/* What a body that opens systems works on. */
+/* The first system of a file, and the one that a body opens for a lane. */
 struct uniting {
     struct gm_system_scene *first, *made;
     const struct gm_system_lane *lane;
