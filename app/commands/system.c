@@ -941,5 +941,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
             print_schemes(report);
         }
     }
+    gm_arena_need(options->arena,
+                  !gm_memory_was_short()); /* nor does a formula without a text count as a long one */
     return gm_finish(GM_EXIT_OK);
 }

@@ -104,6 +104,7 @@ COMMANDS = [
     ("run system H=p^2/2-cos(q) q=1 p=0 steps=5 --json", {}),
     ("run system H=p^2/2-cos(q) q=1 p=0 steps=5 scheme=gauss4 --engine native --json", {}),
     ("run MESHES/../pieces.system steps=2 --json", {}),
+    ("list MESHES/../pieces.system --long", {}),
     ("run SHARE/systems/argon.system steps=2 --json", {}),
     ("run SHARE/systems/phi4.system steps=2 --json", {}),
     ("run SHARE/rooms/heated.room steps=1 --json", {"statuses": (1, 3)}),
