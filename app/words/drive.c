@@ -240,6 +240,13 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
     }
     const char *const name = run->scheme->name;
+    if (run->scheme->base && run->unsolved.obstacle == GM_NOT_KNOWN) {
+        snprintf(
+            text, size,
+            "the step after t = %.6g found no way back to the invariants of the start; take a shorter dt",
+            run->t);
+        return;
+    }
     const bool helps = strcmp(name, "radau5") != 0 && strcmp(name, "sdirk2") != 0 &&
                        gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem);
     snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s", run->t,
