@@ -408,8 +408,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     static _Thread_local char sentence[GM_FAULT_SENTENCE];
-    if (scheme->needs & ~(unsigned)(GM_NEEDS_PARTS | GM_NEEDS_NYSTROM)) { /* facets that solve all parts */
-        return NULL;
+    const struct gm_parts_row *row = scheme->coefficients;
+    if (!scheme->word && (row->corrector == 0 || problem->n <= GM_NEWTON_LARGEST)) {
+        return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
     const bool good = work != NULL;
@@ -584,6 +585,7 @@ static struct gm_progress loop(const struct gm_task *task)
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
             make_matrix(work, &work->flows[i], work->flows[i].fraction * task->dt);
+            work->known = false;
         }
     }
     work->dt = task->dt;
