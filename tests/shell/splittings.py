@@ -222,9 +222,9 @@ def faults_are_told(path):
             "strang(A, A)": "column 11: the part A is given twice",
             "rk4(A, B)": "column 1: rk4 is not a splitting",
             "strang(A, C)": "A + C is not H, H - A - C = ",
-            "strang(A, kinetik)": "did you mean kinetic",
+            "strang(A, kinetik)": "a part kinetik (column 11); did you mean kinetic",
             "strang(A, kinetic)": "the rate of a has, beside A + kinetic, -u (-0.2 at the start)",
-            "strang(E, B)": "E by gauss4",
+            "strang(E, B)": "a known flow of E (column 8), which is neither",
             "strang(A by verlet, B)": "a scheme for any field, of at most 64 components, not A by verlet",
             "composition(strang(A, C); 1)": "A + C is not H"}.items():
         told = run(path, "scheme=" + scheme, "until=1")

@@ -139,6 +139,16 @@ static const char *name_of(size_t i, const void *names)
     return ((const char *const *)names)[i];
 }
 
+/* " (column 8)": where the scheme's word names a part; "" if no word does. */
+static const char *column_of(const struct work *work, const char *name)
+{
+    const char *word = work->scheme ? work->scheme->name : NULL, *at = word ? strchr(word, '(') : NULL;
+    const size_t letters = strlen(name);
+    while (at && (at = strstr(at + 1, name)) && (!strchr("( ,", at[-1]) || !strchr("), ;", at[letters]))) {
+    }
+    return at ? gm_arena_print(work->arena, " (column %zu)", (size_t)(at - word) + 1) : "";
+}
+
 /* The names of all parts, or the nearest one, in words. */
 static const char *other_names(const struct work *work, const char *name)
 {
@@ -163,7 +173,8 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
     const bool found = parts->rates(work->problem, name, &work->graph, rates);
     gm_arena_need(work->arena, !work->graph.failed);
     if (!found) {
-        gm_arena_refuse(work->arena, "a part %.40s; %s", name, other_names(work, name));
+        gm_arena_refuse(work->arena, "a part %.40s%s; %s", name, column_of(work, name),
+                        other_names(work, name));
     }
     return rates;
 }
@@ -174,9 +185,9 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
         gm_arena_refuse(
             work->arena,
-            "a known flow of %.40s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
+            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
             "gauss4",
-            name, name);
+            name, column_of(work, name), name);
     }
     const size_t slopes = part->flow.slopes.count;
     gm_tape_keep(work->arena, &part->tape,
@@ -408,8 +419,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     static _Thread_local char sentence[GM_FAULT_SENTENCE];
-    if (scheme->needs & ~(unsigned)(GM_NEEDS_PARTS | GM_NEEDS_NYSTROM)) { /* facets that solve all parts */
-        return NULL;
+    const struct gm_parts_row *row = scheme->coefficients;
+    if (!scheme->word && (row->corrector == 0 || problem->n <= GM_NEWTON_LARGEST)) {
+        return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
     const bool good = work != NULL;
@@ -584,6 +596,7 @@ static struct gm_progress loop(const struct gm_task *task)
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
             make_matrix(work, &work->flows[i], work->flows[i].fraction * task->dt);
+            work->known = false;
         }
     }
     work->dt = task->dt;
