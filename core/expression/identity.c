@@ -222,7 +222,7 @@ static bool is_known(const struct gm_random_values *random)
     return known;
 }
 
-/* How many of `enough` points have the value 0, of at most `tries`; -1: one has another value. */
+/* The number of points, up to `enough` in `tries` of them, where the value is 0; -1: it is not 0 at one. */
 static int zeros(struct gm_random_values *random, gm_node_id node, int enough, uint64_t tries)
 {
     int found = 0;
