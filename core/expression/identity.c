@@ -131,12 +131,6 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
     case GM_OPERATION_ABS:
         *value = is_square(a) ? a : gm_residue_minus(a);
         break;
-    case GM_OPERATION_SIGN:
-        *value = a == 0 ? 0 : is_square(a) ? 1 : gm_residue_minus(1);
-        break;
-    case GM_OPERATION_HEAVISIDE:
-        *value = is_square(a);
-        break;
     case GM_OPERATION_MIN:
         *value = is_below(seed, a, b) ? a : b;
         break;
@@ -145,9 +139,6 @@ static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, dou
         break;
     case GM_OPERATION_BELOW:
         *value = is_below(seed, a, b);
-        break;
-    case GM_OPERATION_CHOSEN:
-        *value = a == 1 ? b : 0;
         break;
     default:
         *value = unrelated(seed, node->operation, a, b);
@@ -231,7 +222,7 @@ static bool is_known(const struct gm_random_values *random)
     return known;
 }
 
-/* Returns how many of `enough` points have the value 0, of at most `tries`; -1: one has another value. */
+/* The number of points, up to `enough` in `tries` of them, where the value is 0; -1: it is not 0 at one. */
 static int zeros(struct gm_random_values *random, gm_node_id node, int enough, uint64_t tries)
 {
     int found = 0;

@@ -2,6 +2,7 @@
 /* The declarations of a system: its kind, its parameters, the names of its state, its lets. */
 #include "core/model/declarations.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -353,8 +354,21 @@ static size_t component_named(struct gm_reading *reading, struct gm_span name)
     return entry && entry->role == GM_ENTRY_COMPONENT ? entry->number : SIZE_MAX;
 }
 
+static bool names(struct gm_reading *reading, struct gm_span text, size_t component)
+{
+    bool found = false;
+    for (size_t i = text.begin, end = i; i < text.end && !found; i = end + (end == i)) {
+        for (end = i; end < text.end &&
+                      (isalnum((unsigned char)reading->text[end]) || strchr("_[]", reading->text[end]));) {
+            end++;
+        }
+        found = component_named(reading, (struct gm_span){i, end}) == component;
+    }
+    return found;
+}
+
 /* Numbers the components of x' = v: x from 0 on, v from n / 2 on, where `order` is SIZE_MAX. Returns false unless
-   these are all. */
+   these are all; and for one pair whose v' names v, which has no use of another order. */
 static bool pair_components(struct gm_reading *reading, size_t *order)
 {
     const size_t n = reading->component_count;
@@ -365,7 +379,9 @@ static bool pair_components(struct gm_reading *reading, size_t *order)
             const size_t equals = gm_span_until(reading->text, piece, "=");
             const size_t x = component_named(reading, (struct gm_span){piece.begin, equals}),
                          v = component_named(reading, (struct gm_span){equals + 1, piece.end});
-            if (equals == piece.end || x == SIZE_MAX) {
+            const bool damped =
+                n == 2 && v == SIZE_MAX && names(reading, (struct gm_span){equals + 1, piece.end}, x);
+            if (equals == piece.end || x == SIZE_MAX || damped) {
                 return false;
             }
             if (v != SIZE_MAX) {
@@ -380,7 +396,8 @@ static bool pair_components(struct gm_reading *reading, size_t *order)
     return 2 * places == n;
 }
 
-/* Reorders the components of two or more x' = v with the rates of v, which may have any order: all x, then all v. */
+/* Reorders the components of x' = v and the rates of v, which may have any order: all x, then all v. The first of two
+   fields, which is drawn, stays. */
 static bool put_places_first(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -391,7 +408,7 @@ static bool put_places_first(struct gm_reading *reading)
         return gm_fail_memory(&reading->fault);
     }
     memset(order, 0xff, n * sizeof *order);
-    if (n <= 2 || !pair_components(reading, order)) {
+    if ((n == 2 && gm_system_is_field(system)) || !pair_components(reading, order)) {
         return true;
     }
     for (size_t i = 0; i < n; i++) {

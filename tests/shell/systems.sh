@@ -106,6 +106,8 @@ second 'x = 2*v, v = -x, y = w, w = -y' 'no  2\*v .* is not a velocity, in the r
 second 'x = v, y = v, v = -x, w = -y' 'no  v .* is not a velocity, in the rate of y'
 second 'x = v, y = w, v = -x - t*v, w = -y' 'no  v .* holds a velocity, in the rate of v' # which vanishes at t = 0
 second 'x = v, y = w, v = w - w - x, w = -y' 'yes'
+printf 'rate: v = -sin(x), x = v\nstart: x = 1, v = 0\n' >second.system
+holds ./second.system second-order 'yes'
 second 'x = v, v = -x + y/2, y = w, w = -2*y - x/2 + cos(t)/2' 'yes'
 for scheme in 'verlet 2' 'yoshida4 4' 'blanes-moan-nystrom6 6'; do
     set -- $scheme
