@@ -17,9 +17,11 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
     };
     /* of the gradient, of bend, and of a density at all ends */
     const size_t of_density = mesh->density && mesh->density->local ? 2 * (3 + GM_DENSITY_VALUES) : 0;
-    const size_t count = GM_COUNT(arrays), length = mesh->points + 2;
+    const size_t count = GM_COUNT(arrays), length = mesh->points + 2,
+                 of_cells = mesh->cell ? 2 * GM_CELL_INPUTS + 3 : 0;
     *stage = (struct gm_elements){.count = mesh->points + 1};
-    stage->memory = calloc((count + 8 + GM_DENSITY_OF_SLOPE + of_density) * length, sizeof *stage->memory);
+    stage->memory =
+        calloc((count + 8 + GM_DENSITY_OF_SLOPE + of_density + of_cells) * length, sizeof *stage->memory);
     if (!stage->memory) {
         return false;
     }
@@ -31,6 +33,11 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
         stage->bend[a] = stage->memory + (count + 4 + a) * length;
     }
     stage->density = stage->memory + (count + 8) * length;
+    if (of_cells > 0) {
+        stage->cells = stage->density + (GM_DENSITY_OF_SLOPE + of_density) * length;
+        stage->cell_v0 = stage->cells + (2 * GM_CELL_INPUTS + 1) * length;
+        stage->cell_v1 = stage->cell_v0 + length;
+    }
     stage->ends = of_density ? stage->density + 2 * GM_DENSITY_VALUES * length : NULL;
     stage->y[0] = mesh->left;
     stage->y[length - 1] = mesh->right;
@@ -74,6 +81,38 @@ static double shape(struct gm_elements *stage)
     return least;
 }
 
+static void cell_at(const struct gm_elements *stage, size_t e, double at[GM_CELL_INPUTS])
+{
+    at[0] = stage->width[e];
+    at[1] = stage->v[e + 1] - stage->v[e];
+    at[2] = (stage->v[e] + stage->v[e + 1]) / 2;
+    at[3] = stage->slope[e];
+}
+
+/* Adds the cells' forces and momenta; their sum. */
+static double add_cells(struct gm_elements *stage, const struct gm_mesh_cell *cell)
+{
+    const size_t count = stage->count;
+    double *at = stage->cells, *by = at + (GM_CELL_INPUTS + 1) * count, one[GM_CELL_INPUTS], sum = 0;
+    for (size_t e = 0; e < count; e++) {
+        cell_at(stage, e, one);
+        for (size_t i = 0; i < GM_CELL_INPUTS; i++) {
+            at[i * count + e] = one[i];
+        }
+    }
+    cell->first(cell, at, at + GM_CELL_INPUTS * count, count);
+    for (size_t e = 0; e < count; e++) {
+        const double pull = by[3 * count + e] / stage->width[e];
+        stage->force_y1[e] += pull;
+        stage->force_y0[e] -= pull;
+        stage->force_d[e] += by[e] - stage->slope[e] * pull;
+        stage->cell_v0[e] = by[2 * count + e] / 2 - by[count + e];
+        stage->cell_v1[e] = by[2 * count + e] / 2 + by[count + e];
+        sum += stage->force_d[e] + stage->cell_v0[e] + stage->cell_v1[e];
+    }
+    return sum;
+}
+
 bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
     if (!(shape(stage) > 0)) {
@@ -103,6 +142,7 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
         momentum_u1[e] = (d * a1 - r * b1) * (1. / 6);
         sum += force_d[e];
     }
+    sum += mesh->cell ? add_cells(stage, mesh->cell) : 0;
     return isfinite(sum);
 }
 
@@ -269,6 +309,30 @@ static void bend_of_ell(const struct gm_elements *stage, const struct gm_mesh *m
     }
 }
 
+/* Adds the second derivatives of the cell's Lagrangian, of which d, d_t, m_t are linear in z and zdot. */
+static void add_cell(const struct gm_elements *stage, const struct gm_mesh_cell *cell, size_t e,
+                     struct gm_element_matrices *matrices)
+{
+    static const double width[4] = {0, -1, 0, 1}, middle[4] = {0, 0.5, 0, 0.5};
+    const double d = stage->width[e], g = stage->slope[e],
+                 *by = stage->cells + (GM_CELL_INPUTS + 1) * stage->count;
+    const double slope[4] = {-1 / d, g / d, 1 / d, -g / d}, pull = by[3 * stage->count + e] / (d * d);
+    double at[GM_CELL_INPUTS], of[4][4], bent[4][4];
+    cell_at(stage, e, at);
+    cell->second(cell, at, of);
+    spread(0, 0, 0, 0, -pull, 2 * g * pull, bent); /* LC_s times the second derivatives of the slope */
+    for (size_t a = 0; a < 4; a++) {
+        for (size_t b = 0; b < 4; b++) {
+            matrices->mass[a][b] += width[a] * (of[1][1] * width[b] + of[1][2] * middle[b]) +
+                                    middle[a] * (of[1][2] * width[b] + of[2][2] * middle[b]);
+            matrices->mixed[a][b] += width[a] * (of[1][0] * width[b] + of[1][3] * slope[b]) +
+                                     middle[a] * (of[2][0] * width[b] + of[2][3] * slope[b]);
+            matrices->stiff[a][b] += width[a] * (of[0][0] * width[b] + of[0][3] * slope[b]) +
+                                     slope[a] * (of[3][0] * width[b] + of[3][3] * slope[b]) + bent[a][b];
+        }
+    }
+}
+
 void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t e,
                           bool constrained, struct gm_element_matrices *matrices)
 {
@@ -291,6 +355,9 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
         }
     }
     gm_elements_mass(stage, e, matrices->mass);
+    if (mesh->cell) {
+        add_cell(stage, mesh->cell, e, matrices);
+    }
     if (!constrained) {
         return;
     }

@@ -33,6 +33,8 @@ struct gm_elements {
     double *momentum_u0, *momentum_u1; /* dl/du; dl/dV is -slope times them */
     double *ell, *rate;                /* ell, and its rate: the gradient times the velocity */
     double *gradient[4], *bend[4]; /* the gradient of ell by z = (y0, X0, y1, X1), its Hessian times zdot */
+    double *cells;                 /* of gm_mesh_cell: what they depend on, then values; NULL: no cells */
+    double *cell_v0, *cell_v1;     /* their momenta dLC/dV at both ends */
     double *ends, *density;        /* what a density depends on, and its values (struct gm_density) */
 };
 
@@ -86,7 +88,8 @@ static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)
 
 static inline double gm_momentum_v(const struct gm_elements *stage, size_t k)
 {
-    return -(stage->slope[k - 1] * stage->momentum_u1[k - 1] + stage->slope[k] * stage->momentum_u0[k]);
+    return -(stage->slope[k - 1] * stage->momentum_u1[k - 1] + stage->slope[k] * stage->momentum_u0[k]) +
+           (stage->cells ? stage->cell_v1[k - 1] + stage->cell_v0[k] : 0);
 }
 
 static inline double gm_force_y(const struct gm_elements *stage, size_t k)

@@ -55,6 +55,16 @@ struct gm_density {
     void (*values)(const struct gm_density *density, const double *at, double *values, size_t m);
 };
 
+/* The Lagrangian of one cell, which is added to that of the field if nodes are free. It depends on the cell's width d,
+   the rate d_t of the width, the velocity m_t of its middle, and its slope s, in this order. */
+enum { GM_CELL_INPUTS = 4 };
+struct gm_mesh_cell {
+    /* Writes the Lagrangian of m cells and its derivatives by the four, [number * m + cell], as `at` lies. */
+    void (*first)(const struct gm_mesh_cell *cell, const double *at, double *values, size_t m);
+    /* Writes the second derivatives of one cell. */
+    void (*second)(const struct gm_mesh_cell *cell, const double *at, double values[4][4]);
+};
+
 /* A mesh that is known: at time t the nodes with these labels, which have equal distances, are at x with the
    velocity `rate`. */
 struct gm_mesh_map {
@@ -68,9 +78,10 @@ struct gm_mesh {
     double left, right;   /* the field at both ends */
     double even;          /* the homotopy of the start has (1 - even) P + even instead of P; else 0 */
     const struct gm_density *density;
-    double relax;                  /* T of a mesh that is smoothed in time; 0: it is not */
-    double t;                      /* the time of states that are started or carried */
-    const struct gm_mesh_map *map; /* NULL: nodes are at their labels */
+    const struct gm_mesh_cell *cell; /* NULL: none */
+    double relax;                    /* T of a mesh that is smoothed in time; 0: it is not */
+    double t;                        /* the time of states that are started or carried */
+    const struct gm_mesh_map *map;   /* NULL: nodes are at their labels */
     const struct gm_potential *potential;
 };
 
@@ -117,6 +128,13 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
 double gm_mesh_energy(const struct gm_mesh *mesh, const double *state);
 /* The largest |ell - ell of the neighbour| over the largest ell. */
 double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state);
+/* The least difference of the slopes on both sides of a node. */
+double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state);
+/* The rank of the mass matrix of field and nodes, from eigenvalues above 1e-12 of the largest, and its condition.
+   Returns false above GM_DENSE_POINTS nodes, or when out of memory. det M is a product of squared differences of
+   slopes: every straight node takes 1 off the rank (Tyranowski & Desbrun 2019, proposition 7). */
+enum { GM_DENSE_POINTS = 255 };
+bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state);
 
 /* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of

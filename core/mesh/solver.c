@@ -79,6 +79,7 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
     gm_moving_mesh_of(problem)->describe(problem, &solver->mesh);
     solver->row = scheme->coefficients;
     solver->strategy = strategy_of(solver->row, mesh);
+    solver->mesh.cell = solver->strategy->free ? mesh->cell : NULL;
     solver->stages = stages_of(solver->row);
     solver->per_node = solver->strategy->unknowns * solver->stages;
     const size_t points = mesh->points, n = points * solver->per_node, moves = solver->strategy->projected;
@@ -403,7 +404,7 @@ static enum gm_status finish(struct gm_mesh_solver *solver, double *state, doubl
     if (!end) {
         return GM_MESH_CROSSING;
     }
-    if (!gm_nodes_project(end, &solver->projection, moves, solver->motion)) {
+    if (!solver->strategy->free && !gm_nodes_project(end, &solver->projection, moves, solver->motion)) {
         return GM_NO_CONVERGENCE;
     }
     for (size_t k = 0; k < points; k++) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/eigenvalues.h"
 #include "core/mesh/nodes.h"
 
 /* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1 in this many steps, which for
@@ -240,6 +241,11 @@ double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
             const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
                                     (stage.u[e + 1] - g * stage.v[e + 1]) * stage.momentum_u1[e]) /
                                    2;
+            if (mesh->cell) { /* d_t LC_dt + m_t LC_m - LC */
+                const double *at = stage.cells + e, *of = at + GM_CELL_INPUTS * stage.count;
+                sum +=
+                    at[stage.count] * of[2 * stage.count] + at[2 * stage.count] * of[3 * stage.count] - of[0];
+            }
             sum += kinetic + stage.rise[e] * g / 2 + stage.width[e] * stage.w[e];
         }
     }
@@ -262,6 +268,60 @@ double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state
     }
     gm_elements_close(&stage);
     return jump / size;
+}
+
+double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
+{
+    struct gm_elements stage;
+    double least = INFINITY;
+    if (!gm_elements_open(&stage, mesh)) {
+        return NAN;
+    }
+    gm_elements_place(&stage, state);
+    gm_elements_evaluate(&stage, mesh);
+    for (size_t k = 1; k <= mesh->points; k++) {
+        least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
+    }
+    gm_elements_close(&stage);
+    return least;
+}
+
+bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition)
+{
+    const size_t points = mesh->points, n = 2 * points;
+    struct gm_elements stage = {0};
+    double *dense = points <= GM_DENSE_POINTS ? calloc(n * n + 2 * n, sizeof *dense) : NULL;
+    bool good = dense && gm_elements_open(&stage, mesh);
+    if (good) {
+        gm_elements_place(&stage, state);
+        good = gm_elements_evaluate(&stage, mesh);
+    }
+    for (size_t e = 0; good && e <= points; e++) {
+        struct gm_element_matrices at;
+        gm_elements_matrices(&stage, mesh, e, false, &at);
+        for (size_t i = 0; i < 16; i++) {
+            const size_t a = 2 * e + i / 4, b = 2 * e + i % 4; /* 2 and 3 are of the first node that moves */
+            if (a >= 2 && b >= 2 && a < n + 2 && b < n + 2) {
+                dense[(a - 2) * n + b - 2] += at.mass[i / 4][i % 4];
+            }
+        }
+    }
+    good = good && gm_eigenvalues(dense, n, dense + n * n, dense + n * n + n);
+    if (good) {
+        double least = INFINITY, largest = 0;
+        for (size_t i = 0; i < n; i++) {
+            largest = fmax(largest, dense[n * n + i]);
+            least = fmin(least, fabs(dense[n * n + i]));
+        }
+        *rank = 0;
+        for (size_t i = 0; i < n; i++) {
+            *rank += dense[n * n + i] > 1e-12 * largest;
+        }
+        *condition = largest / least;
+    }
+    gm_elements_close(&stage);
+    free(dense);
+    return good;
 }
 
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state)

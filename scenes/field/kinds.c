@@ -134,6 +134,7 @@ static bool open_mesh(struct gm_problem *problem, const struct gm_system_lane *l
                                       .alpha = lane->grid.alpha,
                                       .density = lane->grid.density,
                                       .map = lane->grid.mesh,
+                                      .cell = lane->grid.cell,
                                       .relax = lane->grid.relax,
                                       .until = lane->timing.until};
     return gm_user_mesh_open(problem, &gm_user_field_of(lane)->wave, values, &mesh);
@@ -190,6 +191,8 @@ static const struct gm_parameter mesh_rows[] = {
         .choices = gm_user_densities, .names = true),
     GM_TEXT_ROW(GM_FIELD_LANE, grid.mesh, "mesh", "X = x",
                 "where the node with label x is at time t, for given- schemes", .names = true),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.cell, "cell", "0",
+                "the Lagrangian of a cell in d, d_t, m_t and u_x, for free- schemes", .names = true),
     GM_REAL_ROW(GM_FIELD_LANE, grid.relax, "relax", "0", 0, 1e6,
                 "time T in which nodes tend to their places, for control- schemes; 0: they are there"),
 };

@@ -32,8 +32,16 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
         return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
     }
+    const size_t points = mesh.points;
+    double rank, condition;
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
-        return true;
+        const bool straight = gm_scheme_mesh(scheme) == GM_MESH_FREE && !mesh.cell &&
+                              gm_mesh_mass(&mesh, y, &rank, &condition) && rank < 2 * (double)points;
+        return !straight ||
+               gm_refuse(sentence,
+                         "%g of %zu nodes are straight: the mass matrix has rank %g of %zu; a line cell: "
+                         "makes it regular",
+                         2 * (double)points - rank, points, rank, 2 * points);
     }
     const char *name = lane->owner->system.variables[0].name;
     double u, slope, rate;

@@ -68,7 +68,7 @@ static void close_evolution(void *evolution)
 static void make_rows(struct gm_user_field *field)
 {
     static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
-                                                 GM_WORD_MESH, GM_WORD_RELAX};
+                                                 GM_WORD_MESH,  GM_WORD_RELAX,    GM_WORD_CELL};
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
@@ -458,6 +458,8 @@ static void make(struct gm_arena *arena, void *data)
         of_file->scene.elsewhere = on_a_ring;
         of_file->scene.start_with = gm_field_start_mesh;
         of_file->scene.chosen = gm_field_note_alpha;
+        of_file->scene.asked = gm_mesh_asked;
+        of_file->scene.asked_count = GM_COUNT(gm_mesh_asked);
     } else if (in_potential && making->words && !of_file->initial->grid.walls) {
         of_file->scene.elsewhere = on_a_mesh;
     } else if (is_known && making->words) {

@@ -83,11 +83,54 @@ double gm_view_lead(const struct gm_view *view)
     return fabs(shift) < 1 ? shift : NAN;
 }
 
+/* The mesh with the cells' Lagrangian if the scheme integrates it. */
+static struct gm_mesh integrated(const struct gm_view *view)
+{
+    struct gm_mesh mesh = gm_mesh_of(view);
+    mesh.cell = gm_scheme_mesh(view->scheme) == GM_MESH_FREE ? mesh.cell : NULL;
+    return mesh;
+}
+
 double gm_view_mesh_energy(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_of(view);
+    const struct gm_mesh mesh = integrated(view);
     return gm_mesh_energy(&mesh, view->state);
 }
+
+double gm_view_field_energy(const struct gm_view *view)
+{
+    struct gm_mesh mesh = integrated(view);
+    const bool adds = mesh.cell;
+    mesh.cell = NULL;
+    return adds ? gm_mesh_energy(&mesh, view->state) : NAN;
+}
+
+static double straightest(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return gm_mesh_straightest(&mesh, view->state);
+}
+
+static double rank(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = integrated(view);
+    double rank, condition;
+    return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? rank : NAN;
+}
+
+static double condition(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = integrated(view);
+    double rank, condition;
+    return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? condition : NAN;
+}
+
+const struct gm_observable gm_mesh_asked[3] = {
+    GM_LOG_OBSERVABLE("straightest", straightest, "least difference of slopes at a node"),
+    GM_OBSERVABLE("mass_rank", rank, "rank of the mass matrix", .missing = "there are more than 255 nodes"),
+    GM_LOG_OBSERVABLE("mass_condition", condition, "condition of the mass matrix",
+                      .missing = "there are more than 255 nodes"),
+};
 
 double gm_view_constraint_defect(const struct gm_view *view)
 {

@@ -17,6 +17,9 @@ double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer)
 double gm_view_mesh_error(const struct gm_view *view);
 double gm_view_lead(const struct gm_view *view);
 double gm_view_mesh_energy(const struct gm_view *view);
+double gm_view_field_energy(const struct gm_view *view);
+/* Observables that are computed on request. */
+extern const struct gm_observable gm_mesh_asked[3];
 double gm_view_constraint_defect(const struct gm_view *view);
 double gm_view_multiplier_norm(const struct gm_view *view);
 double gm_view_smallest_cell(const struct gm_view *view);
@@ -30,7 +33,10 @@ double gm_view_factorisations(const struct gm_view *view);
                       .missing = "no shift in time brings the exact solution near")
 #define GM_MESH_ENERGIES                                                                                     \
     GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),                                         \
-        GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error")
+        GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),                        \
+        GM_KEPT_OBSERVABLE("field_energy_error", gm_view_field_energy, "E",                                  \
+                           "energy error of the field alone",                                                \
+                           .missing = "cells have no energy of their own")
 #define GM_MESH_NODES                                                                                        \
     GM_LOG_OBSERVABLE("constraint_defect", gm_view_constraint_defect, "defect of the mesh constraint",       \
                       .missing = "this mesh does not move"),                                                 \

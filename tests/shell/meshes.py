@@ -219,7 +219,51 @@ def smoothing():
     refused("relax: is a number between 0 and 1e+06", file_of("lazy", "relax: k"))
 
 
+def free_nodes():
+    inertia = "cell: 0.05/2*(d_t/d)^2"
+    path, bare = file_of("free", STEEP, inertia), file_of("bare", STEEP)
+    lane = states(path, "scheme=free-gauss4", "dt=0.02", "steps=25")[0]
+    compare("free-gauss4", lane["state"]["u"], (-.000665712784008, .0312835627526, .329993742996, .85338190064,
+                                                .766465931032, .216655061641, .00623815749854))
+    compare("its mesh", lane["state"]["x"], (-4.43461989234, -2.870668013, -1.39878678971, .0461932596569,
+                                             1.43343324089, 2.89786914216, 4.42561081999))
+    start = states(path, "scheme=free-gauss4", "steps=0")[0]["observables"]
+    near("energy at the start", start["energy"], 1.9870952359088, 1e-12)
+    field = states(path, "scheme=multiplier-lobatto4", "steps=0")[0]["observables"]
+    near("the field's", field["energy"], 1.9870647750702, 1e-12)
+    longer = states(path, "scheme=free-gauss4", "until=9", "dt=0.01")[0]
+    check(longer["status"] == "ok", "to t = 9: " + longer["status"])
+    near("energy error", longer["observables"]["energy_error"], 0, 1e-7)
+    made = run(bare, "scheme=free-gauss4", "until=9", "dt=0.01")
+    check(made.returncode == 2 and "0.7" in made.stdout, "without cells slopes meet near t = 0.76")
+    asked = states(bare, "--measure", "straightest,mass_rank,mass_condition", "steps=0")[0]["observables"]
+    near("straightest", asked["straightest"], .0165844324089, 1e-12)
+    near("condition", asked["mass_condition"], 25089.7, 0.1)
+    near("rank", asked["mass_rank"], 14, 0)
+    tent = file_of("tent").replace("tent", "tented")
+    with open(tent, "w", encoding="utf-8") as file:
+        file.write("field: u\nV: 0*u\nstart: u = 1 - abs(x)/6, u_t = 0\nhalf_length: 6\npoints: 7\n"
+                   "schemes: uniform-gauss2\n")
+    near("rank of a tent", states(tent, "--measure", "mass_rank", "steps=0")[0]["observables"]["mass_rank"], 8, 0)
+    refused("9 of 31 nodes are straight: the mass matrix has rank 53 of 62; a line cell: makes it regular",
+            "soliton", "scheme=free-gauss4", "until=1")
+    best = json.loads(run("soliton", "scheme=free-gauss2", "dt=0.02", "until=8", "cell=0.05*(d_t/d)^2", "--max",
+                          "--json").stdout)["observables"]
+    near("largest error of the soliton", best["solution_error_max"], 0.166, 0.005)
+    near("largest energy error", best["energy_error_max"], 0, 2e-6)
+    near("that of the field", best["field_energy_error_max"], 3e-4, 3e-5)
+    for scheme in ("free-gauss2", "free-gauss4"):
+        made = subprocess.run([program, "certify", scheme, "--on", path, "points=3", "dt=0.05"], capture_output=True,
+                              text=True, check=False)
+        check(made.returncode == 0 and made.stdout.count("holds ") == 3 + (scheme == "free-gauss2"),
+              f"certify {scheme} --on the file: {made.stderr}")
+    refused("cell: there is no name w", path, "scheme=free-gauss4", "cell=d*w")
+    refused("cell: it has to be smooth, and abs is not", path, "scheme=free-gauss4", "cell=abs(d_t)")
+    refused("cell: it does not hold x", path, "scheme=free-gauss4", "cell=x*d_t^2")
+
+
 densities()
 known_meshes()
 smoothing()
+free_nodes()
 sys.exit(len(faults) > 0)

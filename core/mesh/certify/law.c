@@ -92,6 +92,9 @@ static void parts(const struct stages *stages, const struct gm_elements *at, dou
         const double u = end ? both[i]->momentum_u1[e] : both[i]->momentum_u0[e];
         momentum[0] += u / 2;
         momentum[1] -= both[i]->slope[e] * u / 2;
+        if (at->cells) {
+            momentum[1] += (end ? both[i]->cell_v1 : both[i]->cell_v0)[e] / 2;
+        }
     }
 }
 

@@ -56,15 +56,40 @@ static void places(const struct gm_mesh_map *unused, const double *label, size_t
     }
 }
 
+/* Inertia between nodes, (d_t/d)^2/20, with which free nodes have a regular mass matrix. */
+static void inertia(const struct gm_mesh_cell *unused, const double *at, double *values, size_t m)
+{
+    (void)unused;
+    for (size_t e = 0; e < m; e++) {
+        const double d = at[e], rate = at[m + e] / d;
+        values[e] = rate * rate / 20;
+        values[m + e] = -rate * rate / (10 * d);
+        values[2 * m + e] = rate / (10 * d);
+        values[3 * m + e] = values[4 * m + e] = 0;
+    }
+}
+
+static void bent_inertia(const struct gm_mesh_cell *unused, const double *at, double values[4][4])
+{
+    const double d = at[0], rate = at[1] / d;
+    (void)unused;
+    memset(values, 0, 16 * sizeof(double));
+    values[0][0] = 3 * rate * rate / (10 * d * d);
+    values[0][1] = values[1][0] = -rate / (5 * d * d);
+    values[1][1] = 1 / (10 * d * d);
+}
+
 static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 {
     static const struct gm_density density = {.values = arclength};
     static const struct gm_mesh_map map = {places};
+    static const struct gm_mesh_cell cell = {inertia, bent_inertia};
     *mesh = (struct gm_mesh){.points = problem->n / 4,
                              .length = length,
                              .right = 2 * M_PI,
                              .density = &density,
                              .map = &map,
+                             .cell = &cell,
                              .potential = &gm_potential_sine_gordon};
 }
 
@@ -82,6 +107,7 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
     subject->problem = *problem;
     moving->describe(problem, &subject->mesh);
+    subject->mesh.cell = gm_scheme_mesh(scheme) == GM_MESH_FREE ? subject->mesh.cell : NULL;
     return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters,
                          subject->start);
 }
@@ -102,6 +128,10 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
     for (size_t i = 0; i < points; i++) {
         state[i] += by[i];
         state[2 * points + i] += by[points + i];
+        if (kind == GM_MESH_FREE) { /* nodes move by other shares of the same directions */
+            state[points + i] += by[points - 1 - i] / 4;
+            state[3 * points + i] += by[2 * points - 1 - i] / 4 - by[i] / 8;
+        }
     }
     if (kind != GM_MESH_MOVING) {
         return true;

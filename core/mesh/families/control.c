@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Partitioned Runge-Kutta methods for the field on a mesh whose equation is one of three. At the stages i
+/* Partitioned Runge-Kutta methods for the field on a mesh whose equation is one of four. At the stages i
        Y_i = y_n + h sum_j a_ij Ydot_j
        P_i = p_n + h sum_j abar_ij F_j
        P_i = dL/dydot(Y_i, Q_i, Ydot_i, Qdot_i),   F_j = dL/dy(Y_j, Q_j, Ydot_j, Qdot_j)
@@ -8,6 +8,8 @@
                  the control-theoretic strategy, with unknowns Ydot_i, Q_i, Qdot_i
        relaxed   E Qdot_i = g(Y_i, Q_i),   Q_i = X_n + h sum_j a_ij Qdot_j,   E = 2 length T / (N + 1)^3
                  the same smoothed in time: with density 1 the slowest mode of the mesh decays as exp(-pi^2 t / T)
+       free      dL/dXdot at the stages is p_n + h sum_j abar_ij dL/dX, as that of y, and so is Q_i: nothing holds the
+                 mesh, whose cells may have a Lagrangian of their own (section 3.3, remarks 1 to 4)
        known     Q_i = F(x, t_n + c_i h),   Qdot_i = F_t(x, t_n + c_i h);   uniform: F = x
    The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not conserve
    its energy. On a known mesh the midpoint rule (gauss2) comes from a discrete Lagrangian of the elements, and on the
@@ -20,14 +22,15 @@
 
 /* Unknowns at a node, stage by stage: dy/dt, then X of a mesh that is held, then dX/dt unless it is known. */
 struct layout {
-    size_t per_stage, rate; /* the number of dX/dt; 0: it is known */
-    bool held, relaxed;
+    size_t per_stage, rate;           /* the number of dX/dt; 0: it is known */
+    bool held, drifts, relaxed, free; /* drifts: X follows from dX/dt, as y from dy/dt */
 };
 
 static struct layout layout_of(const struct gm_mesh_solver *solver)
 {
     const size_t per_stage = solver->strategy->unknowns;
-    return (struct layout){per_stage, per_stage - 1, per_stage == 3, per_stage == 2};
+    const bool free = solver->strategy->free, drifts = per_stage == 2;
+    return (struct layout){per_stage, per_stage - 1, per_stage == 3, drifts, drifts && !free, free};
 }
 
 /* E of a mesh that is smoothed in time */
@@ -67,7 +70,7 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
             for (size_t j = 0; j < stages; j++) {
                 rise += tableau->a[i][j] * at[j * of.per_stage];
             }
-            for (size_t j = 0; of.relaxed && j < stages; j++) {
+            for (size_t j = 0; of.drifts && j < stages; j++) {
                 shift += tableau->a[i][j] * at[j * of.per_stage + 1];
             }
             stage->y[k + 1] = solver->state[k] + solver->h * rise;
@@ -80,7 +83,7 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
         if (!gm_elements_evaluate(stage, &solver->mesh)) {
             return false;
         }
-        if (of.rate > 0) {
+        if (of.rate > 0 && !of.free) {
             gm_elements_constrain(stage, &solver->mesh);
         }
     }
@@ -89,9 +92,10 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
         const struct gm_elements *stage = &solver->stage[i];
         for (size_t k = 1; k <= points; k++) {
             double *at = out + (k - 1) * per_node + i * of.per_stage;
-            double sum = 0;
+            double sum = 0, sum_x = 0;
             for (size_t j = 0; j < stages; j++) {
                 sum += tableau->abar[i][j] * gm_force_y(&solver->stage[j], k);
+                sum_x += of.free ? tableau->abar[i][j] * gm_force_x(&solver->stage[j], k) : 0;
             }
             at[0] = gm_momentum_u(stage, k) - solver->momenta[2 * k - 2] - solver->h * sum;
             if (of.held) {
@@ -99,6 +103,8 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
                 at[2] = gm_jump(stage->rate, k);
             } else if (of.relaxed) {
                 at[1] = resists * stage->v[k] - gm_jump(stage->ell, k);
+            } else if (of.free) {
+                at[1] = gm_momentum_v(stage, k) - solver->momenta[2 * k - 1] - solver->h * sum_x;
             }
         }
     }
@@ -131,7 +137,8 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
     const double share = friction(&solver->mesh) / 2; /* a node is in two elements */
     struct gm_element_matrices at[GM_STAGES] = {0};
     for (size_t i = 0; i < stages; i++) {
-        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, of.rate > 0, &at[i]);
+        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, of.rate > 0 && !of.free,
+                             &at[i]);
     }
     /* the columns of dy/dt and the next unknown together, then those of dX/dt where X is held */
     for (size_t k = 0; k < stages * (1 + of.held); k++) {
@@ -157,8 +164,8 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
                 ell[b] = (of.held ? 1 : -1) * place[i] * at[i].gradient[b];
                 rate[b] = place[i] * at[i].bend[b] + own[i] * at[i].gradient[b];
             }
-            gm_nodes_add(assembly, (struct gm_places){row, GM_NOWHERE}, columns, block);
-            if (of.rate > 0 && !last) {
+            gm_nodes_add(assembly, (struct gm_places){row, of.free ? row + 1 : GM_NOWHERE}, columns, block);
+            if (of.rate > 0 && !last && !of.free) {
                 gm_nodes_add_row(assembly, row + 1, columns, ell);
             }
             if (of.held) {
@@ -171,27 +178,77 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
     }
 }
 
+/* The velocities of momenta dL/dqdot = p, from those at hand: one step of Newton's method if L has squares of velocities
+   alone. False if it finds none. */
+static bool set_free(struct gm_mesh_solver *solver, struct gm_elements *ends, const double *p)
+{
+    enum { MOST = 20 };
+    const size_t points = solver->mesh.points;
+    const struct gm_places both = {0, 1};
+    struct gm_banded *matrix = &solver->projection;
+    double change = INFINITY, *step = solver->trial;
+    for (int i = 0; i < MOST && change > 1e-13; i++) {
+        if (!gm_elements_evaluate(ends, &solver->mesh)) {
+            return false;
+        }
+        gm_banded_clear(matrix);
+        for (size_t e = 0; e <= points; e++) {
+            struct gm_element_matrices at;
+            gm_elements_matrices(ends, &solver->mesh, e, false, &at);
+            gm_nodes_add(&(struct gm_assembly){matrix, points, 2, e}, both, both, at.mass);
+        }
+        for (size_t k = 1; k <= points; k++) {
+            step[2 * k - 2] = p[2 * k - 2] - gm_momentum_u(ends, k);
+            step[2 * k - 1] = p[2 * k - 1] - gm_momentum_v(ends, k);
+        }
+        if (!gm_banded_factor(matrix)) {
+            return false;
+        }
+        gm_banded_solve(matrix, step);
+        change = 0;
+        for (size_t k = 1; k <= points; k++) {
+            ends->u[k] += step[2 * k - 2];
+            ends->v[k] += step[2 * k - 1];
+            change = fmax(change, fmax(fabs(step[2 * k - 2]) / (1 + fabs(ends->u[k])),
+                                       fabs(step[2 * k - 1]) / (1 + fabs(ends->v[k]))));
+        }
+    }
+    return change < 1e-9;
+}
+
 static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier)
 {
     (void)multiplier;
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages;
+    const struct layout of = layout_of(solver);
     struct gm_elements *ends = &solver->ends;
     for (size_t k = 1; k <= points; k++) {
-        double rise = 0, force = 0, shift = 0;
+        double rise = 0, force = 0, shift = 0, force_x = 0;
         for (size_t i = 0; i < stages; i++) {
             const struct gm_elements *stage = &solver->stage[i];
             rise += tableau->b[i] * stage->u[k];
             shift += tableau->b[i] * stage->v[k];
             force += tableau->b[i] * gm_force_y(stage, k);
+            force_x += tableau->b[i] * gm_force_x(stage, k);
         }
         ends->y[k] = solver->state[k - 1] + solver->h * rise;
         ends->x[k] = tableau->stiffly_accurate ? solver->stage[stages - 1].x[k]
                                                : solver->state[points + k - 1] + solver->h * shift;
         solver->motion[solver->strategy->projected * (k - 1)] =
             solver->momenta[2 * k - 2] + solver->h * force;
+        if (of.free) {
+            solver->motion[2 * k - 1] = solver->momenta[2 * k - 1] + solver->h * force_x;
+        }
     }
-    const struct layout of = layout_of(solver);
+    if (of.free) {
+        const bool found = set_free(solver, ends, solver->motion);
+        for (size_t k = 0; k < points; k++) {
+            solver->motion[2 * k] = ends->u[k + 1];
+            solver->motion[2 * k + 1] = ends->v[k + 1];
+        }
+        return found ? ends : NULL;
+    }
     if (of.rate == 0) {
         gm_mesh_known(&solver->mesh, solver->strategy->kind, solver->t + solver->h, ends);
         return gm_elements_measure(ends, &solver->mesh) ? ends : NULL;
@@ -211,6 +268,8 @@ static const struct gm_mesh_strategy relaxed = {
     .kind = GM_MESH_FREE, .unknowns = 2, .projected = 1, STRATEGY};
 static const struct gm_mesh_strategy control = {
     .kind = GM_MESH_MOVING, .unknowns = 3, .projected = 2, .relaxed = &relaxed, STRATEGY};
+static const struct gm_mesh_strategy free_nodes = {
+    .kind = GM_MESH_FREE, .free = true, .unknowns = 2, .projected = 2, STRATEGY};
 static const struct gm_mesh_strategy given = {.kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
 static const struct gm_mesh_strategy uniform = {
     .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
@@ -222,14 +281,23 @@ static const struct gm_mesh_strategy uniform = {
 #define FORMULA_given                                                                                        \
     "∂L/∂ẏ(Yᵢ, Xᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
     "Xᵢ = F(x, tₙ + cᵢ h),  Ẋᵢ = ∂F/∂t"
+#define FORMULA_free                                                                                                       \
+    "Pᵢ = ∂L/∂q̇(Qᵢ, Q̇ᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂q,  Qᵢ = qₙ + h Σ aᵢⱼ Q̇ⱼ,  q = (y, X)\n" \
+    "L of the field and of the cells"
 #define PAIR (GM_SYMMETRIC | GM_REVERSIBLE)
+
+#define STRATEGY_control control
+#define STRATEGY_uniform uniform
+#define STRATEGY_given given
+#define STRATEGY_free free_nodes
 
 /* The strategy, its stages, its title, the order, what it claims, and the reference. */
 #define ROW(by, stages_of, words, degree, claimed, source)                                                   \
     {                                                                                                        \
         .name = #by "-" #stages_of, .title = #by " " words, .formula = FORMULA_##by, .reference = source,    \
         .family = &gm_family_control,                                                                        \
-        .coefficients = &(const struct gm_mesh_row){.strategy = &by, .tableau = &gm_tableau_##stages_of},    \
+        .coefficients =                                                                                      \
+            &(const struct gm_mesh_row){.strategy = &STRATEGY_##by, .tableau = &gm_tableau_##stages_of},     \
         .order = degree, .claims = claimed                                                                   \
     }
 #define UNIFORM(stages_of, words, degree, claimed)                                                           \
@@ -250,6 +318,9 @@ static const struct gm_scheme schemes[] = {
     GIVEN(gauss4, "Gauss 4", 4, 0),
     GIVEN(lobatto2, "Lobatto 2", 2, 0),
     GIVEN(lobatto4, "Lobatto 4", 4, 0),
+    ROW(free, gauss2, "Gauss 2", 2, GM_SYMPLECTIC | PAIR | GM_MULTISYMPLECTIC,
+        "Tyranowski & Desbrun (2019), section 3.3"),
+    ROW(free, gauss4, "Gauss 4", 4, GM_SYMPLECTIC | PAIR, "Tyranowski & Desbrun (2019), section 3.3"),
     CONTROL(gauss2, "Gauss 2", 2, PAIR),
     CONTROL(gauss4, "Gauss 4", 4, PAIR),
     CONTROL(lobatto2, "Lobatto 2", 2, PAIR),
@@ -258,5 +329,5 @@ static const struct gm_scheme schemes[] = {
     ROW(control, radau5, "Radau 5", 5, 0, "Tyranowski & Desbrun (2019), section 5.4; B. L. Ehle (1969)"),
 };
 
-const struct gm_family gm_family_control = {.title = "control-theoretic, known and uniform meshes",
+const struct gm_family gm_family_control = {.title = "control-theoretic, free, known and uniform meshes",
                                             GM_MESH_FAMILY_OF_STEPS};

@@ -13,7 +13,8 @@
 /* A formula while it is read. Its inputs are variables 0, 1 .. of the graph. */
 struct reading {
     const struct gm_mesh_names *names;
-    enum gm_system_word word; /* the line */
+    enum gm_system_word word;  /* the line */
+    const char *const *inputs; /* names of inputs, which hide those of the file; NULL-terminated */
     struct gm_formula graph;
     gm_node_id
         *of_system; /* the system's variables: inputs, constants, and NaN for what the line does not hold */
@@ -60,29 +61,33 @@ static gm_node_id taken(struct reading *reading, gm_node_id node)
     return node;
 }
 
-/* Returns what only densities may hold, whatever the field is called; GM_NO_NODE for other names. */
-static gm_node_id find_weight(struct reading *reading, const struct gm_name *name)
+/* Returns the meaning of a name that the line has of its own, whatever the field is called, or GM_NO_NODE. */
+static gm_node_id find_own(struct reading *reading, const struct gm_name *name)
 {
-    static const char *const words[] = {"alpha", "steepest", "bend", "u_x", "u", "V_u"};
+    static const char *const words[] = {"alpha", "steepest", "bend", "V_u"};
+    for (size_t k = 0; reading->inputs[k]; k++) {
+        if (is_called(name, reading->inputs[k])) {
+            return gm_formula_variable(&reading->graph, k);
+        }
+    }
     const struct gm_mesh_names *names = reading->names;
     const double values[] = {names->alpha, names->steepest, names->bend};
     size_t i = 0;
     while (i < GM_COUNT(words) && !is_called(name, words[i])) {
         i++;
     }
-    if (reading->word != GM_WORD_DENSITY || i == GM_COUNT(words)) {
+    if (reading->word == GM_WORD_MESH || i == GM_COUNT(words)) {
         return GM_NO_NODE;
     }
-    return i < 3   ? gm_formula_constant(&reading->graph, values[i])
-           : i < 5 ? gm_formula_variable(&reading->graph, i - 3)
-                   : taken(reading, names->wave->by_u[0]);
+    return i < GM_COUNT(values) ? gm_formula_constant(&reading->graph, values[i])
+                                : taken(reading, names->wave->by_u[0]);
 }
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct reading *reading = data;
     const struct gm_user_system *system = reading->names->wave->system;
-    const gm_node_id own = find_weight(reading, name);
+    const gm_node_id own = find_own(reading, name);
     for (size_t i = 0; i < system->variable_count; i++) {
         if (!is_called(name, system->variables[i].name)) {
             continue;
@@ -131,6 +136,21 @@ static bool read_formula(struct reading *reading, const char *text, gm_node_id *
            (fault.sentence[0] && refuse(reading, text, fault.offset, fault.sentence));
 }
 
+/* A corner would end Newton's method. */
+static bool is_smooth(struct reading *reading, const char *text, gm_node_id node, const bool *marked,
+                      size_t inputs)
+{
+    const gm_node_id kink = gm_formula_kink(&reading->graph, node, marked, inputs);
+    if (kink == GM_NO_NODE) {
+        return !reading->graph.failed;
+    }
+    const uint32_t place = gm_formula_origin(&reading->graph, kink);
+    char about[GM_FAULT_SENTENCE];
+    snprintf(about, sizeof about, "it has to be smooth, and %s is not",
+             gm_operation_rows[reading->graph.nodes[kink].operation].name);
+    return refuse(reading, text, place == GM_NO_PLACE ? 0 : place, about);
+}
+
 const char *const gm_user_densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
 
 static const char *const formulas[] = {
@@ -146,7 +166,7 @@ static void values(const struct gm_density *density, const double *at, double *v
     gm_tape_values(&((const struct gm_user_density *)density)->tape, at, values, m);
 }
 
-/* P = rho^2 with its derivatives, and rho. A corner would end Newton's method. */
+/* P = rho^2 with its derivatives, and rho */
 static bool derive_density(struct reading *reading, const char *text, struct gm_user_density *density)
 {
     enum { SLOPE, FIELD, PLACE, INPUTS };
@@ -157,13 +177,9 @@ static bool derive_density(struct reading *reading, const char *text, struct gm_
     if (!read_formula(reading, text, &rho)) {
         return false;
     }
-    const gm_node_id kink = gm_formula_kink(graph, rho, smooth, INPUTS), p = gm_product(graph, rho, rho);
-    if (kink != GM_NO_NODE) {
-        const uint32_t place = gm_formula_origin(graph, kink);
-        char about[GM_FAULT_SENTENCE];
-        snprintf(about, sizeof about, "it has to be smooth, and %s is not",
-                 gm_operation_rows[graph->nodes[kink].operation].name);
-        return refuse(reading, text, place == GM_NO_PLACE ? 0 : place, about);
+    const gm_node_id p = gm_product(graph, rho, rho);
+    if (!is_smooth(reading, text, rho, smooth, INPUTS)) {
+        return false;
     }
     bool good = !graph->failed && gm_gradient(graph, p, NULL, INPUTS, by);
     for (size_t i = 0; good && i < INPUTS; i++) {
@@ -193,8 +209,10 @@ static bool derive_density(struct reading *reading, const char *text, struct gm_
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
                           const char *text, char *sentence, size_t size)
 {
+    static const char *const words[] = {"u_x", "u", "x", NULL};
     const size_t x = names->wave->system->velocities, inputs[] = {x + 1, 0, x};
-    struct reading reading = {.names = names, .word = GM_WORD_DENSITY, .sentence = sentence, .size = size};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_DENSITY, .inputs = words, .sentence = sentence, .size = size};
     *density = (struct gm_user_density){.density.values = values};
     for (size_t i = 0; gm_user_densities[i]; i++) {
         text = strcmp(gm_user_densities[i], text) == 0 ? formulas[i] : text;
@@ -253,7 +271,9 @@ bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names
 {
     const struct gm_user_system *system = names->wave->system;
     const size_t inputs[OF_MAP] = {[LABEL] = system->velocities, [TIME] = system->n};
-    struct reading reading = {.names = names, .word = GM_WORD_MESH, .sentence = sentence, .size = size};
+    static const char *const words[] = {"x", "t", NULL};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_MESH, .inputs = words, .sentence = sentence, .size = size};
     *map = (struct gm_user_map){.map.places = places};
     const bool good = open_reading(&reading, inputs, OF_MAP) && derive_map(&reading, text, map);
     close_reading(&reading);
@@ -283,4 +303,42 @@ bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh
         }
     }
     return true;
+}
+
+static void cell_first(const struct gm_mesh_cell *cell, const double *at, double *values, size_t m)
+{
+    gm_tape_values(&((const struct gm_user_cell *)cell)->by_first, at, values, m);
+}
+
+static void cell_second(const struct gm_mesh_cell *cell, const double *at, double values[4][4])
+{
+    gm_tape_values(&((const struct gm_user_cell *)cell)->by_second, at, values[0], 1);
+}
+
+static bool derive_cell(struct reading *reading, const char *text, struct gm_user_cell *cell)
+{
+    enum { INPUTS = GM_CELL_INPUTS };
+    static const bool smooth[INPUTS] = {true, true, true, true};
+    gm_node_id first[1 + INPUTS], second[INPUTS][INPUTS];
+    bool good = read_formula(reading, text, first) && is_smooth(reading, text, first[0], smooth, INPUTS) &&
+                gm_gradient(&reading->graph, first[0], NULL, INPUTS, first + 1);
+    for (size_t i = 0; good && i < INPUTS; i++) {
+        good = gm_gradient(&reading->graph, first[1 + i], NULL, INPUTS, second[i]);
+    }
+    return good && gm_tape_open(&cell->by_first, &reading->graph, first, 1 + INPUTS, INPUTS, NULL) &&
+           gm_tape_open(&cell->by_second, &reading->graph, second[0], (size_t)INPUTS * INPUTS, INPUTS,
+                        NULL) &&
+           !reading->graph.failed;
+}
+
+bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
+                       char *sentence, size_t size)
+{
+    static const char *const words[] = {"d", "d_t", "m_t", "u_x", NULL};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_CELL, .inputs = words, .sentence = sentence, .size = size};
+    *cell = (struct gm_user_cell){.cell = {cell_first, cell_second}};
+    const bool good = open_reading(&reading, NULL, 0) && derive_cell(&reading, text, cell);
+    close_reading(&reading);
+    return good;
 }

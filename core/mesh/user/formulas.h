@@ -37,6 +37,15 @@ bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names
 bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
                        size_t size);
 
+/* The Lagrangian of a cell as a formula. */
+struct gm_user_cell {
+    struct gm_mesh_cell cell;           /* first */
+    struct gm_tape by_first, by_second; /* of d, d_t, m_t, u_x */
+};
+/* Opens the cells of a text; false as gm_user_density_open. */
+bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
+                       char *sentence, size_t size);
+
 /* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. To be closed in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
                           const char *text, char *sentence, size_t size);

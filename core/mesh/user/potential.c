@@ -26,6 +26,7 @@ struct own {
     struct gm_mesh_names names;
     struct gm_user_density density;
     struct gm_user_map map;
+    struct gm_user_cell cell;
     double until;
     char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
@@ -199,10 +200,11 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
 /* Reads the formulas of the mesh equation. A bad one is refused later (gm_user_mesh_rests). */
 static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
-    return (gm_user_density_open(&self->density, &self->names, chosen->density, self->refused,
-                                 sizeof self->refused) &&
-            (!chosen->map ||
-             gm_user_map_open(&self->map, &self->names, chosen->map, self->refused, sizeof self->refused))) ||
+    const struct gm_mesh_names *names = &self->names;
+    enum { SIZE = sizeof self->refused };
+    return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
+            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
+            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
            self->refused[0];
 }
 
@@ -249,6 +251,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
     self->mesh.map = chosen->map ? &self->map.map : NULL;
+    self->mesh.cell = chosen->cell && strcmp(chosen->cell, "0") != 0 ? &self->cell.cell : NULL;
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
@@ -265,7 +268,8 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means, &self->bend, &self->known, &self->map.tape};
+        struct gm_tape *const tapes[] = {&self->means,    &self->bend,          &self->known,
+                                         &self->map.tape, &self->cell.by_first, &self->cell.by_second};
         gm_user_density_close(&self->density);
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {

@@ -12,6 +12,7 @@ struct gm_user_mesh {
     double alpha;         /* NaN: the file's, or else one that the start allows for */
     const char *density;  /* a word of gm_user_densities, or a formula */
     const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
+    const char *cell;     /* the Lagrangian of a cell; NULL or "0": none */
     double relax, until;
 };
 

@@ -114,7 +114,7 @@ struct gm_line_keys {
     int printed;  /* the convection of Burgers' equation is u D u, not D(u^2/2) */
     double alpha; /* only on a moving mesh */
     double relax;
-    char density[GM_TEXT_SIZE], mesh[GM_TEXT_SIZE];
+    char density[GM_TEXT_SIZE], mesh[GM_TEXT_SIZE], cell[GM_TEXT_SIZE];
 };
 
 /* A lane's parameters. */
