@@ -41,6 +41,7 @@ static const struct {
     {"field", "A wave equation", "V"},
     {"evolution", "An evolution equation on a line", ""},
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
+    {"forms", "Differential forms on triangles", ""},
 };
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */

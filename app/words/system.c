@@ -20,6 +20,7 @@
 #include "render/message.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
+#include "scenes/form/user_form.h"
 #include "scenes/ode/system.h"
 
 const char gm_system_typed[] = "system";
@@ -260,9 +261,12 @@ static bool open_system(struct making *making)
         return refuse_text(making, &fault);
     }
     const char *const *words = (const char *const *)made->words.words;
-    const bool field = gm_system_is_field(&making->system);
-    made->close = field ? gm_user_field_close : gm_system_scene_close;
-    made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
+    const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
+    made->close = form    ? gm_user_form_close_scene
+                  : field ? gm_user_field_close
+                          : gm_system_scene_close;
+    made->scene = form  ? gm_user_form_open_scene(&making->system, made->name, words, &fault, making->message)
+                  : field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
                                              making->message)
                         : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
                                                making->message);

@@ -11,7 +11,7 @@
    index is computed while reading: it may hold whole numbers, indices of the loops around it, and names with
    a value in the scope. */
 
-enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 1000000000 };
+enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_MOST_OPERANDS = 4, GM_LARGEST_INDEX = 1000000000 };
 
 /* A fault, with places in bytes from the start of the text. */
 struct gm_fault {
@@ -65,6 +65,10 @@ struct gm_scope {
     const char *(*known)(size_t i, const void *data);
     /* node for the decimal text[0 .. length) with its value; NULL: a constant */
     gm_node_id (*decimal)(void *data, const char *text, size_t length, double value);
+    /* Names that are called with formulas, NAME(a, b): false for others; `call` makes the node. NULL: none. */
+    bool (*calls)(const void *data, const struct gm_name *name);
+    enum gm_meaning (*call)(void *data, const struct gm_name *name, const gm_node_id *operands, size_t count,
+                            gm_node_id *node, char *sentence);
     void *data;
     bool lines;                               /* newlines and comments, # to the end of a line, are blanks */
     bool initial;                             /* NAME(0) has a meaning */

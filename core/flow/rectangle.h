@@ -16,6 +16,7 @@ struct gm_rectangle {
     double irregular;
     const double *fixed; /* [fixed_count][2], points that do not move (corners never do) */
     size_t fixed_count;
+    enum gm_star star; /* GM_STAR_AUTO: circumcentric, which the pattern allows */
 };
 
 /* Returns true if the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */
