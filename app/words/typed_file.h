@@ -35,7 +35,7 @@ struct gm_typed_file { /* {0} is an empty text */
 void gm_typed_file_close(struct gm_typed_file *file);
 
 extern const char *const gm_typed_keys[]; /* keys without a file: H L rate coordinates momenta, and NULL */
-extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
+extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix mesh, and NULL */
 
 /* Returns true if a word sets H, L or rate. */
 bool gm_typed_is_formula(const char *word);

@@ -279,6 +279,10 @@ bool gm_declared_kind(struct gm_reading *reading)
                              "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
                              "or K-matrix, L-matrix and S");
     }
+    if (field && !mesh && gm_span_until(reading->text, field->value, "=") < field->value.end) {
+        return gm_fail_first(&reading->fault, field->place,
+                             "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
+    }
     if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES && kind != GM_FORMS) {
         return field ? gm_fail_first(
                            &reading->fault, field->place,
