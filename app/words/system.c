@@ -262,14 +262,12 @@ static bool open_system(struct making *making)
     }
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
-    made->close = form    ? gm_user_form_close_scene
-                  : field ? gm_user_field_close
-                          : gm_system_scene_close;
-    made->scene = form  ? gm_user_form_open_scene(&making->system, made->name, words, &fault, making->message)
+    made->close = form ? gm_user_form_close_scene : field ? gm_user_field_close : gm_system_scene_close;
+    made->scene = form ? gm_user_form_open_scene(&making->system, made->name, words, &fault, making->message)
                   : field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
-                                             making->message)
-                        : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
-                                               making->message);
+                                               making->message)
+                          : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
+                                                 making->message);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
     }

@@ -468,8 +468,8 @@ static gm_node_id read_called(struct reader *reader, size_t begin, const struct 
         return expected(reader, ")");
     }
     reader->graph->place = (uint32_t)begin;
-    if (!reader->failed && reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) !=
-                               GM_KNOWN) {
+    if (!reader->failed &&
+        reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) != GM_KNOWN) {
         return fail(reader, begin, "%s", sentence);
     }
     return node;

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 
 /* The points and corners that are laid. */
 struct laying {
@@ -214,9 +214,9 @@ static const struct {
     size_t lengths;     /* the first of them are lengths; the others are whole numbers */
     void (*lay)(struct laying *laying);
 } generators[GENERATORS] = {
-    {"rectangle", "W H N [M]", 3, 4, 2, NULL},         {"flat-torus", "W H N [M]", 3, 4, 2, NULL},
-    {"disc", "R n", 2, 2, 1, lay_disc},                {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
-    {"sphere", "R level", 2, 2, 1, lay_sphere},        {"torus", "R r N [M]", 3, 4, 2, lay_torus},
+    {"rectangle", "W H N [M]", 3, 4, 2, NULL},  {"flat-torus", "W H N [M]", 3, 4, 2, NULL},
+    {"disc", "R n", 2, 2, 1, lay_disc},         {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
+    {"sphere", "R level", 2, 2, 1, lay_sphere}, {"torus", "R r N [M]", 3, 4, 2, lay_torus},
 };
 
 static enum which which_of(const char *word)
@@ -253,9 +253,10 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
     enum { MOST = 4000 };
     const enum which which = which_of(word);
     if (which == GENERATORS) {
-        return gm_fail(fault, place, "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
-                                   "annulus R1 R2 N, sphere R level and torus R r N are made",
-                         word);
+        return gm_fail(fault, place,
+                       "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
+                       "annulus R1 R2 N, sphere R level and torus R r N are made",
+                       word);
     }
     if (count < generators[which].least || count > generators[which].most) {
         return gm_fail(fault, place, "a mesh %s has the numbers %s", word, generators[which].numbers);
@@ -264,39 +265,43 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         const bool whole = i >= generators[which].lengths;
         const double least = which == SPHERE && whole ? 0 : 1, most = which == SPHERE ? 9 : MOST;
         if (!whole && !(number[i] > 0 && isfinite(number[i]))) {
-            return gm_fail(fault, place, "mesh: %s: %g is no length, which is above 0", word, number[i]);
+            return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
+                           number[i]);
         }
         if (whole && !(number[i] == floor(number[i]) && number[i] >= least && number[i] <= most)) {
-            return gm_fail(fault, place, "mesh: %s: %g is no whole number from %g to %g", word, number[i], least,
-                             most);
+            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %g to %g", word, number[i],
+                           least, most);
         }
     }
     const long rows = rows_of(which, number, count);
     if (which == ANNULUS && number[1] <= number[0]) {
         return gm_fail(fault, place, "mesh: annulus: its outer radius %g has to be above the inner one %g",
-                         number[1], number[0]);
+                       number[1], number[0]);
     }
     if (which == TORUS && number[0] <= number[1]) {
-        return gm_fail(fault, place, "mesh: torus: its radius %g has to be above that of its tube, %g", number[0],
-                         number[1]);
+        return gm_fail(fault, place, "mesh: torus: its radius %g has to be above that of its tube, %g",
+                       number[0], number[1]);
     }
     const bool even = which == RECTANGLE || which == FLAT_TORUS || which == TORUS;
     const bool few = which != SPHERE && which != DISC &&
-                     (rows < (which == ANNULUS ? 1 : which == RECTANGLE ? 2 : 4) ||
+                     (rows < (which == ANNULUS     ? 1
+                              : which == RECTANGLE ? 2
+                                                   : 4) ||
                       (which != RECTANGLE && number[2] < 3));
     if ((even && rows % 2 != 0) || few) {
-        return gm_fail(fault, place, "mesh: %s: %ld rows of %g are too few, or not an even number", word, rows,
-                         number[2]);
+        return gm_fail(fault, place, "mesh: %s: %ld rows of %g are too few, or not an even number", word,
+                       rows, number[2]);
     }
     const struct gm_rectangle pattern = {
         .width = number[0], .height = number[1], .edges = (long)number[count > 2 ? 2 : 1], .strips = rows};
     return which != RECTANGLE || gm_rectangle_is_acute(&pattern) ||
-           gm_fail(fault, place, "mesh: rectangle: %ld strips are not between half the width of an edge and all "
-                               "of it",
-                     rows);
+           gm_fail(fault, place,
+                   "mesh: rectangle: %ld strips are not between half the width of an edge and all "
+                   "of it",
+                   rows);
 }
 
-/* What the body of the arena is given. */
+/* The mesh while it is made. */
 struct making {
     enum which which;
     const double *number;

@@ -4,7 +4,7 @@
 #define GM_CORE_FORM_GENERATORS_H
 
 #include "core/expression/reader.h"
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 
 /* rectangle W H N [M], flat-torus W H N [M], disc R n, annulus R1 R2 N [m], sphere R level, torus R r N [M]. A
    generator checks its numbers: false with a fault at that place of a text. */
@@ -12,7 +12,7 @@ bool gm_generator_check(const char *word, const double *numbers, size_t count, s
                         struct gm_fault *fault);
 
 /* The mesh of a word and numbers that were checked. NULL with a fault of the star, or when out of memory. */
-struct gm_complex *gm_generator_open(const char *word, const double *numbers, size_t count,
-                                     enum gm_star star, struct gm_triangulation_fault *fault);
+struct gm_complex *gm_generator_open(const char *word, const double *numbers, size_t count, enum gm_star star,
+                                     struct gm_triangulation_fault *fault);
 
 #endif

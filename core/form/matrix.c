@@ -78,8 +78,7 @@ struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matri
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
             const int j = a->column[k];
             for (int l = b->start[j]; l < b->start[j + 1]; l++) {
-                entries[count++] =
-                    (struct gm_matrix_entry){(int)i, b->column[l], a->value[k] * b->value[l]};
+                entries[count++] = (struct gm_matrix_entry){(int)i, b->column[l], a->value[k] * b->value[l]};
             }
         }
     }

@@ -26,9 +26,9 @@ struct compiling {
     struct gm_form_program *program;
     struct gm_user_system *system;
     struct gm_fault *fault;
-    bool *marked;      /* for each node: a root needs it */
-    bool *of_forms;    /* it depends on forms or their operators */
-    bool *of_place;    /* on x, y, z */
+    bool *marked;   /* for each node: a root needs it */
+    bool *of_forms; /* it depends on forms or their operators */
+    bool *of_place; /* on x, y, z */
     bool *of_time;
     struct part *parts; /* of nodes that depend on forms */
     size_t nodes;       /* of the graph when it began */
@@ -180,9 +180,8 @@ static struct part decided(struct compiling *compiling, struct part part)
 static bool fit(struct compiling *compiling, struct part *part, struct gm_form_type type)
 {
     const int degree = part->type.degree;
-    if (is_formula(*part) &&
-        (type.degree == degree || (type.degree == 0 && degree == GM_FORM_PLACE) ||
-         (type.degree == 1 && degree == GM_FORM_COVECTOR))) {
+    if (is_formula(*part) && (type.degree == degree || (type.degree == 0 && degree == GM_FORM_PLACE) ||
+                              (type.degree == 1 && degree == GM_FORM_COVECTOR))) {
         *part = sampled(compiling, *part, type);
         return true;
     }
@@ -198,7 +197,7 @@ static unsigned needs_of(const struct compiling *compiling, struct part part)
     return compiling->program->steps[part.step].needs;
 }
 
-/* An operation on entries; the type is that of the part that is no number. */
+/* An operation on entries, with the type of the form if the other part is a number. */
 static struct part operate(struct compiling *compiling, enum gm_operation operation, struct part a,
                            struct part b)
 {
@@ -268,10 +267,10 @@ static struct part star(struct compiling *compiling, struct part a)
         const struct part before = {type, inner->a, compiling->now};
         return (a.type.degree == 1) != minus ? negative(compiling, before) : before;
     }
-    return times(compiling,
-                 (enum gm_form_matrix)((a.type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) +
-                                       a.type.degree),
-                 a, type);
+    return times(
+        compiling,
+        (enum gm_form_matrix)((a.type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) + a.type.degree), a,
+        type);
 }
 
 static struct part d(struct compiling *compiling, struct part a)
@@ -335,19 +334,19 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
     b = decided(compiling, b);
     const int j = a.type.degree, k = b.type.degree;
     if (j < 0 || k < 0 || a.type.dual || b.type.dual || j + k > 2) {
-        return refuse(compiling, "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
+        return refuse(compiling,
+                      "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
                       gm_form_type_text(a.type), gm_form_type_text(b.type));
     }
     if (j == 1 && k == 1) {
         if (compiling->linear && ((needs_of(compiling, a) | needs_of(compiling, b)) & GM_NEEDS_UNKNOWNS)) {
             return refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
         }
-        return made(compiling,
-                    (struct gm_form_step){.kind = GM_STEP_WEDGE,
-                                          .type = {2, false},
-                                          .needs = needs_of(compiling, a) | needs_of(compiling, b),
-                                          .a = a.step,
-                                          .b = b.step});
+        return made(compiling, (struct gm_form_step){.kind = GM_STEP_WEDGE,
+                                                     .type = {2, false},
+                                                     .needs = needs_of(compiling, a) | needs_of(compiling, b),
+                                                     .a = a.step,
+                                                     .b = b.step});
     }
     const struct part scalar = j == 0 ? a : b, other = j == 0 ? b : a;
     const int degree = other.type.degree;
@@ -384,10 +383,9 @@ static struct part reduced(struct compiling *compiling, enum gm_form_step_kind k
     if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
         return refuse(compiling, "an equation has no numbers that are made of its unknowns");
     }
-    return made(compiling, (struct gm_form_step){.kind = kind,
-                                                 .type = any_number,
-                                                 .needs = needs_of(compiling, a),
-                                                 .a = a.step});
+    return made(compiling,
+                (struct gm_form_step){
+                    .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
 }
 
 static struct part integral(struct compiling *compiling, struct part a)
@@ -619,8 +617,7 @@ static void finish(struct compiling *compiling, const struct gm_form_root *root,
         part = decided(compiling, part);
     } else if (zero) {
         part = zero_of(compiling, root->type);
-    } else if ((root->density && formula && root->type.degree != 1) ||
-               (formula && root->type.degree == 0)) {
+    } else if ((root->density && formula && root->type.degree != 1) || (formula && root->type.degree == 0)) {
         part = sampled(compiling, part, root->type);
     } else if (!fit(compiling, &part, root->type)) {
         char text[80];

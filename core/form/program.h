@@ -6,7 +6,7 @@
 #include "core/form/space.h"
 #include "core/model/system.h"
 
-/* What a step depends on: the time, fields, unknowns. */
+/* The time, fields and unknowns that a step depends on, as bits. */
 enum { GM_NEEDS_TIME = 1, GM_NEEDS_FIELDS = 2, GM_NEEDS_UNKNOWNS = 4 };
 
 /* A step makes one form, or a number, of those of earlier steps a and b. */

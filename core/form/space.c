@@ -365,8 +365,7 @@ struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struc
         if (vertices) {
             gm_form_vertex(complex, i, p);
         }
-        put(&points, i, vertices ? p : space->dual_vertex + 3 * i,
-            type.degree == 2 ? complex->star0[i] : 1);
+        put(&points, i, vertices ? p : space->dual_vertex + 3 * i, type.degree == 2 ? complex->star0[i] : 1);
     }
     for (size_t t = 0; t < numbers && each == 7; t++) {
         double p[9];

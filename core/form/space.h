@@ -3,7 +3,7 @@
 #ifndef GM_CORE_FORM_SPACE_H
 #define GM_CORE_FORM_SPACE_H
 
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 #include "core/form/matrix.h"
 
 /* A form has a number for each vertex, edge or triangle. Primal k-forms live on k-simplices, dual ones on the
@@ -13,8 +13,8 @@ struct gm_form_type {
     bool dual;
 };
 enum {
-    GM_FORM_NUMBER = -1, /* a number */
-    GM_FORM_PLACE = -2,  /* a formula of the place: a 0-form, primal or dual as it is needed */
+    GM_FORM_NUMBER = -1,  /* a number */
+    GM_FORM_PLACE = -2,   /* a formula of the place: a 0-form, primal or dual as it is needed */
     GM_FORM_COVECTOR = -3 /* form(f, g, h): a 1-form, primal or dual */
 };
 
@@ -39,7 +39,7 @@ enum gm_form_matrix {
 
 struct gm_cholesky;
 
-/* What forms are integrated with: points and, for 1-forms, vectors; a number of the form is the sum over its
+/* The points of integrals and, for 1-forms, vectors; a number of the form is the sum over its
    points of weight times density, or of the vector times the covector. */
 struct gm_form_points {
     size_t count, each; /* all points, and those of a number */
@@ -51,8 +51,8 @@ struct gm_form_space {
     struct gm_arena *arena;
     struct gm_complex *complex; /* taken */
     struct gm_matrix matrix[GM_FORM_MATRICES];
-    struct gm_cholesky *mass; /* the factor of STAR1 if it is not diagonal; else NULL */
-    double *dual_vertex;      /* 3 a triangle */
+    struct gm_cholesky *mass;            /* the factor of STAR1 if it is not diagonal; else NULL */
+    double *dual_vertex;                 /* 3 a triangle */
     struct gm_form_points *points[2][3]; /* of dual and primal forms; NULL: not needed yet */
 };
 
@@ -68,7 +68,7 @@ long gm_form_betti(const struct gm_complex *complex, int degree);
 /* A point on the mesh. */
 void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);
 
-/* In a body of the arena, which outlives the space's use of them. 0-forms and dual 2-forms take their value in one point, primal 2-forms
+/* Called in a body of the arena, which outlives the space's use of them. 0-forms and dual 2-forms take their value in one point, primal 2-forms
    in seven (degree 5), 1-forms in five of each straight piece. */
 struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struct gm_arena *arena,
                                         struct gm_form_type type);

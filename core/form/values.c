@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steps are computed one after another; those that depend on nothing but parameters once. The derivative of a
-   step over the unknowns is a product of the matrices of the steps before it. */
+/* Steps are computed one after another, constant ones once. The derivative of a step over the unknowns is a
+   product of the matrices of the steps before it. */
 #include "core/form/values.h"
 
 #include <math.h>
@@ -43,8 +43,7 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
             values->slot[i] = gm_arena_take(arena, size_of(values, i), sizeof(double));
         }
         if (step->kind == GM_STEP_SAMPLE) {
-            const size_t count =
-                step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
+            const size_t count = step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
             values->sampled[i] = gm_arena_take(arena, 3 * count, sizeof(double));
             gm_tape_keep(arena, &values->tapes[i],
                          gm_tape_open(&values->tapes[i], &system->graph, step->nodes, step->components,
@@ -248,11 +247,11 @@ struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, stru
             }
         } else if (step->kind == GM_STEP_MATRIX) {
             if (step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass) {
-                gm_arena_refuse(arena, "this star has no sparse inverse for 1-forms: write an equation with "
-                                       "star(f) on one side, as in star(f) = d(p), or take star=circumcentric");
+                gm_arena_refuse(arena,
+                                "this star has no sparse inverse for 1-forms: write an equation with "
+                                "star(f) on one side, as in star(f) = d(p), or take star=circumcentric");
             }
-            parts[i] =
-                gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
+            parts[i] = gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
         } else {
             parts[i] = derivative(values, arena, i, parts);
         }
@@ -264,9 +263,8 @@ double gm_form_square(const struct gm_form_space *space, struct gm_form_type typ
                       double *scratch)
 {
     double sum = 0;
-    multiply(space,
-             (enum gm_form_matrix)((type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) + type.degree), a,
-             scratch);
+    multiply(space, (enum gm_form_matrix)((type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) + type.degree),
+             a, scratch);
     for (size_t k = 0; k < gm_form_size(space->complex, type); k++) {
         sum += a[k] * scratch[k];
     }

@@ -9,14 +9,14 @@
 struct gm_form_values {
     const struct gm_form_program *program;
     struct gm_form_space *space;
-    double **slot; /* the value of each step */
+    double **slot;         /* the value of each step */
     struct gm_tape *tapes; /* for each step that samples */
     double **sampled;      /* scratch of each of these */
     double *solved;        /* scratch: a number for each edge */
     double time;           /* of the samples; NaN: none were made */
 };
 
-/* In a body of the arena, which owns all. `variables` has the values of all variables of the system. */
+/* Called in a body of the arena, which owns all. `variables` has the values of all variables of the system. */
 void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
                          const struct gm_form_program *program, struct gm_form_space *space,
                          const struct gm_user_system *system, const double *variables);
@@ -28,7 +28,7 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
 const double *gm_form_values_root(const struct gm_form_values *values, size_t root);
 
 /* The matrix of a linear root over the unknowns, whose numbers begin at columns offset[form]: a body of the
-   arena, after a run. Leaves the body if an inverse of the mass matrix stands between. */
+   arena, after a run. Leaves the body if it holds an inverse of the mass matrix. */
 struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
                                        size_t root, const size_t *offset, size_t columns);
 

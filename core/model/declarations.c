@@ -268,7 +268,7 @@ bool gm_declared_kind(struct gm_reading *reading)
                                                              : GM_CANONICAL;
     static const char *const called[] = {"with H",         "with L",       "with rates",
                                          "with a bracket", "with a field", "with a field and its rate",
-                                         "with K-matrix", "of forms"};
+                                         "with K-matrix",  "of forms"};
     if (!matrix &&
         (gm_reading_line(reading, GM_WORD_L_MATRIX) || gm_reading_line(reading, GM_WORD_S_FUNCTION))) {
         return gm_fail_first(&reading->fault, 0,
@@ -592,10 +592,9 @@ static bool add_forms(struct gm_reading *reading, enum gm_system_word word)
                                 sizeof *system->forms)) {
             return false;
         }
-        system->forms[reading->component_count] =
-            (struct gm_form_declared){(int)(degree % 3), degree >= 3,  word == GM_WORD_UNKNOWN,
-                                      name.begin,        GM_NO_NODE,   GM_NO_NODE,
-                                      GM_NO_NODE,        GM_NO_NODE};
+        system->forms[reading->component_count] = (struct gm_form_declared){
+            (int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN, name.begin, GM_NO_NODE, GM_NO_NODE,
+            GM_NO_NODE,        GM_NO_NODE};
         if (gm_reading_target(reading, &name, &target)) {
             add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
         }

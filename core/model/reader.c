@@ -599,7 +599,8 @@ static bool read_generator(struct gm_reading *reading, const struct gm_system_li
 
 static bool read_star(struct gm_reading *reading, const struct gm_system_line *line)
 {
-    static const char *const words[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric", NULL};
+    static const char *const words[] = {"auto",     "circumcentric", "barycentric",
+                                        "galerkin", "incentric",     NULL};
     reading->system->texts[line->word] = gm_reading_text(reading, line->value);
     return reading->system->texts[line->word] &&
            (words[gm_span_among(reading->text, line->value, words)] ||
@@ -999,7 +1000,7 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
     return component == (system->kind == GM_CANONICAL ? k % 2 * half + k / 2 : k);
 }
 
-/* Moves the formulas of forms to where they are declared: fields have a rate and a start, unknowns an equation. */
+/* Moves the formulas of forms to their declarations. Fields have a rate and a start, unknowns an equation. */
 static bool are_complete_forms(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;

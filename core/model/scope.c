@@ -191,8 +191,7 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     /* a choice between starts may be called so */
     const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START;
     if (is_word || is_of_ring(reading, &entry) ||
-        (gm_system_is_form(reading->system) &&
-         operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
+        (gm_system_is_form(reading->system) && operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);
     }
@@ -322,8 +321,8 @@ static const struct {
 static enum gm_form_operator operator_of(const char *name, size_t length)
 {
     size_t i = 0;
-    while (i < GM_FORM_OPERATORS && (strlen(form_operators[i].name) != length ||
-                                     memcmp(form_operators[i].name, name, length) != 0)) {
+    while (i < GM_FORM_OPERATORS &&
+           (strlen(form_operators[i].name) != length || memcmp(form_operators[i].name, name, length) != 0)) {
         i++;
     }
     return (enum gm_form_operator)i;
@@ -446,9 +445,9 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->initial = reading->exact =
-            entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system) &&
-            !gm_system_is_form(reading->system);
+        reading->initial = reading->exact = entry->role == GM_ENTRY_OBSERVED &&
+                                            !gm_system_is_field(reading->system) &&
+                                            !gm_system_is_form(reading->system);
         reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;

@@ -3,19 +3,14 @@
 #ifndef GM_SCENES_FORM_FORM_H
 #define GM_SCENES_FORM_FORM_H
 
-#include "core/form/problem.h"
+#include "core/ode/user/forms.h"
 #include "scenes/common/system/look.h"
 
 enum { GM_MOST_FORM_OBSERVABLES = 64, GM_MOST_SHOWN_FORMS = 32 };
 
-/* What an observable is of. */
+/* The subject of an observable. */
 struct gm_form_subject {
-    enum {
-        GM_FORM_ERROR,
-        GM_FORM_CONTRADICTION,
-        GM_FORM_OBSERVED,
-        GM_FORM_FACT
-    } what;
+    enum { GM_FORM_ERROR, GM_FORM_CONTRADICTION, GM_FORM_OBSERVED, GM_FORM_FACT } what;
     size_t index; /* of a form, of what is observed, or of a fact */
 };
 
@@ -23,7 +18,7 @@ struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
     struct gm_form_subject subjects[GM_MOST_FORM_OBSERVABLES];
-    const char *shows[GM_MOST_SHOWN_FORMS + 1];  /* words of show= */
+    const char *shows[GM_MOST_SHOWN_FORMS + 1];        /* words of show= */
     struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */
     size_t show_count;
 };

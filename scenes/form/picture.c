@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/field/field.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/field/field.h"
 #include "scenes/form/form.h"
 
 enum { MOST_GRAPHS = 3 };
@@ -29,7 +29,7 @@ static const double *shown(const struct gm_view *view, struct gm_form_type *type
     return gm_form_observed(view->problem, view->state, view->t, subject.index);
 }
 
-/* The size of Whitney's form at the centre of mass, where it is sum over edges i -> j of a (g_j - g_i)/3; of a
+/* The size of Whitney's form at the centre of mass, the sum over edges i -> j of a (g_j - g_i)/3; of a
    dual 1-form, that of its numbers over the lengths of dual edges. */
 static double size_at(const struct gm_form_space *space, size_t t, const double *form, bool dual)
 {
@@ -106,7 +106,8 @@ static void draw_form(struct gm_picture *picture, struct gm_panel *panel, const 
     if (!order || !points || !values || !triangles) {
         return;
     }
-    struct gm_space sight = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+    struct gm_space sight = {.low = {INFINITY, INFINITY, INFINITY},
+                             .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t t = 0; t < count; t++) {
         double p[9];
         gm_complex_corners_in_space(complex, t, p);

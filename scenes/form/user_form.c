@@ -22,19 +22,7 @@ enum { SHOW, STAR, COMMON_ROWS = STAR + 1 + GM_CAMERA_KEYS };
 
 /* ---- observables ---- */
 
-enum fact {
-    VERTICES,
-    EDGES,
-    TRIANGLES,
-    EULER,
-    BETTI0,
-    BETTI1,
-    BETTI2,
-    AREA,
-    STAR_LEAST,
-    OBTUSE,
-    FACTS
-};
+enum fact { VERTICES, EDGES, TRIANGLES, EULER, BETTI0, BETTI1, BETTI2, AREA, STAR_LEAST, OBTUSE, FACTS };
 
 static const struct {
     const char *key, *title;
@@ -44,7 +32,7 @@ static const struct {
     [TRIANGLES] = {"triangles", "triangles of the mesh"},
     [EULER] = {"euler", "vertices − edges + triangles"},
     [BETTI0] = {"betti0", "connected pieces"},
-    [BETTI1] = {"betti1", "independent loops that bound nothing"},
+    [BETTI1] = {"betti1", "independent loops that enclose no part of the surface"},
     [BETTI2] = {"betti2", "closed pieces"},
     [AREA] = {"area", "area of the mesh"},
     [STAR_LEAST] = {"star_least", "least |dual edge| / |edge| of circumcentres"},
@@ -109,17 +97,19 @@ static bool add(struct gm_form_scene *scene, struct gm_observable row, struct gm
     return true;
 }
 
-/* Adds the error of a form; that of the first one is the solution's. */
+/* Adds the error of a form; the first one is also the solution's. */
 static bool add_error(struct gm_form_scene *scene, size_t form, bool first, char *sentence)
 {
     struct gm_system_scene *of_file = &scene->of_file;
     const char *name = of_file->system.variables[form].name;
     const struct gm_form_subject subject = {GM_FORM_ERROR, form};
     return (!first ||
-            add(scene, (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", observe, "error of the solution"),
+            add(scene,
+                (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", observe, "error of the solution"),
                 subject, sentence)) &&
            add(scene,
-               (struct gm_observable)GM_LOG_OBSERVABLE(gm_system_kept_text(of_file, "%s_error", name), observe,
+               (struct gm_observable)GM_LOG_OBSERVABLE(gm_system_kept_text(of_file, "%s_error", name),
+                                                       observe,
                                                        gm_system_kept_text(of_file, "error of %s", name)),
                subject, sentence);
 }
@@ -176,7 +166,7 @@ static bool make_observables(struct gm_form_scene *scene, char *sentence)
 
 /* ---- keys ---- */
 
-/* The forms that show= names: those of the system, then its lets. */
+/* The forms that show= names: declared ones, then lets. */
 static void make_shows(struct gm_form_scene *scene)
 {
     const struct gm_user_system *system = &scene->of_file.system;
@@ -204,8 +194,8 @@ static bool make_rows(struct gm_form_scene *scene, bool typed, char *sentence)
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
     const char *written = system->texts[GM_WORD_STAR];
     const struct gm_parameter common[COMMON_ROWS] = {
-        GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows, "the form that is drawn",
-                      .live = true, .looks = true),
+        GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
+                      "the form that is drawn", .live = true, .looks = true),
         GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
                       "dual vertices: circumcentres, centres of mass or of the circles inside"),
         GM_CAMERA_ROWS(struct gm_system_lane, camera)};
@@ -218,8 +208,12 @@ static bool make_rows(struct gm_form_scene *scene, bool typed, char *sentence)
     if (!gm_system_open_timing(of_file, numbers, sentence)) {
         return false;
     }
-    const double dt = numbers[0] > 0 ? numbers[0] : steady ? 1 : 0.01,
-                 steps = numbers[2] >= 0 ? numbers[2] : steady ? 0 : 100,
+    const double dt = numbers[0] > 0 ? numbers[0]
+                      : steady       ? 1
+                                     : 0.01,
+                 steps = numbers[2] >= 0 ? numbers[2]
+                         : steady        ? 0
+                                         : 100,
                  until = numbers[1] >= 0 ? numbers[1] : steps * dt;
     if (!gm_written_timing(&of_file->texts, system, dt, until, &of_file->rows[DT], &of_file->rows[UNTIL])) {
         return gm_refuse(sentence, "not enough memory");
@@ -235,9 +229,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     const struct gm_system_lane *lane = parameters;
     struct gm_fault fault = {0};
     double *values = gm_system_start_values(lane, NULL);
-    const bool good =
-        values && gm_form_problem_open(problem, &gm_form_scene_of(lane)->model, (enum gm_star)lane->star,
-                                       values, &fault);
+    const bool good = values && gm_form_problem_open(problem, &gm_form_scene_of(lane)->model,
+                                                     (enum gm_star)lane->star, values, &fault);
     free(values);
     if (!good) {
         return gm_refuse(sentence, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
@@ -270,9 +263,7 @@ static bool make_schemes(struct gm_form_scene *scene, const struct gm_problem *p
                             GM_MOST_PREFERRED, &count, sentence)) {
         return false;
     }
-    of_file->scene.schemes = count > 0                  ? of_file->schemes
-                             : scene->model.split > 0 ? splitting
-                                                        : usual;
+    of_file->scene.schemes = count > 0 ? of_file->schemes : scene->model.split > 0 ? splitting : usual;
     of_file->scene.lanes = of_file->system.texts[GM_WORD_LANES];
     return true;
 }

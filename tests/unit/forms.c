@@ -118,7 +118,8 @@ static void tetrahedron(void **unused)
     const struct gm_complex *complex = space.complex;
     double volume = 0;
     for (size_t t = 0; t < 4; t++) {
-        const double *p = points + 3 * complex->triangle[3 * t], *q = points + 3 * complex->triangle[3 * t + 1],
+        const double *p = points + 3 * complex->triangle[3 * t],
+                     *q = points + 3 * complex->triangle[3 * t + 1],
                      *r = points + 3 * complex->triangle[3 * t + 2];
         volume += (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
                    p[2] * (q[0] * r[1] - q[1] * r[0])) /
@@ -172,15 +173,12 @@ static void one_sided(void **unused)
             p[2] = (side ? 0.3 : -0.3) * sin(a / 2);
         }
         const int next = (i + 1) % STRIPS, turned = i + 1 == STRIPS;
-        const int pair[6] = {2 * i,     2 * i + 1,           2 * next + turned,
+        const int pair[6] = {2 * i,     2 * i + 1,          2 * next + turned,
                              2 * i + 1, 2 * next + !turned, 2 * next + turned};
         memcpy(corners + 6 * i, pair, sizeof pair);
     }
-    const struct gm_triangles from = {.points = points,
-                                      .in_space = true,
-                                      .vertices = 2 * STRIPS,
-                                      .corners = corners,
-                                      .count = 2 * STRIPS};
+    const struct gm_triangles from = {
+        .points = points, .in_space = true, .vertices = 2 * STRIPS, .corners = corners, .count = 2 * STRIPS};
     struct gm_triangulation_fault fault;
     assert_null(gm_complex_open(&from, &fault));
     assert_int_equal(fault.kind, GM_TRIANGULATION_ONE_SIDED);
@@ -235,9 +233,9 @@ static void identities(void **unused)
             struct gm_form_space space =
                 generated(meshes[i].word, meshes[i].numbers, meshes[i].count, (enum gm_star)star);
             struct gm_arena *arena = space.arena;
-            const struct gm_matrix *m = space.matrix, *pairs[2][2] = {{&m[GM_MATRIX_D1], &m[GM_MATRIX_D0]},
-                                                                      {&m[GM_MATRIX_DUAL_D1],
-                                                                       &m[GM_MATRIX_DUAL_D0]}};
+            const struct gm_matrix *m = space.matrix,
+                                   *pairs[2][2] = {{&m[GM_MATRIX_D1], &m[GM_MATRIX_D0]},
+                                                   {&m[GM_MATRIX_DUAL_D1], &m[GM_MATRIX_DUAL_D0]}};
             for (int dual = 0; dual < 2; dual++) { /* d d = 0, entry by entry */
                 const struct gm_matrix dd = gm_matrix_product(arena, pairs[dual][0], pairs[dual][1]);
                 for (int k = 0; k < dd.start[dd.rows]; k++) {
@@ -247,8 +245,8 @@ static void identities(void **unused)
             /* D0' STAR1 D0 = -STAR0 LAPLACE, the matrix of cotangents */
             const struct gm_matrix flux = gm_matrix_product(arena, &m[GM_MATRIX_STAR1], &m[GM_MATRIX_D0]),
                                    stiff = gm_matrix_product(arena, &m[GM_MATRIX_DUAL_D1], &flux),
-                                   cells = gm_matrix_product(arena, &m[GM_MATRIX_STAR0],
-                                                             &m[GM_MATRIX_LAPLACE]),
+                                   cells =
+                                       gm_matrix_product(arena, &m[GM_MATRIX_STAR0], &m[GM_MATRIX_LAPLACE]),
                                    difference = gm_matrix_sum(arena, 1, &stiff, -1, &cells);
             for (int k = 0; k < difference.start[difference.rows]; k++) {
                 near(difference.value[k], 0, 1e-12);
@@ -285,9 +283,12 @@ static void integrals(void **unused)
     (void)unused;
     struct gm_form_space space = generated("disc", (const double[]){1, 4}, 2, GM_STAR_AUTO);
     const struct gm_complex *complex = space.complex;
-    const struct gm_form_points faces = gm_form_points_of(&space, space.arena, (struct gm_form_type){2, false}),
-                                edges = gm_form_points_of(&space, space.arena, (struct gm_form_type){1, false}),
-                                duals = gm_form_points_of(&space, space.arena, (struct gm_form_type){1, true});
+    const struct gm_form_points faces =
+                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){2, false}),
+                                edges =
+                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){1, false}),
+                                duals =
+                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){1, true});
     double area = 0, fifth = 0;
     for (size_t i = 0; i < faces.count; i++) {
         const double x = faces.point[i], y = faces.point[faces.count + i];

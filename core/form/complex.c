@@ -4,7 +4,7 @@
        star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8 if it is circumcentric,
                   a third of the triangles around if it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -193,7 +193,7 @@ static int *link_sides(struct building *building, const struct side **sides)
     return across;
 }
 
-/* Turns the triangles of every piece like its first one; those of a closed piece enclose a positive volume. */
+/* Turns the triangles of every piece like its first one. A closed piece encloses a positive volume. */
 static void agree(struct building *building)
 {
     struct gm_complex *complex = building->complex;
@@ -223,7 +223,8 @@ static void agree(struct building *building)
                 const bool along = complex->triangle[here] == complex->triangle[there];
                 const signed char right = (signed char)(along ? -sense[t] : sense[t]);
                 if (sense[there / 3] && sense[there / 3] != right) {
-                    building->fault->nodes[1] = tag_of(building->from, complex->triangle[3 * t + (k + 1) % 3]);
+                    building->fault->nodes[1] =
+                        tag_of(building->from, complex->triangle[3 * t + (k + 1) % 3]);
                     refuse_vertex(building, complex->triangle[here], GM_TRIANGULATION_ONE_SIDED);
                 }
                 if (!sense[there / 3]) {

@@ -5,7 +5,7 @@
        (0, 2 k h),   (c, (2 k + 1) h),   (0, (2 k + 2) h)
    is acute. If a/2 < h < c < a, all are: the foot of every apex lies inside its base and splits it into p + q
    <= a with p q <= a^2/4 < h^2. */
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 
 #include <math.h>
 #include <stdint.h>

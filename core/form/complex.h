@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Oriented simplicial complexes in the plane, on a torus or on a surface in space, and what may be wrong with a
    triangulation. */
-#ifndef GM_CORE_FLOW_COMPLEX_H
-#define GM_CORE_FLOW_COMPLEX_H
+#ifndef GM_CORE_FORM_COMPLEX_H
+#define GM_CORE_FORM_COMPLEX_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -78,20 +78,20 @@ struct gm_complex {
     int *ring_start;            /* vertices + 1: where the neighbours of a vertex begin */
     int *ring_vertex;           /* 2 * edges: neighbours, in increasing order for each vertex */
     int *ring_edge;             /* 2 * edges: the edge to that neighbour */
-    int *edge_ring;       /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
-    size_t boundary;      /* number of boundary edges */
-    int *boundary_edge;   /* boundary edges, counter-clockwise, loop after loop */
-    int *boundary_vertex; /* the vertex where each begins */
-    size_t loops;         /* connected pieces of the boundary */
-    size_t *loop_start;   /* loops + 1: where each begins in boundary_edge */
+    int *edge_ring;        /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
+    size_t boundary;       /* number of boundary edges */
+    int *boundary_edge;    /* boundary edges, counter-clockwise, loop after loop */
+    int *boundary_vertex;  /* the vertex where each begins */
+    size_t loops;          /* connected pieces of the boundary */
+    size_t *loop_start;    /* loops + 1: where each begins in boundary_edge */
     size_t pieces, closed; /* connected pieces, and those without a boundary */
-    enum gm_star star;    /* star that is used */
-    double star_least;    /* the least entry of the circumcentric star1 */
-    size_t obtuse;        /* triangles with an angle above 90 degrees */
-    double *length;       /* length of each edge */
-    double *area;         /* area of each triangle */
-    double *weight;       /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
-    double *star0;        /* area of the dual cells */
+    enum gm_star star;     /* star that is used */
+    double star_least;     /* the least entry of the circumcentric star1 */
+    size_t obtuse;         /* triangles with an angle above 90 degrees */
+    double *length;        /* length of each edge */
+    double *area;          /* area of each triangle */
+    double *weight;        /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
+    double *star0;         /* area of the dual cells */
     /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;

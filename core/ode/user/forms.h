@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equations of discrete forms as a problem: fields that evolve are ordinary differential equations, unknowns are
    solved for at every time. */
-#ifndef GM_CORE_FORM_PROBLEM_H
-#define GM_CORE_FORM_PROBLEM_H
+#ifndef GM_CORE_ODE_USER_FORMS_H
+#define GM_CORE_ODE_USER_FORMS_H
 
 #include "core/form/program.h"
 #include "core/ode/ode.h"
 
-/* What a system of forms is compiled to; it knows no mesh. */
+/* The programs of a system of forms, which know no mesh. */
 struct gm_form_model {
     struct gm_user_system *system;
     struct gm_form_program rates, starts, exacts, equations, observed;
@@ -37,7 +37,7 @@ const double *gm_form_of(const struct gm_problem *problem, const double *y, doub
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
 /* The error of form i at a time, relative to the exact form; NaN without an `exact:`. */
 double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form);
-/* How far the equation of the unknown i contradicts itself: the part of its right side against constants. */
+/* The part of the right side, in the equation of the unknown i, that no unknown can meet: relative. */
 double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form);
 
 #endif

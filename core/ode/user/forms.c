@@ -2,7 +2,7 @@
 /* The equations of the unknowns U are L U = -r, r their residuals at U = 0. Rows of degree 0 are multiplied by
    the areas of their cells, so that K of -laplace(u) is symmetric. Where constants on a piece solve L U = 0, one
    number of it is pinned, the mean of r there is removed, and then that of U. */
-#include "core/form/problem.h"
+#include "core/ode/user/forms.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -37,7 +37,7 @@ struct own {
     double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
     int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
     size_t pieces;
-    double *defect;             /* of each piece */
+    double *defect; /* of each piece */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -69,8 +69,7 @@ static bool compile_forms(struct gm_form_model *model, struct gm_form_root *root
             const gm_node_id node =
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
-            residuals[equations++] =
-                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, form->place};
+            residuals[equations++] = (struct gm_form_root){node, {GM_FORM_ANY, false}, false, form->place};
             continue;
         }
         starts[rates] = (struct gm_form_root){form->start, type, true, form->place};
@@ -102,14 +101,15 @@ static bool compile_forms(struct gm_form_model *model, struct gm_form_root *root
         for (size_t i = 0; i < program->count; i++) {
             if (program->steps[i].needs & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS)) {
                 return gm_fail(fault, (p ? exact : starts)[0].place,
-                               "%s: holds formulas of x, y, z, t and parameters alone", p ? "exact" : "start");
+                               "%s: holds formulas of x, y, z, t and parameters alone",
+                               p ? "exact" : "start");
             }
         }
     }
     return true;
 }
 
-/* Finds a split of the fields, in their order, into two groups of which none has rates of its own fields. */
+/* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
 static void find_split(struct gm_form_model *model)
 {
     const struct gm_user_system *system = model->system;
@@ -123,8 +123,7 @@ static void find_split(struct gm_form_model *model)
                    leaf = step->kind == GM_STEP_FORM || step->kind == GM_STEP_SAMPLE;
         for (size_t f = 0; f < system->n; f++) {
             mine[f] = (step->kind == GM_STEP_FORM && step->number == f) ||
-                      (!leaf && needs[step->a * system->n + f]) ||
-                      (binary && needs[step->b * system->n + f]);
+                      (!leaf && needs[step->a * system->n + f]) || (binary && needs[step->b * system->n + f]);
         }
     }
     for (size_t split = 1; needs && split < fields && model->equations.root_count == 0; split++) {
@@ -147,8 +146,7 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
     *fault = (struct gm_fault){0};
     struct gm_form_root *roots = gm_arena_take(system->arena, 4 * system->n + 1, sizeof *roots);
     struct gm_form_root *observed = gm_arena_take(system->arena, system->item_count + 1, sizeof *observed);
-    model->observed_item =
-        gm_arena_take(system->arena, system->item_count + 1, sizeof *model->observed_item);
+    model->observed_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->observed_item);
     if (!roots || !observed || !model->observed_item || !compile_forms(model, roots, fault)) {
         return false;
     }
@@ -340,8 +338,8 @@ static void assemble(struct own *own, struct gm_arena *arena)
     for (size_t i = 0; i < system->n; i++) {
         for (size_t k = 0; system->forms[i].unknown && k < rows[i].rows; k++) {
             for (int l = rows[i].start[k]; l < rows[i].start[k + 1]; l++) {
-                all[entries++] = (struct gm_matrix_entry){(int)(own->offset[i] + k), rows[i].column[l],
-                                                          rows[i].value[l]};
+                all[entries++] =
+                    (struct gm_matrix_entry){(int)(own->offset[i] + k), rows[i].column[l], rows[i].value[l]};
             }
         }
     }
@@ -440,7 +438,7 @@ static void place_forms(struct own *own, const double *y)
     }
 }
 
-/* The rates of fields first .. last - 1, in place of the state's numbers from `base` on. */
+/* Writes the rates of fields first .. last - 1; f[0] is the rate of the state's number `base`. */
 static void write_rates(const struct gm_problem *problem, const double *y, double *f, size_t first,
                         size_t last, size_t base)
 {
