@@ -351,3 +351,25 @@ struct gm_complex *gm_generator_open(const char *word, const double *number, siz
     gm_arena_close(arena);
     return making.complex;
 }
+
+const char *const *gm_generator_parts(const char *word)
+{
+    static const char *const parts[GENERATORS][5] = {
+        [RECTANGLE] = {"left", "right", "bottom", "top"}, [DISC] = {"rim"}, [ANNULUS] = {"inner", "outer"}};
+    return parts[which_of(word)];
+}
+
+bool gm_generator_on(const char *word, const double *number, const char *part, const double middle[3])
+{
+    const enum which which = which_of(word);
+    const double radius = hypot(middle[0], middle[1]);
+    const bool sides[] = {middle[0] == 0, middle[0] == number[0], middle[1] == 0, middle[1] == number[1]},
+               circles[] = {radius<number[0] * 1.001, radius> number[0] * 1.001};
+    const char *const *parts = gm_generator_parts(word);
+    for (size_t i = 0; parts[i]; i++) {
+        if (strcmp(parts[i], part) == 0) {
+            return which == DISC || (which == RECTANGLE ? sides : circles)[i];
+        }
+    }
+    return strcmp(part, "all") == 0;
+}

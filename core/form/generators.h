@@ -15,4 +15,9 @@ bool gm_generator_check(const char *word, const double *numbers, size_t count, s
 struct gm_complex *gm_generator_open(const char *word, const double *numbers, size_t count, enum gm_star star,
                                      struct gm_triangulation_fault *fault);
 
+/* The names of the parts of a mesh's boundary; a NULL ends them. */
+const char *const *gm_generator_parts(const char *word);
+/* True if an edge of the boundary with this middle is on a part, or on any part if that is "all". */
+bool gm_generator_on(const char *word, const double *numbers, const char *part, const double middle[3]);
+
 #endif

@@ -425,13 +425,38 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
     return reduced(compiling, GM_STEP_SUM, operate(compiling, GM_OPERATION_MULTIPLY, a, other));
 }
 
+/* Adds what lines `boundary:` of a let, a dual 1-form, give to its derivative: the parts of dual cells that lie on
+   the boundary. */
+static struct part closed(struct compiling *compiling, gm_node_id let, struct part derivative)
+{
+    const struct gm_user_system *system = compiling->system;
+    for (size_t i = 0; i < system->item_count && !compiling->failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_BOUNDARY || item->count < 2 || item->nodes[1] != let) {
+            continue;
+        }
+        const struct part formula = {{GM_FORM_PLACE, false}, NONE, item->nodes[0]};
+        if (derivative.type.degree != 2 || !derivative.type.dual || compiling->of_forms[item->nodes[0]]) {
+            return refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
+        }
+        const struct part along = sampled(compiling, formula, (struct gm_form_type){1, false});
+        const struct part closing = made(compiling, (struct gm_form_step){.kind = GM_STEP_CLOSING,
+                                                                          .type = derivative.type,
+                                                                          .needs = needs_of(compiling, along),
+                                                                          .a = along.step,
+                                                                          .number = i});
+        derivative = operate(compiling, GM_OPERATION_ADD, derivative, closing);
+    }
+    return derivative;
+}
+
 static struct part called(struct compiling *compiling, const struct gm_form_call *call)
 {
     const struct part a = compiling->parts[call->operands[0]],
                       b = compiling->parts[call->operands[call->count > 1 ? 1 : 0]];
     switch (call->operator) {
     case GM_FORM_D:
-        return d(compiling, a);
+        return closed(compiling, call->operands[0], d(compiling, a));
     case GM_FORM_STAR:
         return star(compiling, a);
     case GM_FORM_DELTA:
@@ -568,6 +593,12 @@ static bool survey(struct compiling *compiling, const struct gm_form_root *roots
     for (size_t i = 0; i < count; i++) {
         compiling->marked[roots[i].node] = true;
     }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_BOUNDARY) {
+            compiling->marked[item->nodes[0]] = true;
+        }
+    }
     for (size_t i = nodes; i > 0; i--) {
         const struct gm_node *node = &system->graph.nodes[i - 1];
         if (!compiling->marked[i - 1] || node->operation == GM_CONSTANT) {
@@ -617,7 +648,8 @@ static void finish(struct compiling *compiling, const struct gm_form_root *root,
         part = decided(compiling, part);
     } else if (zero) {
         part = zero_of(compiling, root->type);
-    } else if ((root->density && formula && root->type.degree != 1) || (formula && root->type.degree == 0)) {
+    } else if ((root->density && formula && (root->type.degree != 1 || root->along)) ||
+               (formula && root->type.degree == 0)) {
         part = sampled(compiling, part, root->type);
     } else if (!fit(compiling, &part, root->type)) {
         char text[80];

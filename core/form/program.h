@@ -17,6 +17,7 @@ struct gm_form_step {
         GM_STEP_MATRIX,  /* matrix `number` times a */
         GM_STEP_OPERATE, /* operation `number` on the entries of a and b, of which one may be a number */
         GM_STEP_WEDGE,   /* of two primal 1-forms: the integral of the product of Whitney's forms */
+        GM_STEP_CLOSING, /* boundary line `number`: the part of dual cells along it, of the integrals a */
         GM_STEP_SUM,
         GM_STEP_LARGEST,
         GM_STEP_LEAST,
@@ -41,6 +42,7 @@ struct gm_form_root {
     gm_node_id node;
     struct gm_form_type type; /* degree GM_FORM_ANY: what it is */
     bool density;             /* a formula of the place is the density of the form */
+    bool along;               /* of a 1-form it is the density along an edge */
     size_t place;             /* of its text */
 };
 enum { GM_FORM_ANY = -9 };

@@ -73,7 +73,11 @@ static void sample(const struct gm_form_values *values, size_t i, double t)
             if (points->weight) {
                 sum += points->weight[j] * found[j];
             }
-            for (size_t c = 0; !points->weight && c < step->components; c++) {
+            if (!points->weight && step->components == 1) { /* a density along the edge */
+                sum += found[j] * hypot(hypot(points->vector[j], points->vector[count + j]),
+                                        points->vector[2 * count + j]);
+            }
+            for (size_t c = 0; !points->weight && step->components > 1 && c < step->components; c++) {
                 sum += points->vector[c * count + j] * found[c * count + j];
             }
         }
@@ -183,6 +187,9 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
             break;
         case GM_STEP_WEDGE:
             wedge(values, i);
+            break;
+        case GM_STEP_CLOSING:
+            gm_matrix_apply(&values->closings[step->number], values->slot[step->a], values->slot[i]);
             break;
         default:
             reduce(values, i);

@@ -9,11 +9,12 @@
 struct gm_form_values {
     const struct gm_form_program *program;
     struct gm_form_space *space;
-    double **slot;         /* the value of each step */
-    struct gm_tape *tapes; /* for each step that samples */
-    double **sampled;      /* scratch of each of these */
-    double *solved;        /* scratch: a number for each edge */
-    double time;           /* of the samples; NaN: none were made */
+    double **slot;                    /* the value of each step */
+    struct gm_tape *tapes;            /* for each step that samples */
+    double **sampled;                 /* scratch of each of these */
+    double *solved;                   /* scratch: a number for each edge */
+    const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
+    double time;                      /* of the samples; NaN: none were made */
 };
 
 /* Called in a body of the arena, which owns all. `variables` has the values of all variables of the system. */

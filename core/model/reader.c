@@ -846,8 +846,38 @@ static bool read_space(struct gm_reading *reading, const struct gm_system_line *
     return read_choice(reading, line, "differences", "fourier");
 }
 
+/* boundary: PART NAME = formula, of forms */
+static bool read_part(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const char *text = reading->text;
+    const size_t end = line->value.begin + strcspn(text + line->value.begin, " \t\r\n");
+    const struct gm_span part = {line->value.begin, end < line->value.end ? end : line->value.end};
+    struct gm_target target;
+    if (!gm_reading_assignment(reading, gm_span_trimmed(text, (struct gm_span){part.end, line->value.end}),
+                               &target)) {
+        return false;
+    }
+    const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
+    struct gm_system_item *item = entry ? add_item(reading, line, part) : NULL;
+    if (!item || !add_formula(reading, item, target.value)) {
+        return false;
+    }
+    item->variable = entry->number;
+    return entry->role == GM_ENTRY_COMPONENT ||
+           (entry->role == GM_ENTRY_NAMED
+                ? add_node(reading, item, entry->node)
+                : gm_fail_first(&reading->fault, target.name.begin,
+                                "a boundary is given for a form: a field, an unknown or a let"));
+}
+
 static bool read_boundary(struct gm_reading *reading, const struct gm_system_line *line)
 {
+    if (gm_system_is_form(reading->system)) {
+        return read_part(reading, line);
+    }
+    if (reading->system->texts[GM_WORD_BOUNDARY]) {
+        return gm_fail_first(&reading->fault, line->place, "boundary is given twice");
+    }
     return read_choice(reading, line, "ring", "walls");
 }
 

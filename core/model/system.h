@@ -123,7 +123,8 @@ struct gm_system_item {
     bool alone;             /* a section that is the default picture */
     enum gm_identity check; /* invariants, Casimirs and symmetries only */
 };
-/* nodes, by word. section: the function that becomes 0, two functions to show, a function that must be
+/* nodes, by word. boundary of forms: the formula, and the let that it is given for, if it is one; `name` is the part of
+   the boundary, `variable` the form. section: the function that becomes 0, two functions to show, a function that must be
    positive. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
    and the other. surface: three half axes. mass: the formula. dt, until and steps: the number, in parameters.
    require, level and exact-while: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the

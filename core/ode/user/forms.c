@@ -23,11 +23,14 @@ struct own {
     const struct gm_form_model *model;
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
-    pthread_mutex_t turn; /* one call after another */
-    size_t half;          /* of the state, if it splits: forms of the first group are padded to it */
-    size_t *offset;       /* of each form in the state, or among the unknowns */
-    double **forms;       /* where each form is */
+    struct gm_matrix *closings; /* for each item of the system */
+    pthread_mutex_t turn;       /* one call after another */
+    size_t half;                /* of the state, if it splits: forms of the first group are padded to it */
+    size_t *offset;             /* of each form in the state, or among the unknowns */
+    double **forms;             /* where each form is */
     size_t unknowns;
+    bool *held, *held_unknown; /* of each number of the state, and of the unknowns */
+    double *given;             /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
     double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
     bool solved, observes;
@@ -62,18 +65,19 @@ static bool compile_forms(struct gm_form_model *model, struct gm_form_root *root
         const struct gm_form_declared *form = &system->forms[i];
         const struct gm_form_type type = type_of(system, i);
         if (form->exact != GM_NO_NODE) {
-            exact[exacts++] = (struct gm_form_root){form->exact, type, true, form->place};
+            exact[exacts++] = (struct gm_form_root){form->exact, type, true, false, form->place};
         }
         if (form->unknown) {
             system->graph.place = system->graph.places[form->left];
             const gm_node_id node =
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
-            residuals[equations++] = (struct gm_form_root){node, {GM_FORM_ANY, false}, false, form->place};
+            residuals[equations++] =
+                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, false, form->place};
             continue;
         }
-        starts[rates] = (struct gm_form_root){form->start, type, true, form->place};
-        roots[rates++] = (struct gm_form_root){system->rates[i], type, false, form->place};
+        starts[rates] = (struct gm_form_root){form->start, type, true, false, form->place};
+        roots[rates++] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
     }
     if (!gm_form_compile(&model->rates, system, roots, rates, false, fault) ||
         !gm_form_compile(&model->starts, system, starts, rates, false, fault) ||
@@ -104,6 +108,37 @@ static bool compile_forms(struct gm_form_model *model, struct gm_form_root *root
                                "%s: holds formulas of x, y, z, t and parameters alone",
                                p ? "exact" : "start");
             }
+        }
+    }
+    return true;
+}
+
+/* Compiles the values of forms that are held on a part of the boundary. */
+static bool compile_held(struct gm_form_model *model, struct gm_fault *fault)
+{
+    struct gm_user_system *system = model->system;
+    struct gm_form_root *roots = gm_arena_take(system->arena, system->item_count + 1, sizeof *roots);
+    model->held_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->held_item);
+    size_t count = 0;
+    for (size_t i = 0; roots && model->held_item && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_BOUNDARY || item->count > 1) {
+            continue;
+        }
+        const struct gm_form_type type = type_of(system, item->variable);
+        if (type.dual ? type.degree != 2 : type.degree == 2) {
+            return gm_fail(fault, item->place, "%s is %s: a 0-form, a 1-form or a dual 2-form is held",
+                           system->variables[item->variable].name, gm_form_type_text(type));
+        }
+        model->held_item[count] = i;
+        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
+    }
+    if (!roots || !model->held_item || !gm_form_compile(&model->held, system, roots, count, false, fault)) {
+        return false;
+    }
+    for (size_t i = 0; i < model->held.count; i++) {
+        if (model->held.steps[i].needs) {
+            return gm_fail(fault, roots[0].place, "a value that is held does not change in time");
         }
     }
     return true;
@@ -157,13 +192,16 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
         system->timed |= (model->equations.steps[i].needs & GM_NEEDS_TIME) != 0;
     }
     find_split(model);
+    if (!compile_held(model, fault)) {
+        return false;
+    }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE || item->word == GM_WORD_LET) {
             const int degree = item->word == GM_WORD_LET ? GM_FORM_ANY : GM_FORM_NUMBER;
             model->observed_item[model->observed_count] = i;
             observed[model->observed_count++] =
-                (struct gm_form_root){item->nodes[0], {degree, false}, false, item->place};
+                (struct gm_form_root){item->nodes[0], {degree, false}, false, false, item->place};
         }
     }
     return gm_form_compile(&model->observed, system, observed, model->observed_count, false, fault);
@@ -174,11 +212,11 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 static const char *const stars[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"};
 
 static struct gm_complex *open_mesh(const struct gm_user_system *system, enum gm_star star,
-                                    const double *variables, struct gm_fault *fault)
+                                    const double *variables, double numbers[GM_MOST_OPERANDS],
+                                    struct gm_fault *fault)
 {
     const struct gm_system_item *mesh = gm_system_item_of(system, GM_WORD_MESH, 0);
     struct gm_tape tape = {0};
-    double numbers[GM_MOST_OPERANDS];
     struct gm_triangulation_fault wrong;
     if (mesh->count > GM_MOST_OPERANDS) {
         gm_fail(fault, mesh->place, "a mesh has at most four numbers");
@@ -258,20 +296,32 @@ static void close_factor(void *factor)
     gm_cholesky_close(factor);
 }
 
-/* Factors the matrix if it is symmetric and definite; with its pins. */
+/* True if a number of the unknowns is held, or pinned. */
+static bool is_pinned(const struct own *own, size_t i)
+{
+    return own->held_unknown[i] || own->piece[i] == (int)i;
+}
+
+/* Replaces rows and columns of pinned numbers by those of the identity. */
+static void pin(struct own *own)
+{
+    const struct gm_matrix *a = &own->matrix;
+    for (size_t i = 0; i < own->unknowns; i++) {
+        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+            const int j = a->column[k];
+            if (is_pinned(own, i) || is_pinned(own, (size_t)j)) {
+                a->value[k] = j == (int)i ? 1 : 0;
+            }
+        }
+    }
+}
+
+/* Factors the matrix if it is symmetric and definite. */
 static void factor(struct own *own)
 {
     const struct gm_matrix *a = &own->matrix;
     struct gm_arena *arena = own->arena;
     const size_t n = own->unknowns;
-    for (size_t i = 0; i < n; i++) { /* pins: this row and column of the identity */
-        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            const int j = a->column[k];
-            if (own->piece[i] == (int)i || own->piece[j] == j) {
-                a->value[k] = j == (int)i ? 1 : 0;
-            }
-        }
-    }
     const struct gm_matrix back = gm_matrix_transposed(arena, a, -1);
     const struct gm_matrix skew = gm_matrix_sum(arena, 1, a, 1, &back);
     double largest = 0, asymmetry = 0, trace = 0;
@@ -287,7 +337,7 @@ static void factor(struct own *own)
     for (size_t i = 0; i < n; i++) {
         start[i + 1] = start[i];
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            const bool pin = own->piece[i] == (int)i;
+            const bool pin = is_pinned(own, i);
             if (a->column[k] <= (int)i) {
                 column[start[i + 1]] = a->column[k];
                 value[start[i + 1]++] = a->value[k];
@@ -298,7 +348,7 @@ static void factor(struct own *own)
     own->sign = trace < 0 ? -1 : 1;
     for (size_t i = 0; i < n; i++) {
         for (int k = start[i]; k < start[i + 1]; k++) {
-            value[k] *= own->piece[i] == (int)i ? 1 : own->sign;
+            value[k] *= is_pinned(own, i) ? 1 : own->sign;
         }
     }
     if (asymmetry <= 1e-12 * largest) {
@@ -332,9 +382,11 @@ static void assemble(struct own *own, struct gm_arena *arena)
             entries += (size_t)rows[i].start[rows[i].rows];
         }
     }
-    struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + 1) * sizeof *all), free);
+    struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + own->unknowns) * sizeof *all), free);
     gm_arena_need(arena, all);
-    entries = 0;
+    for (entries = 0; entries < own->unknowns; entries++) { /* a place for pins */
+        all[entries] = (struct gm_matrix_entry){(int)entries, (int)entries, 0};
+    }
     for (size_t i = 0; i < system->n; i++) {
         for (size_t k = 0; system->forms[i].unknown && k < rows[i].rows; k++) {
             for (int l = rows[i].start[k]; l < rows[i].start[k + 1]; l++) {
@@ -348,11 +400,13 @@ static void assemble(struct own *own, struct gm_arena *arena)
     for (size_t i = 0; i < own->unknowns; i++) {
         own->piece[i] = -1;
     }
+    pin(own);
     for (size_t i = 0; i < system->n; i++) {
         if (system->forms[i].unknown) {
             find_constants(own, i);
         }
     }
+    pin(own);
     factor(own);
 }
 
@@ -396,7 +450,7 @@ static void solve(struct own *own, double t)
     if (own->unknowns == 0) {
         return;
     }
-    memset(own->unknown, 0, own->unknowns * sizeof *own->unknown);
+    memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
     gm_form_values_run(&own->equations, t, own->forms);
     for (size_t i = 0, k = 0; i < system->n; i++) {
         if (system->forms[i].unknown) {
@@ -408,6 +462,9 @@ static void solve(struct own *own, double t)
             remove_means(own, i, own->residual, true);
         }
     }
+    for (size_t i = 0; i < own->unknowns; i++) {
+        own->residual[i] = own->held_unknown[i] ? 0 : own->residual[i];
+    }
     bool good = true;
     if (own->factor) {
         for (size_t i = 0; i < own->unknowns; i++) {
@@ -418,8 +475,8 @@ static void solve(struct own *own, double t)
         good = gm_lu_solve(own->unknowns, own->matrix.start, own->matrix.column, own->matrix.value,
                            own->residual, own->unknown);
     }
-    for (size_t i = 0; i < own->unknowns && !good; i++) {
-        own->unknown[i] = NAN;
+    for (size_t i = 0; i < own->unknowns; i++) {
+        own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
     for (size_t i = 0; i < system->n; i++) {
         if (system->forms[i].unknown) {
@@ -452,9 +509,10 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
     gm_form_values_run(&own->rates, t, own->forms);
     for (size_t i = 0, k = 0; i < system->n; i++) {
         if (!system->forms[i].unknown) {
-            if (k >= first && k < last) {
-                memcpy(f + own->offset[i] - base, gm_form_values_root(&own->rates, k),
-                       gm_form_size(own->space.complex, type_of(system, i)) * sizeof *f);
+            const double *rate = gm_form_values_root(&own->rates, k);
+            for (size_t j = 0;
+                 k >= first && k < last && j < gm_form_size(own->space.complex, type_of(system, i)); j++) {
+                f[own->offset[i] - base + j] = own->held[own->offset[i] + j] ? 0 : rate[j];
             }
             k++;
         }
@@ -494,7 +552,118 @@ struct opening {
     struct gm_complex *complex;
     const double *variables;
     size_t n;
+    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
 };
+
+/* Marks the edges of the boundary that are on a part. False if there is no such part. */
+static bool mark_part(const struct opening *opening, const char *part, bool *edges)
+{
+    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
+    const struct gm_complex *complex = opening->own->space.complex;
+    const char *const *parts = gm_generator_parts(word);
+    bool there = parts[0] && strcmp(part, "all") == 0;
+    for (size_t i = 0; parts[i]; i++) {
+        there |= strcmp(parts[i], part) == 0;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        double p[3], q[3], middle[3];
+        const size_t e = (size_t)complex->boundary_edge[b];
+        gm_form_vertex(complex, (size_t)complex->edge[2 * e], p);
+        gm_form_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
+        for (int c = 0; c < 3; c++) {
+            middle[c] = (p[c] + q[c]) / 2;
+        }
+        edges[e] = gm_generator_on(word, opening->numbers, part, middle);
+    }
+    return there;
+}
+
+static void refuse_part(const struct opening *opening, const char *part)
+{
+    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
+    const char *const *parts = gm_generator_parts(word);
+    char names[64] = "none";
+    size_t used = 0;
+    for (size_t i = 0; parts[i]; i++) {
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", parts[i]);
+    }
+    gm_arena_refuse(opening->own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part,
+                    word, names);
+}
+
+/* Makes the matrices of lines that close dual cells: half of an edge belongs to each of its ends. Later lines
+   win. */
+static void make_closings(struct opening *opening)
+{
+    struct own *own = opening->own;
+    const struct gm_user_system *system = opening->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    struct gm_arena *arena = own->arena;
+    own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
+    bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
+         *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
+    struct gm_matrix_entry *entries = gm_arena_take(arena, 2 * complex->edges, sizeof *entries);
+    for (size_t i = system->item_count; i > 0; i--) {
+        const struct gm_system_item *item = &system->items[i - 1];
+        if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
+            continue;
+        }
+        size_t count = 0;
+        memset(edges, 0, complex->edges * sizeof *edges);
+        if (!mark_part(opening, item->name, edges)) {
+            refuse_part(opening, item->name);
+        }
+        for (size_t e = 0; e < complex->edges; e++) {
+            for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
+                entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
+            }
+            taken[e] |= edges[e];
+        }
+        own->closings[i - 1] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+    }
+}
+
+/* Marks the numbers of forms that are held, with their values. */
+static void hold(struct opening *opening)
+{
+    struct own *own = opening->own;
+    const struct gm_form_model *model = opening->model;
+    const struct gm_user_system *system = model->system;
+    const struct gm_complex *complex = own->space.complex;
+    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges);
+    struct gm_form_values values;
+    gm_form_values_open(&values, own->arena, &model->held, &own->space, system, opening->variables);
+    gm_form_values_run(&values, 0, own->forms);
+    for (size_t i = 0; i < model->held.root_count; i++) {
+        const struct gm_system_item *item = &system->items[model->held_item[i]];
+        const struct gm_form_declared *form = &system->forms[item->variable];
+        const double *value = gm_form_values_root(&values, i);
+        bool *held = (form->unknown ? own->held_unknown : own->held) + own->offset[item->variable];
+        double *to = (form->unknown ? own->given : own->start) + own->offset[item->variable];
+        if (form->degree == 1 && own->space.mass) {
+            gm_arena_refuse(own->arena,
+                            "%s is held on edges: this needs star=circumcentric, and here the dual "
+                            "vertices are other ones",
+                            system->variables[item->variable].name);
+        }
+        memset(edges, 0, complex->edges * sizeof *edges);
+        if (!mark_part(opening, item->name, edges)) {
+            refuse_part(opening, item->name);
+        }
+        for (size_t e = 0; e < complex->edges; e++) {
+            const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
+            if (edges[e] && form->degree == 1) {
+                held[e] = true;
+                to[e] = left ? value[e] : -value[e];
+            }
+            for (size_t k = 0; k < 2 && edges[e] && form->degree != 1; k++) {
+                const int v = complex->edge[2 * e + k];
+                held[v] = true;
+                to[v] = value[v];
+            }
+        }
+    }
+}
 
 static void close_space(void *space)
 {
@@ -563,6 +732,10 @@ static void make(struct gm_arena *arena, void *data)
     own->start = gm_arena_take(arena, opening->n, sizeof(double));
     own->seen = gm_arena_take(arena, opening->n, sizeof(double));
     own->scratch = gm_arena_take(arena, 2 * (own->space.complex->edges + 1), sizeof(double));
+    own->held = gm_arena_take(arena, opening->n, sizeof *own->held);
+    own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
+    own->given = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    make_closings(opening);
     gm_form_values_open(&own->rates, arena, &model->rates, &own->space, system, opening->variables);
     gm_form_values_open(&own->exacts, arena, &model->exacts, &own->space, system, opening->variables);
     gm_form_values_open(&own->equations, arena, &model->equations, &own->space, system, opening->variables);
@@ -581,7 +754,10 @@ static void make(struct gm_arena *arena, void *data)
         }
         k += !system->forms[i].unknown;
     }
+    hold(opening);
+    own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
     if (own->unknowns > 0) {
+        memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
         place_forms(own, own->start);
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own, arena);
@@ -611,7 +787,7 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
         return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
     }
     struct opening opening = {.model = model, .variables = variables};
-    opening.complex = open_mesh(model->system, star, variables, fault);
+    opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
     struct gm_arena *arena = opening.complex ? gm_arena_open() : NULL;
     if (!arena || !gm_arena_run(arena, make, &opening)) {
         if (arena && !fault->sentence[0]) {

@@ -10,7 +10,8 @@
 /* The programs of a system of forms, which know no mesh. */
 struct gm_form_model {
     struct gm_user_system *system;
-    struct gm_form_program rates, starts, exacts, equations, observed;
+    struct gm_form_program rates, starts, exacts, equations, observed, held;
+    size_t *held_item; /* the line of each root of `held` */
     struct gm_form_root *observed_roots;
     size_t observed_count; /* invariants, observables and lets, in the order of the items */
     size_t *observed_item;
