@@ -305,13 +305,20 @@ static bool make(struct gm_form_scene *scene, const char *name, const char *cons
         .close = gm_form_problem_close,
         .start = start,
         .draw = gm_form_draw,
+        .work = &of_file->work,
     };
     struct gm_problem problem;
     if (!gm_system_open_items(of_file, sentence) || !setup(of_file->initial, &problem, sentence)) {
         return false;
     }
-    const bool good = make_observables(scene, sentence) && make_schemes(scene, &problem, sentence) &&
-                      gm_system_make_studies(of_file, &problem, NULL, sentence);
+    bool good = make_observables(scene, sentence) && make_schemes(scene, &problem, sentence);
+    /* the mesh has an error of its own, so that errors of steps are distances from a finer run */
+    of_file->work = (struct gm_work){.arguments = "",
+                                     .coarsest = 4 * of_file->initial->timing.dt,
+                                     .halvings = 4,
+                                     .schemes = of_file->scene.schemes,
+                                     .reference = "rk4"};
+    good = good && gm_system_make_studies(of_file, &problem, NULL, sentence);
     gm_form_problem_close(&problem);
     return good;
 }
