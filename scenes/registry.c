@@ -9,6 +9,7 @@
 #include "scenes/common/scene.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
+#include "scenes/form/user_form.h"
 #include "scenes/ode/system.h"
 
 #define GM_SYSTEM_SCENE(name)
@@ -56,6 +57,9 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
     if (!gm_equations_open(&system, file->text, file->length, NULL, 0, fault)) {
         gm_system_close(&system);
         return NULL;
+    }
+    if (gm_system_is_form(&system)) {
+        return gm_user_form_open(&system, file->name, NULL, fault, sentence);
     }
     size_t others;
     const bool elsewhere = gm_user_field_elsewhere(system.kind, system.texts[GM_WORD_SCHEMES], &others) > 0;

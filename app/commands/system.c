@@ -28,6 +28,7 @@
 #include "core/model/symmetries.h"
 #include "core/ode/families/splitting/parts.h"
 #include "core/ode/user/evolution.h"
+#include "core/ode/user/forms.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
 #include "render/message.h"
@@ -42,6 +43,7 @@ static const struct {
     {"field", "A wave equation", "V"},
     {"evolution", "An evolution equation on a line", ""},
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
+    {"forms", "Differential forms on triangles", ""},
 };
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
@@ -233,6 +235,9 @@ static void print_parameters(const struct report *report)
                                         row->unit[0] ? ", in " : "", row->unit, range,
                                         row->fixed ? " (a whole number that is fixed)" : ""),
                          printf("  %-14s %-12s ", row->name, value), 30);
+    }
+    if (gm_system_is_form(system)) { /* starts are formulas on a mesh */
+        return;
     }
     printf("\nstart\n");
     for (size_t i = 0; i < system->n && i < MOST_EQUATIONS; i++) {
@@ -911,10 +916,47 @@ static int list_invariants(const struct gm_options *options, struct report *repo
     return gm_finish(GM_EXIT_OK);
 }
 
+/* Prints the type of every form and, with --long, how the fields split, and what the equations are made of. */
+static int list_forms(const struct gm_options *options, struct report *report)
+{
+    struct gm_user_system *system = &report->system;
+    struct gm_form_model model;
+    struct gm_fault fault;
+    if (options->json || options->latex || options->invariants) {
+        return gm_give_up(GM_EXIT_USAGE,
+                          "list of a system of forms has neither --json nor --latex nor --invariants");
+    }
+    if (!gm_form_model_open(&model, system, &fault)) {
+        return gm_give_up(GM_EXIT_USAGE, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
+    }
+    print_texts(report);
+    print_parameters(report);
+    printf("\nforms\n");
+    for (size_t i = 0; i < system->n; i++) {
+        const struct gm_form_declared *form = &system->forms[i];
+        printf("  %-14s %s that %s\n", system->variables[i].name,
+               gm_form_type_text((struct gm_form_type){form->degree, form->dual}),
+               form->unknown ? "its equation determines" : "evolves");
+    }
+    for (size_t i = 0; i < model.observed_count; i++) {
+        const struct gm_system_item *item = &system->items[model.observed_item[i]];
+        printf("  %-14s %s\n", item->name,
+               gm_form_type_text(model.observed.steps[model.observed.roots[i]].type));
+    }
+    for (size_t i = 0; options->longer && i < system->n && model.split > 0; i++) {
+        printf("%s%s", i == 0 ? "\nsplits: " : i == model.split ? " | " : " ", system->variables[i].name);
+    }
+    printf("%s", options->longer && model.split > 0 ? "\n" : "");
+    return gm_finish(GM_EXIT_OK);
+}
+
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
     check_scene(options, !file);
+    if (gm_system_is_form(&report->system)) {
+        return list_forms(options, report);
+    }
     if (options->invariants) {
         return list_invariants(options, report);
     }

@@ -21,6 +21,7 @@
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
+#include "scenes/form/user_form.h"
 #include "scenes/ode/system.h"
 
 const char gm_system_typed[] = "system";
@@ -261,12 +262,16 @@ static bool open_system(struct making *making)
         return refuse_text(making, &fault);
     }
     const char *const *words = (const char *const *)made->words.words;
-    const bool field = gm_system_is_field(&making->system);
+    const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
     made->close = gm_system_scene_close;
-    made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere, &fault,
-                                             making->message)
-                        : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
-                                               making->message);
+    if (form) {
+        made->scene = gm_user_form_open(&making->system, made->name, words, &fault, making->message);
+    } else {
+        made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere,
+                                                 &fault, making->message)
+                            : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
+                                                   making->message);
+    }
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
     }

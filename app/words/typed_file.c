@@ -16,8 +16,8 @@
 
 enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_PART, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
 const char *const gm_typed_keys[] = {"H", "L", "rate", "part", "coordinates", "momenta", NULL};
-const char *const gm_replacing_keys[] = {"H", "L",        "V",        "rate", "bracket",
-                                         "S", "K-matrix", "L-matrix", "let",  NULL};
+const char *const gm_replacing_keys[] = {"H",        "L",        "V",   "rate", "bracket", "S",
+                                         "K-matrix", "L-matrix", "let", "mesh", NULL};
 
 const char *gm_word_after(const char *word, const char *key)
 {
@@ -564,7 +564,7 @@ static void refuse_words(const struct typing *typing)
 /* Writes the lines of the system. */
 static void put_typed(struct gm_arena *arena, void *data)
 {
-    static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", NULL};
+    static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", "mesh", NULL};
     struct typing *typing = data;
     struct gm_typed_file *file = typing->file;
     const char *value;

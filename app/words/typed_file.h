@@ -35,7 +35,7 @@ struct gm_typed_file { /* {0} is an empty text */
 void gm_typed_file_close(struct gm_typed_file *file);
 
 /* Keys without a file: H L rate part coordinates momenta; and those that replace a line: H L V rate bracket S K-matrix
-   L-matrix let. NULL-terminated. */
+   L-matrix let mesh. NULL-terminated. */
 extern const char *const gm_typed_keys[], *const gm_replacing_keys[];
 
 /* Returns true if a word sets H, L or rate. */

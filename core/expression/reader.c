@@ -612,6 +612,29 @@ static gm_node_id read_choice(struct reader *reader, size_t begin)
                             gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, other, parts[1]));
 }
 
+/* Reads the operands that follow the first `count` ones, and makes the node of a name that is called. */
+static gm_node_id read_called(struct reader *reader, size_t begin, const struct gm_name *name,
+                              gm_node_id *operands, size_t count)
+{
+    char sentence[GM_FAULT_SENTENCE] = "";
+    gm_node_id node = 0;
+    do {
+        if (count == GM_MOST_OPERANDS) {
+            return expected(reader, ")");
+        }
+        operands[count++] = read_expression(reader, 0);
+    } while (!reader->failed && take(reader, ','));
+    if (!reader->failed && !take(reader, ')')) {
+        return expected(reader, ")");
+    }
+    reader->graph->place = (uint32_t)begin;
+    if (!reader->failed &&
+        reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) != GM_KNOWN) {
+        return fail(reader, begin, "%s", sentence);
+    }
+    return node;
+}
+
 static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operation operation)
 {
     if (operation == GM_OPERATION_CHOSEN) {
@@ -621,6 +644,17 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
     const struct gm_operation_row *row = &gm_operation_rows[operation];
     gm_node_id operands[2] = {0, 0};
     for (unsigned i = 0; i < row->arity && !reader->failed; i++) {
+        const struct gm_name name = {.text = row->name, .length = strlen(row->name)};
+        if (i > 0 && peek(reader) == ')' && reader->scope.calls &&
+            reader->scope.calls(reader->scope.data, &name)) { /* of one operand it is another function */
+            char sentence[GM_FAULT_SENTENCE] = "";
+            gm_node_id node = 0;
+            take(reader, ')');
+            reader->graph->place = (uint32_t)begin;
+            return reader->scope.call(reader->scope.data, &name, operands, 1, &node, sentence) == GM_KNOWN
+                       ? node
+                       : fail(reader, begin, "%s", sentence);
+        }
         if (i > 0 && !take(reader, ',')) {
             return peek(reader) == ')' ? fail(reader, reader->at, "%s takes two values", row->name)
                                        : expected(reader, "a comma");
@@ -799,6 +833,12 @@ static gm_node_id read_name(struct reader *reader, bool exact)
     const int brief = (int)(length < 60 ? length : 60);
     reader->at += length;
     const bool called = peek(reader) == '(';
+    gm_node_id operands[GM_MOST_OPERANDS];
+    if (called && scope->calls && scope->calls(scope->data, &name) &&
+        function_of(name.text, length) == GM_CONSTANT) {
+        take(reader, '(');
+        return read_called(reader, begin, &name, operands, 0);
+    }
     const enum gm_operation function = function_of(name.text, length);
     const bool sum = is_word("sum", name.text, length), product = is_word("prod", name.text, length);
     const bool is_constant = is_word("pi", name.text, length) || index_of(reader, name.text, length);

@@ -11,7 +11,13 @@
    index is computed while reading: it may hold whole numbers, indices of the loops around it, and names with
    a value in the scope. */
 
-enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_MOST_ARGUMENTS = 8, GM_LARGEST_INDEX = 1000000000 };
+enum {
+    GM_FAULT_SENTENCE = 320,
+    GM_MOST_INDICES = 8,
+    GM_MOST_ARGUMENTS = 8,
+    GM_MOST_OPERANDS = 4, /* of a name that the scope calls */
+    GM_LARGEST_INDEX = 1000000000
+};
 
 /* A fault, with places in bytes from the start of the text. */
 struct gm_fault {
@@ -80,6 +86,10 @@ struct gm_scope {
     gm_node_id (*decimal)(void *data, const char *text, size_t length, double value);
     /* the function of that name, or NULL; the hook may be NULL */
     struct gm_definition *(*definition)(void *data, const char *name, size_t length);
+    /* Names that are called with formulas, NAME(a, b): false for others; `call` makes the node. NULL: none. */
+    bool (*calls)(const void *data, const struct gm_name *name);
+    enum gm_meaning (*call)(void *data, const struct gm_name *name, const gm_node_id *operands, size_t count,
+                            gm_node_id *node, char *sentence);
     void *data;
     bool lines;                               /* newlines and comments, # to the end of a line, are blanks */
     bool initial;                             /* NAME(0) has a meaning */

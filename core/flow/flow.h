@@ -2,7 +2,7 @@
 #ifndef GM_CORE_FLOW_FLOW_H
 #define GM_CORE_FLOW_FLOW_H
 
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 #include "core/kind.h"
 
 /* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior

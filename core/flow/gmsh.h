@@ -2,7 +2,7 @@
 #ifndef GM_CORE_FLOW_GMSH_H
 #define GM_CORE_FLOW_GMSH_H
 
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 
 /* A mesh with names on its boundary. */
 struct gm_triangulation {

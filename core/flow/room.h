@@ -6,7 +6,7 @@
 #include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 
 /* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/expression/lines.h), where
    formulas may hold parameters, x, y, of an inlet s, which runs from 0 to 1 along its pieces

@@ -249,6 +249,14 @@ bool gm_declared_parameters(struct gm_reading *reading)
     return !reading->fault.failed;
 }
 
+/* Returns the line of a triangulation; NULL: there is none, or mesh: X = F moves the nodes of a line. */
+static const struct gm_system_line *mesh_of(const struct gm_reading *reading)
+{
+    const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_MESH);
+    const char *text = line ? reading->text + line->value.begin : "";
+    return text[0] == 'X' && text[1 + strspn(text + 1, " \t")] == '=' ? NULL : line;
+}
+
 bool gm_declared_kind(struct gm_reading *reading)
 {
     const struct gm_system_line *energy = gm_reading_line(reading, GM_WORD_HAMILTONIAN),
@@ -257,8 +265,10 @@ bool gm_declared_kind(struct gm_reading *reading)
                                 *bracket = gm_reading_line(reading, GM_WORD_BRACKET),
                                 *field = gm_reading_line(reading, GM_WORD_FIELD),
                                 *potential = gm_reading_line(reading, GM_WORD_POTENTIAL),
-                                *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX);
-    enum gm_system_kind kind = matrix                        ? GM_MATRICES
+                                *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX),
+                                *mesh = mesh_of(reading);
+    enum gm_system_kind kind = mesh                          ? GM_FORMS
+                               : matrix                      ? GM_MATRICES
                                : field && rate && !potential ? GM_EVOLUTION
                                : field                       ? GM_FIELD
                                : lagrange                    ? GM_LAGRANGIAN
@@ -267,18 +277,22 @@ bool gm_declared_kind(struct gm_reading *reading)
                                                              : GM_CANONICAL;
     static const char *const called[] = {"with H",         "with L",       "with rates",
                                          "with a bracket", "with a field", "with a field and its rate",
-                                         "with K-matrix"};
+                                         "with K-matrix",  "of forms"};
     if (!matrix &&
         (gm_reading_line(reading, GM_WORD_L_MATRIX) || gm_reading_line(reading, GM_WORD_S_FUNCTION))) {
         return gm_fail_first(&reading->fault, 0,
                              "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
     }
-    if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential) {
+    if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh) {
         return gm_fail_first(&reading->fault, 0,
                              "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
                              "or K-matrix, L-matrix and S");
     }
-    if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES) {
+    if (field && !mesh && gm_span_until(reading->text, field->value, "=") < field->value.end) {
+        return gm_fail_first(&reading->fault, field->place,
+                             "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
+    }
+    if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES && kind != GM_FORMS) {
         return field ? gm_fail_first(
                            &reading->fault, field->place,
                            "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x")
@@ -457,7 +471,7 @@ static bool arrange(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
-    const size_t solutions = gm_system_is_field(system) ? 0 : n;
+    const size_t solutions = gm_system_is_field(system) ? 0 : n; /* of forms they are not used */
     struct gm_system_variable *all = gm_arena_take(system->arena, 2 * n + 1 + p + v + solutions, sizeof *all),
                               *met = system->variables;
     char *t = gm_arena_print(system->arena, "t");
@@ -495,6 +509,13 @@ static bool arrange(struct gm_reading *reading)
             return gm_fail_memory(&reading->fault);
         }
         system->variable_count++;
+    }
+    if (gm_system_is_form(system)) {
+        system->first_call = system->velocities + GM_FORM_PLACES;
+        system->calls = gm_arena_take(system->arena, GM_MOST_FORM_CALLS, sizeof *system->calls);
+        if (!system->calls) {
+            return gm_fail_memory(&reading->fault);
+        }
     }
     all[n].value = 0; /* unless the start names another time */
     return true;
@@ -563,6 +584,70 @@ static bool add_field(struct gm_reading *reading, const struct gm_system_line *f
            add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, &reading->velocity_count, 1);
 }
 
+/* NAME = k-form, NAME = dual k-form, .. */
+static bool add_forms(struct gm_reading *reading, enum gm_system_word word)
+{
+    static const char *const degrees[] = {"0-form",      "1-form",      "2-form", "dual 0-form",
+                                          "dual 1-form", "dual 2-form", NULL};
+    const struct gm_system_line *line = gm_reading_line(reading, word);
+    struct gm_span rest = line ? line->value : (struct gm_span){0, 0}, piece;
+    struct gm_user_system *system = reading->system;
+    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        struct gm_span name = {piece.begin, gm_span_until(reading->text, piece, "=")};
+        struct gm_target target;
+        const size_t end = piece.end, equals = name.end;
+        name = gm_span_trimmed(reading->text, name);
+        const char *text = gm_reading_text(
+            reading, gm_span_trimmed(reading->text, (struct gm_span){equals + (equals < end), end}));
+        size_t degree = 0;
+        while (text && degrees[degree] && strcmp(degrees[degree], text) != 0) {
+            degree++;
+        }
+        if (!degrees[degree]) {
+            const int length = (int)(name.end - name.begin < 60 ? name.end - name.begin : 60);
+            return equals == end ? gm_fail_first(&reading->fault, name.begin,
+                                                 "%.*s has no degree: write %s: %.*s = 0-form", length,
+                                                 reading->text + name.begin, gm_system_words[word].word,
+                                                 length, reading->text + name.begin)
+                                 : gm_fail_first(&reading->fault, equals + 1,
+                                                 "a form is a 0-form, 1-form or 2-form, or a dual one: dual "
+                                                 "0-form, dual 1-form, dual 2-form");
+        }
+        if (!gm_reading_reserve(reading, (void **)&system->forms, reading->component_count,
+                                sizeof *system->forms)) {
+            return false;
+        }
+        system->forms[reading->component_count] = (struct gm_form_declared){
+            (int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN, name.begin, GM_NO_NODE, GM_NO_NODE,
+            GM_NO_NODE,        GM_NO_NODE};
+        if (gm_reading_target(reading, &name, &target)) {
+            add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
+        }
+    }
+    return !reading->fault.failed;
+}
+
+/* Adds forms, the place, and room for operators. */
+static bool add_places(struct gm_reading *reading)
+{
+    static char places[GM_FORM_PLACES][2] = {"x", "y", "z"};
+    for (size_t i = 0; i < GM_FORM_PLACES; i++) {
+        const struct gm_entry place = {
+            .name = places[i], .length = 1, .role = GM_ENTRY_VELOCITY, .number = reading->velocity_count++};
+        if (!gm_reading_add(reading, place) || !add_variable(reading, &place)) {
+            return false;
+        }
+    }
+    for (size_t i = 0; i < GM_MOST_FORM_CALLS; i++) {
+        const struct gm_entry unnamed = {.name = places[0], .length = 0};
+        reading->velocity_count++;
+        if (!add_variable(reading, &unnamed)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool gm_declared_state(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
@@ -597,6 +682,10 @@ bool gm_declared_state(struct gm_reading *reading)
         add_fields(reading, gm_reading_line(reading, GM_WORD_FIELD));
     } else if (system->kind == GM_MATRICES) {
         add_components(reading, components);
+    } else if (system->kind == GM_FORMS) {
+        if (add_forms(reading, GM_WORD_FIELD) && add_forms(reading, GM_WORD_UNKNOWN)) {
+            add_places(reading);
+        }
     } else if (components) {
         add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count);
     } else {

@@ -116,7 +116,8 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     const enum gm_system_word word = line->word;
     struct gm_span all = line->value, rest = all, piece;
     struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
-    if (word == GM_WORD_START && !gm_system_is_field(reading->system)) {
+    const bool form = gm_system_is_form(reading->system);
+    if (word == GM_WORD_START && !gm_system_is_field(reading->system) && !form) {
         gm_span_take(reading->text, &all, ";", &rest);
         all = gm_span_trimmed(reading->text, all);
         assignment.derived = gm_span_among(reading->text, all, (const char *const[]){"derived", NULL}) == 0;
@@ -126,7 +127,7 @@ static bool read_assignments(struct gm_reading *reading, const struct gm_system_
     }
     while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct gm_target target;
-        reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system);
+        reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system) && !form;
         if (gm_reading_assignment(reading, piece, &target)) {
             gm_reading_elements(reading, &target, assign, &assignment);
         }
@@ -276,7 +277,8 @@ static bool read_named(struct gm_reading *reading, const struct gm_system_line *
     if (named && named->place != target.name.begin) {
         return gm_reading_fail_twice(reading, target.name.begin, named);
     }
-    reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system);
+    reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system) &&
+                     !gm_system_is_form(reading->system);
     const bool good = named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value);
     reading->exact = false;
     if (!good) {
@@ -584,6 +586,60 @@ static bool read_ring(struct gm_reading *reading, const struct gm_system_line *l
     return item && add_formula(reading, item, value) && gm_options_read(reading, item, rest);
 }
 
+/* mesh: sphere 1 level: a word, and numbers separated by blanks, which may be formulas without blanks */
+static bool read_generator(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    size_t at = line->value.begin, words = 0;
+    struct gm_system_item *item = NULL;
+    while (at < line->value.end && !reading->fault.failed) {
+        const size_t end = at + strcspn(reading->text + at, " \t\r\n");
+        const struct gm_span word = {at, end < line->value.end ? end : line->value.end};
+        if (words++ == 0) {
+            item = add_item(reading, line, word);
+        } else if (item) {
+            add_formula(reading, item, word);
+        }
+        at = word.end + strspn(reading->text + word.end, " \t\r\n");
+    }
+    return item && !reading->fault.failed;
+}
+
+static bool read_star(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    static const char *const words[] = {"auto",     "circumcentric", "barycentric",
+                                        "galerkin", "incentric",     NULL};
+    reading->system->texts[line->word] = gm_reading_text(reading, line->value);
+    return reading->system->texts[line->word] &&
+           (words[gm_span_among(reading->text, line->value, words)] ||
+            gm_fail_first(&reading->fault, line->value.begin,
+                          "star: is auto, circumcentric, barycentric, galerkin or incentric"));
+}
+
+/* equation: NAME; left = right */
+static bool read_equation(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = line->value, name;
+    gm_span_take(reading->text, &rest, ";", &name);
+    rest = gm_span_trimmed(reading->text, rest);
+    const struct gm_entry *entry =
+        gm_reading_entry(reading, reading->text + name.begin, name.end - name.begin, false, 0);
+    const size_t equals = gm_span_until(reading->text, rest, "=");
+    if (!entry || entry->role != GM_ENTRY_COMPONENT || !system->forms[entry->number].unknown) {
+        return gm_fail_first(&reading->fault, name.begin,
+                             "an equation begins with its unknown, as in equation: u; laplace(u) = 0");
+    }
+    struct gm_form_declared *form = &system->forms[entry->number];
+    if (form->left != GM_NO_NODE) {
+        return gm_fail_first(&reading->fault, name.begin, "%s has two equations", entry->name);
+    }
+    if (equals == rest.end) {
+        return gm_fail_first(&reading->fault, rest.begin, "= was expected");
+    }
+    return gm_reading_formula(reading, (struct gm_span){rest.begin, equals}, &form->left) &&
+           gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end}, &form->right);
+}
+
 /* Reads rows separated by |, with commas between entries. */
 static bool read_matrix(struct gm_reading *reading, const struct gm_system_line *line)
 {
@@ -781,6 +837,12 @@ static bool read_text(struct gm_reading *reading, const struct gm_system_line *l
     return (reading->system->texts[line->word] = gm_reading_text(reading, line->value)) != NULL;
 }
 
+/* mesh: a triangulation of forms, or X = F of a field */
+static bool read_mesh(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    return gm_system_is_form(reading->system) ? read_generator(reading, line) : read_text(reading, line);
+}
+
 /* Reads a text that may contain values. */
 static bool read_shown_text(struct gm_reading *reading, const struct gm_system_line *line)
 {
@@ -797,8 +859,38 @@ static bool read_space(struct gm_reading *reading, const struct gm_system_line *
     return read_choice(reading, line, "differences", "fourier");
 }
 
+/* boundary: PART NAME = formula, of forms */
+static bool read_held(struct gm_reading *reading, const struct gm_system_line *line)
+{
+    const char *text = reading->text;
+    const size_t end = line->value.begin + strcspn(text + line->value.begin, " \t\r\n");
+    const struct gm_span part = {line->value.begin, end < line->value.end ? end : line->value.end};
+    struct gm_target target;
+    if (!gm_reading_assignment(reading, gm_span_trimmed(text, (struct gm_span){part.end, line->value.end}),
+                               &target)) {
+        return false;
+    }
+    const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
+    struct gm_system_item *item = entry ? add_item(reading, line, part) : NULL;
+    if (!item || !add_formula(reading, item, target.value)) {
+        return false;
+    }
+    item->variable = entry->number;
+    return entry->role == GM_ENTRY_COMPONENT ||
+           (entry->role == GM_ENTRY_NAMED
+                ? add_node(reading, item, entry->node)
+                : gm_fail_first(&reading->fault, target.name.begin,
+                                "a boundary is given for a form: a field, an unknown or a let"));
+}
+
 static bool read_boundary(struct gm_reading *reading, const struct gm_system_line *line)
 {
+    if (gm_system_is_form(reading->system)) {
+        return read_held(reading, line);
+    }
+    if (reading->system->texts[GM_WORD_BOUNDARY]) {
+        return gm_fail_first(&reading->fault, line->place, "boundary is given twice");
+    }
     return read_choice(reading, line, "ring", "walls");
 }
 
@@ -951,8 +1043,36 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
     return component == (system->kind == GM_CANONICAL ? k % 2 * half + k / 2 : k);
 }
 
+/* Moves the formulas of forms to their declarations. Fields have a rate and a start, unknowns an equation. */
+static bool are_complete_forms(struct gm_reading *reading)
+{
+    struct gm_user_system *system = reading->system;
+    for (size_t i = 0; i < system->n; i++) {
+        struct gm_form_declared *form = &system->forms[i];
+        struct gm_system_variable *variable = &system->variables[i];
+        const bool lacks_rate = system->rates[i] == GM_NO_NODE, lacks_equation = form->left == GM_NO_NODE;
+        form->start = variable->start != GM_NO_NODE ? variable->start : variable->exact;
+        form->exact = variable->exact;
+        variable->start = variable->exact = GM_NO_NODE;
+        if (form->unknown ? lacks_equation || !lacks_rate : lacks_rate) {
+            return gm_fail_first(&reading->fault, form->place, "%s has no %s", variable->name,
+                                 !form->unknown   ? "rate"
+                                 : lacks_equation ? "equation"
+                                                  : "rate: it is an unknown");
+        }
+        if (!form->unknown && form->start == GM_NO_NODE) {
+            return gm_fail_first(&reading->fault, form->place, "%s has no value at the start",
+                                 variable->name);
+        }
+    }
+    return true;
+}
+
 static bool is_complete(struct gm_reading *reading)
 {
+    if (gm_system_is_form(reading->system)) {
+        return are_complete_forms(reading);
+    }
     struct gm_user_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;

@@ -21,9 +21,10 @@ enum {
     FIELD = 1 << GM_FIELD,
     EVOLUTION = 1 << GM_EVOLUTION,
     MATRICES = 1 << GM_MATRICES,
+    FORMS = 1 << GM_FORMS,
     LINE = FIELD | EVOLUTION | MATRICES,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
-    ANY = MOTION | LINE
+    ANY = MOTION | LINE | FORMS
 };
 
 const struct gm_line_word gm_system_words[GM_WORDS] = {
@@ -179,6 +180,8 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
            entry->name[0] == 'x';
 }
 
+static enum gm_form_operator operator_of(const char *name, size_t length);
+
 bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
 {
     const int brief = (int)(entry.length < 60 ? entry.length : 60);
@@ -189,6 +192,7 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     /* a choice between starts may be called so */
     const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START;
     if (is_word || is_of_ring(reading, &entry) ||
+        (gm_system_is_form(reading->system) && operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
         return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);
     }
@@ -332,14 +336,81 @@ static struct gm_definition *definition_of(void *data, const char *name, size_t 
     return gm_reading_definition(data, name, length);
 }
 
+static const struct {
+    const char *name;
+    size_t least, most;
+} form_operators[] = {
+#define GM_FORM_OPERATOR(constant, ...) {__VA_ARGS__},
+#include "core/model/form_operators.def"
+#undef GM_FORM_OPERATOR
+};
+
+/* The operator of that name, or GM_FORM_OPERATORS. */
+static enum gm_form_operator operator_of(const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < GM_FORM_OPERATORS &&
+           (strlen(form_operators[i].name) != length || memcmp(form_operators[i].name, name, length) != 0)) {
+        i++;
+    }
+    return (enum gm_form_operator)i;
+}
+
+static bool is_operator(const void *data, const struct gm_name *name)
+{
+    (void)data;
+    return operator_of(name->text, name->length) < GM_FORM_OPERATORS;
+}
+
+/* Makes the node of an operator of forms, the same one for the same operands. */
+static enum gm_meaning call(void *data, const struct gm_name *name, const gm_node_id *operands, size_t count,
+                            gm_node_id *node, char *sentence)
+{
+    struct gm_user_system *system = ((struct gm_reading *)data)->system;
+    const enum gm_form_operator operator= operator_of(name->text, name->length);
+    size_t i = 0;
+    if (count < form_operators[operator].least || count > form_operators[operator].most) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%s takes %s", form_operators[operator].name,
+                 operator== GM_FORM_FORM               ? "two or three formulas"
+                 : form_operators[operator].most == 2 ? "two forms"
+                                                       : "one form");
+        return GM_REFUSED;
+    }
+    if (!system->calls) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "a parameter holds no forms");
+        return GM_REFUSED;
+    }
+    while (i < system->call_count &&
+           (system->calls[i].operator!= operator|| system->calls[i].count != count ||
+            memcmp(system->calls[i].operands, operands, count * sizeof *operands) != 0)) {
+        i++;
+    }
+    if (i == GM_MOST_FORM_CALLS) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "a system has at most %d operators of forms",
+                 GM_MOST_FORM_CALLS);
+        return GM_REFUSED;
+    }
+    if (i == system->call_count) {
+        struct gm_form_call *made = &system->calls[system->call_count++];
+        made->operator= operator;
+        made->count = count;
+        memcpy(made->operands, operands, count * sizeof *operands);
+    }
+    *node = gm_formula_variable(&system->graph, system->first_call + i);
+    return GM_KNOWN;
+}
+
 static struct gm_scope scope_of(struct gm_reading *reading)
 {
+    const bool form = gm_system_is_form(reading->system), calls = form && !reading->fixed;
     return (struct gm_scope){.find = find,
                              .known = known,
                              .definition = definition_of,
+                             .calls = calls ? is_operator : NULL,
+                             .call = calls ? call : NULL,
                              .data = reading,
                              .lines = true,
-                             .initial = true,
+                             .initial = !form,
                              .exact = reading->exact,
                              .is_condition = reading->is_condition};
 }
@@ -420,7 +491,8 @@ bool gm_reading_define(struct gm_reading *reading, uint32_t number)
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->exact = entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system);
+        reading->exact = entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system) &&
+                         !gm_system_is_form(reading->system);
         reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;

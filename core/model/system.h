@@ -18,6 +18,7 @@ enum gm_system_kind {
     GM_FIELD,      /* u of x and t, and u_t: u_tt = u_xx - V'(u) */
     GM_EVOLUTION,  /* fields u, v .. of x and t, with their rates, or rates of their masses */
     GM_MATRICES,   /* components z of x and t: K z_t + L z_x = grad S(z), K and L skew */
+    GM_FORMS,      /* discrete differential forms on triangles, with their rates or equations */
     GM_SYSTEM_KINDS
 };
 
@@ -39,9 +40,36 @@ enum { GM_MOST_TANGENTS = 8 };
 /* The most components of a system of matrices. */
 enum { GM_MOST_OF_MATRICES = 8 };
 
+/* The operators of forms: what a formula of a GM_FORMS system may call. */
+enum gm_form_operator {
+#define GM_FORM_OPERATOR(constant, ...) GM_FORM_##constant,
+#include "core/model/form_operators.def"
+#undef GM_FORM_OPERATOR
+    GM_FORM_OPERATORS
+};
+/* The most calls of such a system. */
+enum { GM_MOST_FORM_CALLS = 256, GM_FORM_PLACES = 3 };
+
+/* A call in a formula: variable number `calls` of the system + its own. */
+struct gm_form_call {
+    enum gm_form_operator operator;
+    gm_node_id operands[4];
+    size_t count;
+};
+
+/* A form that is declared: a k-form, or a dual one, that evolves or is unknown; its formulas. */
+struct gm_form_declared {
+    int degree;
+    bool dual, unknown;
+    size_t place;
+    gm_node_id start, exact;
+    gm_node_id left, right; /* equation of an unknown */
+};
+
 /* A variable of the graph. The numbers of variables: n components; t; parameters; for a Lagrangian n / 2
    velocities, for a field x and u_x, for matrices x, for an evolution x, all u_x, all u_xx .. u_xxxx; n
-   components at the start, x(0); and, without fields, n components of the exact solution, exact(x). */
+   components at the start, x(0); and, without fields, n components of the exact solution, exact(x). Forms: n forms; t;
+   parameters; x, y, z; calls. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* value of a parameter; of t its value at the start; else NaN */
@@ -95,7 +123,8 @@ struct gm_system_item {
     bool alone;             /* a section that is the default picture */
     enum gm_identity check; /* invariants, Casimirs and symmetries only */
 };
-/* nodes, by word. section: the function that becomes 0, two functions to show, a function that must be
+/* nodes, by word. boundary of forms: the formula, and the let that it is given for, if it is one; `name` is the part of
+   the boundary, `variable` the form. section: the function that becomes 0, two functions to show, a function that must be
    positive. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
    and the other. surface: three half axes. mass: the formula. dt, until and steps: the number, in parameters.
    require, level and exact-while: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the
@@ -112,7 +141,10 @@ struct gm_user_system {
     char *texts[GM_WORDS]; /* texts of the words that have one; NULL: not given */
     size_t n;
     size_t tangents; /* tangent vectors that are carried along; their components are among the n */
-    bool timed;      /* equations depend on t */
+    struct gm_form_declared *forms; /* [n] */
+    struct gm_form_call *calls;
+    size_t call_count, first_call; /* the number of the variable of the first call */
+    bool timed;                    /* equations depend on t */
     struct gm_system_variable *variables;
     size_t variable_count, parameters, velocities, initial,
         exact;         /* first numbers; parameters end at velocities; `exact` is variable_count for fields */
@@ -147,6 +179,12 @@ void gm_system_close(struct gm_user_system *system);
 static inline bool gm_system_is_field(const struct gm_user_system *system)
 {
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
+}
+
+/* True for a system of forms on a mesh of triangles. */
+static inline bool gm_system_is_form(const struct gm_user_system *system)
+{
+    return system->kind == GM_FORMS;
 }
 
 /* The number of components without tangents. */

@@ -49,6 +49,9 @@ static const struct {
                                         " belongs to three triangles"},
     [GM_TRIANGULATION_PINCHED] = {false, ": at node ", NODE, " the mesh hangs together by a point"},
     [GM_TRIANGULATION_PIECES] = {true, " is in several pieces: ", TRIANGLE, " is not joined to triangle 1"},
+    [GM_TRIANGULATION_ONE_SIDED] = {false,
+                                    " cannot be oriented: its triangles disagree along the edge of nodes ",
+                                    EDGE, ""},
     [GM_TRIANGULATION_NOT_DELAUNAY] =
         {true, ": ", TRIANGLE,
          " and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric"},

@@ -5,7 +5,7 @@
 #include "core/flow/boundary.h"
 #include "core/flow/flow.h"
 #include "core/flow/gmsh.h"
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 #include "core/flow/start.h"
 #include "scenes/common/lane.h"
 

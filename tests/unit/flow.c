@@ -15,7 +15,7 @@
 #include "core/basics.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 #include "core/flow/start.h"
 #include "core/run.h"
 #include "core/schemes.h"

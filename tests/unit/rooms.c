@@ -13,7 +13,7 @@
 
 #include "core/basics.h"
 #include "core/flow/boundary.h"
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 #include "core/flow/start.h"
 #include "core/flow/tracers.h"
 #include "core/run.h"

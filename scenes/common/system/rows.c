@@ -136,7 +136,7 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
 {
     const struct gm_user_system *system = &system_scene->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters,
-                 starts = gm_system_is_field(system) ? 0 : n;
+                 starts = gm_system_is_field(system) || gm_system_is_form(system) ? 0 : n;
     const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + starts;
     struct gm_arena *arena = system_scene->arena;
     system_scene->rows = gm_arena_take(arena, most + count, sizeof *system_scene->rows);

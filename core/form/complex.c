@@ -4,7 +4,7 @@
        star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8 if it is circumcentric,
                   a third of the triangles around if it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,18 +58,27 @@ _Noreturn static void refuse_vertex(struct building *building, int vertex,
     refuse(building, kind);
 }
 
-void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
+void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9])
 {
     const int *t = complex->triangle + 3 * triangle;
-    for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < 2; c++) {
-            double x = complex->point[2 * t[k] + c];
-            const double period = complex->period[c];
+    for (size_t k = 0; k < 3; k++) {
+        for (size_t c = 0; c < 3; c++) {
+            double x = c < complex->coordinates ? complex->point[complex->coordinates * (size_t)t[k] + c] : 0;
+            const double period = c < 2 ? complex->period[c] : 0;
             if (period > 0 && k > 0) {
                 x -= period * round((x - corners[c]) / period);
             }
-            corners[2 * k + c] = x;
+            corners[3 * k + c] = x;
         }
+    }
+}
+
+void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
+{
+    double p[9];
+    gm_complex_corners_in_space(complex, triangle, p);
+    for (size_t i = 0; i < 6; i++) {
+        corners[i] = p[i / 2 * 3 + i % 2];
     }
 }
 
@@ -92,33 +101,34 @@ void gm_complex_middle(const struct gm_complex *complex, size_t edge, double mid
     }
 }
 
-static double twice_area(const double p[6])
+static void flip(int *corner)
 {
-    return (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
+    const int swap = corner[1];
+    corner[1] = corner[2];
+    corner[2] = swap;
 }
 
-static void orient(struct building *building)
+/* Measures areas; in the plane, whose normal is z, triangles are turned counter-clockwise. */
+static void orient(struct building *building, bool in_plane)
 {
     struct gm_complex *complex = building->complex;
     for (size_t t = 0; t < complex->triangles; t++) {
-        double p[6];
-        gm_complex_corners(complex, t, p);
-        double longest = 0;
+        double p[9], normal[3], longest = 0;
+        gm_complex_corners_in_space(complex, t, p);
         for (int k = 0; k < 3; k++) {
-            const int n = (k + 1) % 3;
-            longest = fmax(longest, hypot(p[2 * n] - p[2 * k], p[2 * n + 1] - p[2 * k + 1]));
+            const int n = (k + 1) % 3, u = (k + 1) % 3, w = (k + 2) % 3;
+            longest = fmax(longest, hypot(hypot(p[3 * n] - p[3 * k], p[3 * n + 1] - p[3 * k + 1]),
+                                          p[3 * n + 2] - p[3 * k + 2]));
+            normal[k] = (p[3 + u] - p[u]) * (p[6 + w] - p[w]) - (p[6 + u] - p[u]) * (p[3 + w] - p[w]);
         }
-        const double twice = twice_area(p);
+        const double twice = in_plane ? normal[2] : hypot(hypot(normal[0], normal[1]), normal[2]);
         const int *v = complex->triangle + 3 * t;
         const bool flat = !(fabs(twice) > 1e-12 * longest * longest) || !isfinite(twice);
         if (flat || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
             refuse_triangle(building, t, GM_TRIANGULATION_DEGENERATE);
         }
         if (twice < 0) {
-            int *corner = complex->triangle + 3 * t;
-            const int swap = corner[1];
-            corner[1] = corner[2];
-            corner[2] = swap;
+            flip(complex->triangle + 3 * t);
         }
         complex->area[t] = fabs(twice) / 2;
         complex->total_area += complex->area[t];
@@ -162,6 +172,73 @@ static const struct side *sort_sides(struct building *building)
         qsort(sorted + from, start[v] - from, sizeof *sorted, compare_sides);
     }
     return sorted;
+}
+
+/* Returns the sides of all triangles, and where each meets another one: -1 at the boundary. */
+static int *link_sides(struct building *building, const struct side **sides)
+{
+    const size_t count = 3 * building->complex->triangles;
+    int *across = gm_arena_take(building->arena, count, sizeof *across);
+    *sides = sort_sides(building);
+    for (size_t i = 0; i < count; i++) {
+        across[i] = -1;
+    }
+    for (size_t i = 0; i + 1 < count; i++) {
+        const struct side *a = *sides + i, *b = a + 1;
+        if (a->low == b->low && a->high == b->high && across[a->place] < 0) {
+            across[a->place] = b->place;
+            across[b->place] = a->place;
+        }
+    }
+    return across;
+}
+
+/* Turns the triangles of every piece like its first one. A closed piece encloses a positive volume. */
+static void agree(struct building *building)
+{
+    struct gm_complex *complex = building->complex;
+    const struct side *sides;
+    const int *across = link_sides(building, &sides);
+    int *queue = gm_arena_take(building->arena, complex->triangles, sizeof *queue);
+    signed char *sense = gm_arena_take(building->arena, complex->triangles, sizeof *sense);
+    for (size_t first = 0, begin = 0, end = 0; first < complex->triangles; first++) {
+        if (sense[first]) {
+            continue;
+        }
+        bool closed = true;
+        double volume = 0, p[9];
+        sense[first] = 1;
+        queue[end++] = (int)first;
+        for (size_t i = begin; i < end; i++) {
+            const int t = queue[i];
+            gm_complex_corners_in_space(complex, (size_t)t, p);
+            volume += sense[t] * (p[0] * (p[4] * p[8] - p[5] * p[7]) + p[1] * (p[5] * p[6] - p[3] * p[8]) +
+                                  p[2] * (p[3] * p[7] - p[4] * p[6]));
+            for (int k = 0; k < 3; k++) {
+                const int here = 3 * t + k, there = across[here];
+                closed &= there >= 0;
+                if (there < 0) {
+                    continue;
+                }
+                const bool along = complex->triangle[here] == complex->triangle[there];
+                const signed char right = (signed char)(along ? -sense[t] : sense[t]);
+                if (sense[there / 3] && sense[there / 3] != right) {
+                    building->fault->nodes[1] =
+                        tag_of(building->from, complex->triangle[3 * t + (k + 1) % 3]);
+                    refuse_vertex(building, complex->triangle[here], GM_TRIANGULATION_ONE_SIDED);
+                }
+                if (!sense[there / 3]) {
+                    sense[there / 3] = right;
+                    queue[end++] = there / 3;
+                }
+            }
+        }
+        for (; begin < end; begin++) {
+            if ((sense[queue[begin]] < 0) != (closed && volume < 0)) {
+                flip(complex->triangle + 3 * queue[begin]);
+            }
+        }
+    }
 }
 
 static void make_edges(struct building *building)
@@ -305,29 +382,35 @@ static void make_boundary(struct building *building)
     }
 }
 
+/* Counts the pieces; in the plane there is one. */
 static void check_pieces(struct building *building)
 {
-    const struct gm_complex *complex = building->complex;
+    struct gm_complex *complex = building->complex;
     int *queue = gm_arena_take(building->arena, complex->triangles, sizeof *queue);
     bool *met = gm_arena_take(building->arena, complex->triangles, sizeof *met);
-    size_t count = 1;
-    met[0] = true;
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) {
-            const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * queue[i] + k];
-            const int next = pair[0] == queue[i] ? pair[1] : pair[0];
-            if (next >= 0 && !met[next]) {
-                met[next] = true;
-                queue[count++] = next;
+    for (size_t first = 0, i = 0, count = 0; first < complex->triangles; first++) {
+        if (met[first]) {
+            continue;
+        }
+        if (first > 0 && !building->from->in_space) {
+            refuse_triangle(building, first, GM_TRIANGULATION_PIECES);
+        }
+        bool closed = true;
+        met[first] = true;
+        queue[count++] = (int)first;
+        for (; i < count; i++) {
+            for (int k = 0; k < 3; k++) {
+                const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * queue[i] + k];
+                const int next = pair[0] == queue[i] ? pair[1] : pair[0];
+                closed &= next >= 0;
+                if (next >= 0 && !met[next]) {
+                    met[next] = true;
+                    queue[count++] = next;
+                }
             }
         }
-    }
-    if (count != complex->triangles) {
-        size_t apart = 0;
-        while (met[apart]) {
-            apart++;
-        }
-        refuse_triangle(building, apart, GM_TRIANGULATION_PIECES);
+        complex->pieces++;
+        complex->closed += closed;
     }
 }
 
@@ -335,19 +418,21 @@ static void measure(struct gm_complex *complex)
 {
     complex->smallest_angle = 180;
     for (size_t t = 0; t < complex->triangles; t++) {
-        double p[6], share[3], sum = 0;
-        gm_complex_corners(complex, t, p);
+        double p[9], share[3], sum = 0;
+        gm_complex_corners_in_space(complex, t, p);
         bool obtuse = false;
         for (int k = 0; k < 3; k++) {
             const int a = (k + 1) % 3, b = (k + 2) % 3;
-            const double ax = p[2 * a] - p[2 * k], ay = p[2 * a + 1] - p[2 * k + 1];
-            const double bx = p[2 * b] - p[2 * k], by = p[2 * b + 1] - p[2 * k + 1];
-            const double dot = ax * bx + ay * by, cross = 2 * complex->area[t];
-            const double x = bx - ax, y = by - ay;
+            const double ax = p[3 * a] - p[3 * k], ay = p[3 * a + 1] - p[3 * k + 1],
+                         az = p[3 * a + 2] - p[3 * k + 2];
+            const double bx = p[3 * b] - p[3 * k], by = p[3 * b + 1] - p[3 * k + 1],
+                         bz = p[3 * b + 2] - p[3 * k + 2];
+            const double dot = ax * bx + ay * by + az * bz, cross = 2 * complex->area[t];
+            const double x = bx - ax, y = by - ay, z = bz - az;
             const int e = complex->triangle_edge[3 * t + (size_t)a];
             complex->star1[e] += dot / cross / 2;
-            complex->length[e] = hypot(x, y);
-            share[k] = (x * x + y * y) * dot / cross;
+            complex->length[e] = hypot(hypot(x, y), z);
+            share[k] = (x * x + y * y + z * z) * dot / cross;
             sum += share[k];
             obtuse |= dot < 0;
             const double angle = atan2(cross, dot) * 180 / M_PI;
@@ -372,17 +457,17 @@ static void measure(struct gm_complex *complex)
 /* The angle of a triangle opposite to edge e, in degrees. */
 static double angle_facing(const struct gm_complex *complex, int triangle, int e)
 {
-    double p[6];
-    gm_complex_corners(complex, (size_t)triangle, p);
+    double p[9], dot = 0;
+    gm_complex_corners_in_space(complex, (size_t)triangle, p);
     int a = 0;
     while (complex->triangle_edge[3 * triangle + a] != e) {
         a++;
     }
     const int k = (a + 2) % 3, b = (a + 1) % 3;
-    return fabs(atan2(2 * complex->area[triangle],
-                      (p[2 * a] - p[2 * k]) * (p[2 * b] - p[2 * k]) +
-                          (p[2 * a + 1] - p[2 * k + 1]) * (p[2 * b + 1] - p[2 * k + 1]))) *
-           180 / M_PI;
+    for (int c = 0; c < 3; c++) {
+        dot += (p[3 * a + c] - p[3 * k + c]) * (p[3 * b + c] - p[3 * k + c]);
+    }
+    return fabs(atan2(2 * complex->area[triangle], dot)) * 180 / M_PI;
 }
 
 /* Returns true if dual edges and cells are positive; if not, the fault names the worst one. */
@@ -427,11 +512,18 @@ static void take_star(struct building *building)
         *building->fault = obstacle;
         gm_arena_leave(building->arena);
     }
-    complex->star = GM_STAR_BARYCENTRIC;
+    complex->star = star == GM_STAR_INCENTRIC ? star : GM_STAR_BARYCENTRIC;
     memset(complex->star0, 0, complex->vertices * sizeof *complex->star0);
     for (size_t k = 0; k < 3 * complex->triangles; k++) {
-        complex->weight[k] = 1.0 / 3;
-        complex->star0[complex->triangle[k]] += complex->area[k / 3] / 3;
+        const size_t t = k / 3;
+        const int *side = complex->triangle_edge + 3 * t;
+        const double around = complex->length[side[0]] + complex->length[side[1]] + complex->length[side[2]],
+                     opposite = complex->length[side[(k % 3 + 1) % 3]];
+        const bool inside = star == GM_STAR_INCENTRIC;
+        complex->weight[k] = inside ? opposite / around : 1.0 / 3;
+        /* two triangles of height r, the radius inside, on half of each side */
+        complex->star0[complex->triangle[k]] +=
+            inside ? complex->area[t] * (around - opposite) / (2 * around) : complex->area[t] / 3;
     }
 }
 
@@ -471,7 +563,7 @@ double gm_complex_loop_area(const struct gm_complex *complex, size_t loop)
 static void allocate(struct gm_complex *complex, struct gm_arena *arena)
 {
     const size_t v = complex->vertices, t = complex->triangles, sides = 3 * t;
-    complex->point = gm_arena_take(arena, 2 * v, sizeof *complex->point);
+    complex->point = gm_arena_take(arena, complex->coordinates * v, sizeof *complex->point);
     complex->triangle = gm_arena_take(arena, sides, sizeof *complex->triangle);
     complex->triangle_edge = gm_arena_take(arena, sides, sizeof *complex->triangle_edge);
     complex->triangle_sign = gm_arena_take(arena, sides, sizeof *complex->triangle_sign);
@@ -499,12 +591,20 @@ static void build(struct gm_arena *arena, void *data)
     complex->arena = arena;
     complex->vertices = from->vertices;
     complex->triangles = from->count;
+    complex->coordinates = from->in_space ? 3 : 2;
     allocate(complex, arena);
     const size_t whole = gm_arena_mark(arena);
-    memcpy(complex->point, from->points, 2 * from->vertices * sizeof *from->points);
+    memcpy(complex->point, from->points, complex->coordinates * from->vertices * sizeof *from->points);
     memcpy(complex->triangle, from->corners, 3 * from->count * sizeof *from->corners);
     memcpy(complex->period, from->period, sizeof complex->period);
-    orient(building);
+    bool in_plane = true;
+    for (size_t v = 0; v < from->vertices && from->in_space; v++) {
+        in_plane &= from->points[3 * v + 2] == 0;
+    }
+    orient(building, in_plane);
+    if (!in_plane) {
+        agree(building);
+    }
     make_edges(building);
     make_boundary(building);
     check_pieces(building);

@@ -5,7 +5,7 @@
        (0, 2 k h),   (c, (2 k + 1) h),   (0, (2 k + 2) h)
    is acute. If a/2 < h < c < a, all are: the foot of every apex lies inside its base and splits it into p + q
    <= a with p q <= a^2/4 < h^2. */
-#include "core/flow/rectangle.h"
+#include "core/form/rectangle.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -162,7 +162,8 @@ static bool is_fixed(const struct gm_rectangle *r, const double *p)
 static double largest_angle(const struct gm_rectangle *r, const struct pattern *pattern, const double *points,
                             size_t triangle)
 {
-    struct gm_complex one = {.point = (double *)(uintptr_t)points,
+    struct gm_complex one = {.coordinates = 2,
+                             .point = (double *)(uintptr_t)points,
                              .triangle = pattern->triangles,
                              .period = {r->torus ? r->width : 0, r->torus ? r->height : 0}};
     double p[6], largest = 0;
@@ -237,7 +238,7 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
     struct gm_triangles from = {.points = pattern.points,
                                 .corners = pattern.triangles,
                                 .period = {r->torus ? r->width : 0, r->torus ? r->height : 0},
-                                .star = GM_STAR_CIRCUMCENTRIC};
+                                .star = r->star ? r->star : GM_STAR_CIRCUMCENTRIC};
     struct gm_complex *complex = NULL;
     *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     if (pattern.points && pattern.triangles) {

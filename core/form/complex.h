@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Oriented simplicial complexes in the plane or on a torus, and what may be wrong with a triangulation. */
-#ifndef GM_CORE_FLOW_COMPLEX_H
-#define GM_CORE_FLOW_COMPLEX_H
+/* Oriented simplicial complexes in the plane, on a torus or on a surface in space, and what may be wrong with a
+   triangulation. */
+#ifndef GM_CORE_FORM_COMPLEX_H
+#define GM_CORE_FORM_COMPLEX_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -26,6 +27,7 @@ enum gm_triangulation_fault_kind {
     GM_TRIANGULATION_EDGE_OF_THREE, /* nodes: an edge of three or more triangles */
     GM_TRIANGULATION_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
     GM_TRIANGULATION_PIECES,        /* triangle, nodes: not of the first one's piece */
+    GM_TRIANGULATION_ONE_SIDED,     /* nodes: an edge along which orientations of the surface disagree */
     /* triangle, nodes, value: its largest angle, opposite to a dual edge that is not positive */
     GM_TRIANGULATION_NOT_DELAUNAY,
     GM_TRIANGULATION_DUAL_CELL, /* nodes[0]: a dual cell whose area is not positive */
@@ -48,21 +50,25 @@ struct gm_triangulation_fault {
            triangles the parts of dual edges and cells keep their signs; every whole one must be positive
            (Delaunay).
        barycentric: the centre of mass; for any triangles. It is also the star of Galerkin: fluxes and K are
-           those of linear elements, star0 is their mass matrix with its rows summed up. */
+           those of linear elements, star0 is their mass matrix with its rows summed up.
+       incentric: the centre of the circle inside; for any triangles. */
 enum gm_star {
     GM_STAR_AUTO, /* circumcentric if that is positive, else barycentric */
     GM_STAR_CIRCUMCENTRIC,
     GM_STAR_BARYCENTRIC,
     GM_STAR_GALERKIN, /* the same as barycentric */
+    GM_STAR_INCENTRIC,
 };
 
-/* An oriented two-dimensional simplicial complex with its dual. Triangles run
-   counter-clockwise, edges from their lower to their higher vertex. The dual edge of e points from the
+/* An oriented two-dimensional simplicial complex with its dual. Triangles run counter-clockwise: in the plane
+   seen from +z, on a closed surface from outside, on another one as its first triangle, piece by piece. Edges
+   run from their lower to their higher vertex. The dual edge of e points from the
    triangle on the right of e to the one on its left. */
 struct gm_complex {
     struct gm_arena *arena; /* holds the complex and its arrays */
     size_t vertices, edges, triangles;
-    double *point;              /* 2 a vertex */
+    size_t coordinates;         /* 2, or 3 in space */
+    double *point;              /* `coordinates` a vertex */
     double period[2];           /* periods of a torus; 0: none */
     int *triangle;              /* 3 vertices */
     int *triangle_edge;         /* 3 edges: t0 t1, t1 t2, t2 t0 */
@@ -72,19 +78,20 @@ struct gm_complex {
     int *ring_start;            /* vertices + 1: where the neighbours of a vertex begin */
     int *ring_vertex;           /* 2 * edges: neighbours, in increasing order for each vertex */
     int *ring_edge;             /* 2 * edges: the edge to that neighbour */
-    int *edge_ring;       /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
-    size_t boundary;      /* number of boundary edges */
-    int *boundary_edge;   /* boundary edges, counter-clockwise, loop after loop */
-    int *boundary_vertex; /* the vertex where each begins */
-    size_t loops;         /* connected pieces of the boundary */
-    size_t *loop_start;   /* loops + 1: where each begins in boundary_edge */
-    enum gm_star star;    /* star that is used */
-    double star_least;    /* the least entry of the circumcentric star1 */
-    size_t obtuse;        /* triangles with an angle above 90 degrees */
-    double *length;       /* length of each edge */
-    double *area;         /* area of each triangle */
-    double *weight;       /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
-    double *star0;        /* area of the dual cells */
+    int *edge_ring;        /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
+    size_t boundary;       /* number of boundary edges */
+    int *boundary_edge;    /* boundary edges, counter-clockwise, loop after loop */
+    int *boundary_vertex;  /* the vertex where each begins */
+    size_t loops;          /* connected pieces of the boundary */
+    size_t *loop_start;    /* loops + 1: where each begins in boundary_edge */
+    size_t pieces, closed; /* connected pieces, and those without a boundary */
+    enum gm_star star;     /* star that is used */
+    double star_least;     /* the least entry of the circumcentric star1 */
+    size_t obtuse;         /* triangles with an angle above 90 degrees */
+    double *length;        /* length of each edge */
+    double *area;          /* area of each triangle */
+    double *weight;        /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
+    double *star0;         /* area of the dual cells */
     /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
@@ -100,7 +107,8 @@ struct gm_complex {
 
 /* Triangles on points, every one of which is used. */
 struct gm_triangles {
-    const double *points; /* 2 a vertex */
+    const double *points; /* 2 a vertex, or 3 */
+    bool in_space;        /* 3; several pieces are allowed, and triangles are made to agree */
     size_t vertices;
     const int *corners; /* 3 vertices a triangle, in any orientation */
     size_t count;
@@ -115,6 +123,8 @@ void gm_complex_close(struct gm_complex *complex);
 
 /* The corners of a triangle, next to each other even on a torus: x0 y0 x1 y1 x2 y2. */
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6]);
+/* The same with z: x0 y0 z0 .. z2. */
+void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9]);
 
 /* The dual vertex of a triangle. */
 void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2]);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FLOW_RECTANGLE_H
-#define GM_CORE_FLOW_RECTANGLE_H
+#ifndef GM_CORE_FORM_RECTANGLE_H
+#define GM_CORE_FORM_RECTANGLE_H
 
-#include "core/flow/complex.h"
+#include "core/form/complex.h"
 
 /* An acute triangulation of a rectangle, or of a torus. The vertices on the walls have exactly the
    coordinates 0, width and height, whatever the numbers of edges and strips. */
@@ -16,6 +16,7 @@ struct gm_rectangle {
     double irregular;
     const double *fixed; /* [fixed_count][2], points that do not move (corners never do) */
     size_t fixed_count;
+    enum gm_star star; /* GM_STAR_AUTO: circumcentric, which the pattern allows */
 };
 
 /* Returns true if the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Vertices lie on circles (or rows) of equal numbers, odd ones turned by half an edge; between two circles there
+   are two triangles for each edge. A disc has 6 k vertices on its ring k:
+       ring k, vertex j:  R k/n (cos 2 pi j/(6k), sin 2 pi j/(6k)).
+   A sphere is the icosahedron (0, +-1, +-g), (+-1, +-g, 0), (+-g, 0, +-1), g = (1 + sqrt(5))/2, each triangle
+   of which is cut in four by the middles of its sides, again and again, all put on the sphere. */
+#include "core/form/generators.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/form/rectangle.h"
+
+/* The points and corners that are laid. */
+struct laying {
+    struct gm_arena *arena;
+    double *points;
+    int *corners;
+    size_t vertices, count;
+    const double *number; /* of the generator */
+    long rows;            /* strips, rings or levels, or circles */
+};
+
+static void add_point(struct laying *laying, double x, double y, double z)
+{
+    double *p = laying->points + 3 * laying->vertices++;
+    p[0] = x;
+    p[1] = y;
+    p[2] = z;
+}
+
+static void add_triangle(struct laying *laying, long a, long b, long c)
+{
+    int *corner = laying->corners + 3 * laying->count++;
+    corner[0] = (int)a;
+    corner[1] = (int)b;
+    corner[2] = (int)c;
+}
+
+static void reserve(struct laying *laying, size_t vertices, size_t triangles)
+{
+    laying->points = gm_arena_take(laying->arena, 3 * vertices, sizeof *laying->points);
+    laying->corners = gm_arena_take(laying->arena, 3 * triangles, sizeof *laying->corners);
+}
+
+/* Joins `rings` circles of n vertices, odd ones turned by half an edge, to the next; the last to the first if
+   they close. */
+static void join_circles(struct laying *laying, long n, long rings, bool closed)
+{
+    for (long j = 0; j < rings - !closed; j++) {
+        const long here = j * n, above = (j + 1) % rings * n;
+        for (long i = 0; i < n; i++) {
+            const long next = (i + 1) % n, odd = j % 2;
+            add_triangle(laying, here + i, here + next, above + (odd ? next : i));
+            add_triangle(laying, above + next, above + i, here + (odd ? i : next));
+        }
+    }
+}
+
+static void lay_annulus(struct laying *laying)
+{
+    const double inner = laying->number[0], outer = laying->number[1];
+    const long n = (long)laying->number[2], m = laying->rows;
+    reserve(laying, (size_t)((m + 1) * n), (size_t)(2 * m * n));
+    for (long j = 0; j <= m; j++) {
+        for (long i = 0; i < n; i++) {
+            const double r = j < m ? inner * pow(outer / inner, (double)j / (double)m) : outer,
+                         a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
+            add_point(laying, r * cos(a), r * sin(a), 0);
+        }
+    }
+    join_circles(laying, n, m + 1, false);
+}
+
+static void lay_torus(struct laying *laying)
+{
+    const long n = (long)laying->number[2], m = laying->rows;
+    reserve(laying, (size_t)(m * n), (size_t)(2 * m * n));
+    for (long j = 0; j < m; j++) {
+        const double tube = 2 * M_PI * (double)j / (double)m,
+                     r = laying->number[0] + laying->number[1] * cos(tube);
+        for (long i = 0; i < n; i++) {
+            const double a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
+            add_point(laying, r * cos(a), r * sin(a), laying->number[1] * sin(tube));
+        }
+    }
+    join_circles(laying, n, m, true);
+}
+
+static void lay_disc(struct laying *laying)
+{
+    const long n = laying->rows;
+    reserve(laying, (size_t)(1 + 3 * n * (n + 1)), (size_t)(6 * n * n));
+    add_point(laying, 0, 0, 0);
+    for (long k = 1; k <= n; k++) {
+        for (long j = 0; j < 6 * k; j++) {
+            const double r = laying->number[0] * (double)k / (double)n,
+                         a = 2 * M_PI * (double)j / (double)(6 * k);
+            add_point(laying, r * cos(a), r * sin(a), 0);
+        }
+    }
+    for (long k = 1; k <= n; k++) {
+        const long outer = 1 + 3 * k * (k - 1), inner = k > 1 ? 1 + 3 * (k - 1) * (k - 2) : 0,
+                   within = k > 1 ? 6 * (k - 1) : 1;
+        for (long j = 0; j < 6 * k; j++) {
+            /* sector s, the i-th edge of the ring in it */
+            const long s = j / k, i = j % k, next = outer + (j + 1) % (6 * k);
+            add_triangle(laying, inner + (s * (k - 1) + i) % within, outer + j, next);
+            if (i > 0) {
+                add_triangle(laying, inner + (s * (k - 1) + i) % within,
+                             inner + (s * (k - 1) + i - 1) % within, outer + j);
+            }
+        }
+    }
+}
+
+/* A side of a triangle that waits for its middle. */
+struct side {
+    int low, high, place;
+};
+
+static int compare_sides(const void *a, const void *b)
+{
+    const struct side *p = a, *q = b;
+    const int low = (p->low > q->low) - (p->low < q->low);
+    return low ? low : (p->high > q->high) - (p->high < q->high);
+}
+
+static void put_on_sphere(double *p, double radius)
+{
+    const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    for (int c = 0; c < 3; c++) {
+        p[c] *= radius / length;
+    }
+}
+
+/* Cuts every triangle in four. */
+static void refine(struct laying *laying, double radius)
+{
+    const size_t sides = 3 * laying->count, count = laying->count;
+    const double *points = laying->points;
+    const int *corners = laying->corners;
+    struct side *side = gm_arena_take(laying->arena, sides, sizeof *side);
+    int *middle = gm_arena_take(laying->arena, sides, sizeof *middle);
+    for (size_t i = 0; i < sides; i++) {
+        const int a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
+        side[i] = (struct side){a < b ? a : b, a < b ? b : a, (int)i};
+    }
+    qsort(side, sides, sizeof *side, compare_sides);
+    const size_t before = laying->vertices;
+    reserve(laying, before + sides / 2, 4 * count);
+    memcpy(laying->points, points, 3 * before * sizeof *points);
+    for (size_t i = 0; i < sides; i++) {
+        if (i == 0 || compare_sides(&side[i - 1], &side[i]) != 0) {
+            const double *p = points + 3 * side[i].low, *q = points + 3 * side[i].high;
+            add_point(laying, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
+            put_on_sphere(laying->points + 3 * (laying->vertices - 1), radius);
+        }
+        middle[side[i].place] = (int)laying->vertices - 1;
+    }
+    laying->count = 0;
+    for (size_t t = 0; t < count; t++) {
+        const int *v = corners + 3 * t, *m = middle + 3 * t;
+        add_triangle(laying, v[0], m[0], m[2]);
+        add_triangle(laying, v[1], m[1], m[0]);
+        add_triangle(laying, v[2], m[2], m[1]);
+        add_triangle(laying, m[0], m[1], m[2]);
+    }
+}
+
+static void lay_sphere(struct laying *laying)
+{
+    const double g = (1 + sqrt(5)) / 2, radius = laying->number[0];
+    reserve(laying, 12, 20);
+    for (int axis = 0; axis < 3; axis++) {
+        for (int k = 0; k < 4; k++) {
+            double p[3] = {0, 0, 0};
+            p[(axis + 1) % 3] = k & 2 ? -1 : 1;
+            p[(axis + 2) % 3] = k & 1 ? -g : g;
+            put_on_sphere(p, radius);
+            add_point(laying, p[0], p[1], p[2]);
+        }
+    }
+    /* the faces are the triples of neighbours, which are 2/sqrt(1 + g^2) radii apart */
+    const double edge = 2 / sqrt(1 + g * g) * radius * 1.01;
+    for (int a = 0; a < 12; a++) {
+        for (int b = a + 1; b < 12; b++) {
+            for (int c = b + 1; c < 12; c++) {
+                const int corner[4] = {a, b, c, a};
+                bool near = true;
+                for (int k = 0; k < 3; k++) {
+                    const double *p = laying->points + 3 * (size_t)corner[k],
+                                 *q = laying->points + 3 * (size_t)corner[k + 1];
+                    near &= hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]) < edge;
+                }
+                if (near) {
+                    add_triangle(laying, a, b, c);
+                }
+            }
+        }
+    }
+    for (long level = 0; level < laying->rows; level++) {
+        refine(laying, radius);
+    }
+}
+
+enum which { RECTANGLE, FLAT_TORUS, DISC, ANNULUS, SPHERE, TORUS, GENERATORS };
+
+static const struct {
+    const char *word, *numbers;
+    size_t least, most; /* how many numbers */
+    size_t lengths;     /* the first of them are lengths; the others are whole numbers */
+    void (*lay)(struct laying *laying);
+} generators[GENERATORS] = {
+    {"rectangle", "W H N [M]", 3, 4, 2, NULL},  {"flat-torus", "W H N [M]", 3, 4, 2, NULL},
+    {"disc", "R n", 2, 2, 1, lay_disc},         {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
+    {"sphere", "R level", 2, 2, 1, lay_sphere}, {"torus", "R r N [M]", 3, 4, 2, lay_torus},
+};
+
+static enum which which_of(const char *word)
+{
+    size_t i = 0;
+    while (i < GENERATORS && strcmp(generators[i].word, word) != 0) {
+        i++;
+    }
+    return (enum which)i;
+}
+
+/* The number of rows, if it is not given. */
+static long rows_of(enum which which, const double *number, size_t count)
+{
+    const double n = count > 2 ? number[2] : 0;
+    if (count == generators[which].most) {
+        return (long)number[count - 1];
+    }
+    switch (which) {
+    case RECTANGLE:
+        return gm_rectangle_strips(number[0], number[1], (long)n, false);
+    case FLAT_TORUS:
+        return 2 * lround(n * number[1] / (sqrt(3) * number[0]));
+    case ANNULUS:
+        return lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2));
+    default:
+        return 2 * lround(n * number[1] / (sqrt(3) * number[0]));
+    }
+}
+
+bool gm_generator_check(const char *word, const double *number, size_t count, size_t place,
+                        struct gm_fault *fault)
+{
+    enum { MOST = 4000 };
+    const enum which which = which_of(word);
+    if (which == GENERATORS) {
+        return gm_fail(fault, place,
+                       "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
+                       "annulus R1 R2 N, sphere R level and torus R r N are made",
+                       word);
+    }
+    if (count < generators[which].least || count > generators[which].most) {
+        return gm_fail(fault, place, "a mesh %s has the numbers %s", word, generators[which].numbers);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const bool whole = i >= generators[which].lengths;
+        const double least = which == SPHERE && whole ? 0 : 1, most = which == SPHERE ? 9 : MOST;
+        if (!whole && !(number[i] > 0 && isfinite(number[i]))) {
+            return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
+                           number[i]);
+        }
+        if (whole && !(number[i] == floor(number[i]) && number[i] >= least && number[i] <= most)) {
+            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %g to %g", word, number[i],
+                           least, most);
+        }
+    }
+    const long rows = rows_of(which, number, count);
+    if (which == ANNULUS && number[1] <= number[0]) {
+        return gm_fail(fault, place, "mesh: annulus: its outer radius %g has to be above the inner one %g",
+                       number[1], number[0]);
+    }
+    if (which == TORUS && number[0] <= number[1]) {
+        return gm_fail(fault, place, "mesh: torus: its radius %g has to be above that of its tube, %g",
+                       number[0], number[1]);
+    }
+    const bool even = which == RECTANGLE || which == FLAT_TORUS || which == TORUS;
+    const bool few = which != SPHERE && which != DISC &&
+                     (rows < (which == ANNULUS     ? 1
+                              : which == RECTANGLE ? 2
+                                                   : 4) ||
+                      (which != RECTANGLE && number[2] < 3));
+    if ((even && rows % 2 != 0) || few) {
+        return gm_fail(fault, place, "mesh: %s: %ld rows of %g are too few, or not an even number", word,
+                       rows, number[2]);
+    }
+    const struct gm_rectangle pattern = {
+        .width = number[0], .height = number[1], .edges = (long)number[count > 2 ? 2 : 1], .strips = rows};
+    return which != RECTANGLE || gm_rectangle_is_acute(&pattern) ||
+           gm_fail(fault, place,
+                   "mesh: rectangle: %ld strips are not between half the width of an edge and all "
+                   "of it",
+                   rows);
+}
+
+/* The mesh while it is made. */
+struct making {
+    enum which which;
+    const double *number;
+    size_t count;
+    struct gm_triangles from;
+    struct gm_triangulation_fault *fault;
+    struct gm_complex *complex;
+};
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct making *making = data;
+    struct laying laying = {.arena = arena,
+                            .number = making->number,
+                            .rows = making->which == DISC || making->which == SPHERE
+                                        ? (long)making->number[1]
+                                        : rows_of(making->which, making->number, making->count)};
+    generators[making->which].lay(&laying);
+    making->from.points = laying.points;
+    making->from.vertices = laying.vertices;
+    making->from.corners = laying.corners;
+    making->from.count = laying.count;
+    making->complex = gm_complex_open(&making->from, making->fault);
+}
+
+struct gm_complex *gm_generator_open(const char *word, const double *number, size_t count, enum gm_star star,
+                                     struct gm_triangulation_fault *fault)
+{
+    const enum which which = which_of(word);
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    if (which <= FLAT_TORUS) {
+        const struct gm_rectangle pattern = {.width = number[0],
+                                             .height = number[1],
+                                             .edges = (long)number[2],
+                                             .strips = rows_of(which, number, count),
+                                             .torus = which == FLAT_TORUS,
+                                             .star = star};
+        return gm_rectangle_open(&pattern, fault);
+    }
+    struct making making = {.which = which,
+                            .number = number,
+                            .count = count,
+                            .from = {.in_space = true, .star = star},
+                            .fault = fault};
+    struct gm_arena *arena = gm_arena_open();
+    gm_arena_run(arena, make, &making);
+    gm_arena_close(arena);
+    return making.complex;
+}
+
+const char *const *gm_generator_parts(const char *word)
+{
+    static const char *const parts[GENERATORS][5] = {
+        [RECTANGLE] = {"left", "right", "bottom", "top"}, [DISC] = {"rim"}, [ANNULUS] = {"inner", "outer"}};
+    return parts[which_of(word)];
+}
+
+bool gm_generator_on(const char *word, const double *number, const char *part, const double middle[3])
+{
+    const enum which which = which_of(word);
+    const double radius = hypot(middle[0], middle[1]);
+    const bool sides[] = {middle[0] == 0, middle[0] == number[0], middle[1] == 0, middle[1] == number[1]},
+               circles[] = {radius<number[0] * 1.001, radius> number[0] * 1.001};
+    const char *const *parts = gm_generator_parts(word);
+    for (size_t i = 0; parts[i]; i++) {
+        if (strcmp(parts[i], part) == 0) {
+            return which == DISC || (which == RECTANGLE ? sides : circles)[i];
+        }
+    }
+    return strcmp(part, "all") == 0;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sparse matrices by rows: the operators of forms, and products of them. */
+#ifndef GM_CORE_FORM_MATRIX_H
+#define GM_CORE_FORM_MATRIX_H
+
+#include "core/arena.h"
+
+/* Row i has value[k] in column[k], start[i] <= k < start[i + 1], in increasing columns. */
+struct gm_matrix {
+    size_t rows, columns;
+    int *start, *column;
+    double *value;
+};
+
+/* One entry; entries at the same place are added. */
+struct gm_matrix_entry {
+    int row, column;
+    double value;
+};
+
+/* Makes a matrix of `count` entries in any order, which it sorts. The arena owns it; in a body of the arena, as
+   all below. */
+struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
+                              struct gm_matrix_entry *entries, size_t count);
+/* a b */
+struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matrix *a,
+                                   const struct gm_matrix *b);
+/* factor a' */
+struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_matrix *a, double factor);
+/* p a + q b, of equal sizes; b may be NULL. */
+struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm_matrix *a, double q,
+                               const struct gm_matrix *b);
+/* Multiplies row i by scale[i]. */
+void gm_matrix_scale(struct gm_matrix *matrix, const double *scale);
+/* The diagonal matrix of `count` numbers, each to this power, 1 or -1, times a factor. */
+struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *numbers, size_t count, int power,
+                                    double factor);
+
+/* y = a x */
+void gm_matrix_apply(const struct gm_matrix *a, const double *x, double *y);
+
+#endif

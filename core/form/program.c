@@ -1,0 +1,684 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Types of forms follow from those of their parts, node by node of the graph of formulas:
+       d: k -> k + 1,   star: k <-> dual 2 - k,   delta = -star d star,   laplace = -(d delta + delta d),
+       lie(u, a) = d interior(u, a) + interior(u, d a).
+   interior(u, c) of a dual 2-form c is the flux of the velocity u through dual edges, the transfer of star(u),
+   times the mean of star(c) at both ends of the edge; of a primal 2-form, star(u) times the mean on both sides.
+   Both are discrete products (Hirani, Discrete Exterior Calculus (2003)) that keep a constant. */
+#include "core/form/program.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/model/equations.h"
+
+static const size_t NONE = SIZE_MAX;
+
+/* A part of a formula: a step, or a formula of place and time that becomes one where its type is known. */
+struct part {
+    struct gm_form_type type;
+    size_t step; /* NONE: a formula */
+    gm_node_id node;
+};
+
+struct compiling {
+    struct gm_form_program *program;
+    struct gm_user_system *system;
+    struct gm_fault *fault;
+    bool *marked;   /* for each node: a root needs it */
+    bool *of_forms; /* it depends on forms or their operators */
+    bool *of_place; /* on x, y, z */
+    bool *of_time;
+    struct part *parts; /* of nodes that depend on forms */
+    size_t nodes;       /* of the graph when it began */
+    bool linear, failed;
+    gm_node_id now; /* the node that is compiled */
+};
+
+static const struct gm_form_type any_number = {GM_FORM_NUMBER, false};
+
+const char *gm_form_type_text(struct gm_form_type type)
+{
+    static const char *const texts[2][3] = {{"a 0-form", "a 1-form", "a 2-form"},
+                                            {"a dual 0-form", "a dual 1-form", "a dual 2-form"}};
+    return type.degree >= 0                ? texts[type.dual][type.degree]
+           : type.degree == GM_FORM_NUMBER ? "a number"
+           : type.degree == GM_FORM_PLACE  ? "a formula of the place"
+                                           : "a 1-form by its components";
+}
+
+static bool same(struct gm_form_type a, struct gm_form_type b)
+{
+    return a.degree == b.degree && (a.degree < 0 || a.dual == b.dual);
+}
+
+/* Writes a part of a formula: "d(u)". */
+static const char *text_of(const struct compiling *compiling, gm_node_id node, char *text, size_t size)
+{
+    const struct gm_user_system *system = compiling->system;
+    const struct gm_node *at = &system->graph.nodes[node];
+    static const char *const names[] = {
+#define GM_FORM_OPERATOR(constant, name, ...) name,
+#include "core/model/form_operators.def"
+#undef GM_FORM_OPERATOR
+    };
+    if (at->operation == GM_CONSTANT) {
+        snprintf(text, size, "%.6g", at->value);
+    } else if (at->operation != GM_VARIABLE) {
+        snprintf(text, size, "this");
+    } else if (at->a < system->first_call) {
+        snprintf(text, size, "%.40s", system->variables[at->a].name);
+    } else {
+        const struct gm_form_call *call = &system->calls[at->a - system->first_call];
+        char inner[80];
+        snprintf(text, size, "%s(%s%s)", names[call->operator],
+                 text_of(compiling, call->operands[0], inner, size > 60 ? 60 : size / 2),
+                 call->count > 1 ? ", .." : "");
+    }
+    return text;
+}
+
+/* Notes the first fault at the node that is compiled. Returns no part. */
+__attribute__((format(printf, 2, 3))) static struct part refuse(struct compiling *compiling,
+                                                                const char *format, ...)
+{
+    if (!compiling->failed) {
+        char sentence[GM_FAULT_SENTENCE];
+        va_list list;
+        va_start(list, format);
+        vsnprintf(sentence, sizeof sentence, format, list);
+        va_end(list);
+        const uint32_t place = compiling->system->graph.places[compiling->now];
+        gm_fail(compiling->fault, place == GM_NO_PLACE ? compiling->fault->offset : place, "%s", sentence);
+        compiling->failed = true;
+    }
+    return (struct part){any_number, NONE, compiling->now};
+}
+
+static size_t emit(struct compiling *compiling, struct gm_form_step step)
+{
+    struct gm_form_program *program = compiling->program;
+    if ((program->count & (program->count - 1)) == 0) {
+        program->steps = gm_arena_resize(compiling->system->arena, program->steps,
+                                         program->count ? 2 * program->count : 1, sizeof *program->steps);
+    }
+    if (!program->steps) {
+        compiling->failed = true;
+        compiling->fault->sentence[0] = '\0';
+        program->count = 0;
+        return 0;
+    }
+    program->steps[program->count] = step;
+    return program->count++;
+}
+
+static struct part made(struct compiling *compiling, struct gm_form_step step)
+{
+    const size_t number = emit(compiling, step);
+    return (struct part){step.type, number, compiling->now};
+}
+
+/* Renumbers a formula in x y z t and parameters. */
+static gm_node_id renumbered(struct compiling *compiling, gm_node_id node)
+{
+    struct gm_user_system *system = compiling->system;
+    gm_node_id *others = gm_system_no_nodes(system, system->variable_count);
+    if (!others) {
+        compiling->failed = true;
+        return node;
+    }
+    others[system->n] = gm_formula_variable(&system->graph, GM_FORM_PLACES);
+    for (size_t i = 0; i < GM_FORM_PLACES; i++) {
+        others[system->velocities + i] = gm_formula_variable(&system->graph, i);
+    }
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        others[i] = gm_formula_variable(&system->graph, GM_SAMPLE_INPUTS + i - system->parameters);
+    }
+    if (!gm_formula_substitute(&system->graph, &node, 1, others, system->variable_count)) {
+        compiling->failed = true;
+    }
+    return node;
+}
+
+/* The part as a form of that type, or a number. */
+static struct part sampled(struct compiling *compiling, struct part part, struct gm_form_type type)
+{
+    struct gm_form_step step = {.kind = GM_STEP_SAMPLE, .type = type, .components = 1};
+    const struct gm_user_system *system = compiling->system;
+    gm_node_id nodes[3] = {part.node, part.node, part.node};
+    if (part.type.degree == GM_FORM_COVECTOR) {
+        const struct gm_form_call *call =
+            &system->calls[system->graph.nodes[part.node].a - system->first_call];
+        step.components = call->count;
+        memcpy(nodes, call->operands, call->count * sizeof *nodes);
+    }
+    for (size_t i = 0; i < step.components; i++) {
+        step.needs |= compiling->of_time[nodes[i]] ? GM_NEEDS_TIME : 0;
+        step.nodes[i] = renumbered(compiling, nodes[i]);
+    }
+    return made(compiling, step);
+}
+
+static bool is_formula(struct part part)
+{
+    return part.step == NONE;
+}
+
+/* A part whose type is decided: 0-forms at vertices, primal 1-forms, numbers, unless it is known. */
+static struct part decided(struct compiling *compiling, struct part part)
+{
+    if (!is_formula(part)) {
+        return part;
+    }
+    const int degree = part.type.degree == GM_FORM_COVECTOR ? 1 : 0;
+    return sampled(compiling, part,
+                   part.type.degree == GM_FORM_NUMBER ? any_number : (struct gm_form_type){degree, false});
+}
+
+/* The part as a form of that type; false if it is another one. A number is a 0-form. */
+static bool fit(struct compiling *compiling, struct part *part, struct gm_form_type type)
+{
+    const int degree = part->type.degree;
+    if (is_formula(*part) && (type.degree == degree || (type.degree == 0 && degree == GM_FORM_PLACE) ||
+                              (type.degree == 1 && degree == GM_FORM_COVECTOR))) {
+        *part = sampled(compiling, *part, type);
+        return true;
+    }
+    if (degree == GM_FORM_NUMBER && type.degree <= 0) {
+        *part = decided(compiling, *part);
+        return true;
+    }
+    return same(part->type, type);
+}
+
+static unsigned needs_of(const struct compiling *compiling, struct part part)
+{
+    return compiling->program->steps[part.step].needs;
+}
+
+/* An operation on entries, with the type of the form if the other part is a number. */
+static struct part operate(struct compiling *compiling, enum gm_operation operation, struct part a,
+                           struct part b)
+{
+    const bool unary = gm_operation_rows[operation].arity == 1;
+    const unsigned p = needs_of(compiling, a), q = unary ? 0 : needs_of(compiling, b);
+    const bool sum = operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT ||
+                     operation == GM_OPERATION_NEGATE;
+    const bool scaled = operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE;
+    if (compiling->linear && ((p | q) & GM_NEEDS_UNKNOWNS) && !sum) {
+        const unsigned factor = p & GM_NEEDS_UNKNOWNS ? q : p;
+        if (!scaled || (factor & GM_NEEDS_UNKNOWNS) ||
+            (operation == GM_OPERATION_DIVIDE && (q & GM_NEEDS_UNKNOWNS))) {
+            return refuse(compiling, "an equation is linear in its unknowns, and this is not");
+        }
+        if (factor) {
+            return refuse(compiling, "the factor of an unknown does not change in time");
+        }
+    }
+    const struct gm_form_type type = a.type.degree == GM_FORM_NUMBER && !unary ? b.type : a.type;
+    return made(compiling, (struct gm_form_step){.kind = GM_STEP_OPERATE,
+                                                 .type = type,
+                                                 .needs = p | q,
+                                                 .a = a.step,
+                                                 .b = unary ? a.step : b.step,
+                                                 .number = operation});
+}
+
+static struct part times(struct compiling *compiling, enum gm_form_matrix matrix, struct part a,
+                         struct gm_form_type type)
+{
+    return made(compiling, (struct gm_form_step){.kind = GM_STEP_MATRIX,
+                                                 .type = type,
+                                                 .needs = needs_of(compiling, a),
+                                                 .a = a.step,
+                                                 .number = matrix});
+}
+
+static struct part zero_of(struct compiling *compiling, struct gm_form_type type)
+{
+    const gm_node_id zero = gm_formula_constant(&compiling->system->graph, 0);
+    return made(compiling, (struct gm_form_step){.kind = GM_STEP_SAMPLE,
+                                                 .type = type,
+                                                 .components = type.degree == 1 ? 2 : 1,
+                                                 .nodes = {zero, zero}});
+}
+
+static struct part negative(struct compiling *compiling, struct part a)
+{
+    return operate(compiling, GM_OPERATION_NEGATE, a, a);
+}
+
+/* ---- operators ---- */
+
+static struct part star(struct compiling *compiling, struct part a)
+{
+    a = decided(compiling, a);
+    if (a.type.degree == GM_FORM_NUMBER) {
+        return refuse(compiling, "star is of a form, and this is a number");
+    }
+    const struct gm_form_type type = {2 - a.type.degree, !a.type.dual};
+    /* star star is 1, or -1 of a 1-form: nothing is computed */
+    const struct gm_form_step *step = &compiling->program->steps[a.step];
+    const bool minus = step->kind == GM_STEP_OPERATE && step->number == GM_OPERATION_NEGATE;
+    const struct gm_form_step *inner = minus ? &compiling->program->steps[step->a] : step;
+    if (inner->kind == GM_STEP_MATRIX && inner->number >= GM_MATRIX_STAR0 &&
+        inner->number <= GM_MATRIX_DUAL_STAR2) {
+        const struct part before = {type, inner->a, compiling->now};
+        return (a.type.degree == 1) != minus ? negative(compiling, before) : before;
+    }
+    return times(
+        compiling,
+        (enum gm_form_matrix)((a.type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) + a.type.degree), a,
+        type);
+}
+
+static struct part d(struct compiling *compiling, struct part a)
+{
+    a = decided(compiling, a);
+    if (a.type.degree < 0 || a.type.degree == 2) {
+        char text[80];
+        return refuse(compiling, "d is of a 0-form or a 1-form, and %s is %s",
+                      text_of(compiling, a.node, text, sizeof text), gm_form_type_text(a.type));
+    }
+    const struct gm_form_type type = {a.type.degree + 1, a.type.dual};
+    const struct gm_form_step *step = &compiling->program->steps[a.step];
+    if (step->kind == GM_STEP_MATRIX &&
+        step->number == (a.type.dual ? (size_t)GM_MATRIX_DUAL_D0 : (size_t)GM_MATRIX_D0)) { /* d d = 0 */
+        return zero_of(compiling, type);
+    }
+    return times(compiling,
+                 (enum gm_form_matrix)((a.type.dual ? GM_MATRIX_DUAL_D0 : GM_MATRIX_D0) + a.type.degree), a,
+                 type);
+}
+
+static struct part delta(struct compiling *compiling, struct part a)
+{
+    a = decided(compiling, a);
+    if (a.type.degree < 1) {
+        return refuse(compiling, "delta is of a 1-form or a 2-form, and this is %s",
+                      gm_form_type_text(a.type));
+    }
+    return negative(compiling, star(compiling, d(compiling, star(compiling, a))));
+}
+
+static struct part laplace(struct compiling *compiling, struct part a)
+{
+    a = decided(compiling, a);
+    if (a.type.degree == GM_FORM_NUMBER) {
+        return refuse(compiling, "laplace is of a form, and this is a number");
+    }
+    if (a.type.degree == 0 && !a.type.dual) {
+        return times(compiling, GM_MATRIX_LAPLACE, a, a.type);
+    }
+    if (a.type.degree == 2 && a.type.dual) {
+        return star(compiling, laplace(compiling, star(compiling, a)));
+    }
+    const struct part up = a.type.degree < 2 ? delta(compiling, d(compiling, a)) : a,
+                      down = a.type.degree > 0 ? d(compiling, delta(compiling, a)) : a;
+    const struct part sum = a.type.degree == 0   ? up
+                            : a.type.degree == 2 ? down
+                                                 : operate(compiling, GM_OPERATION_ADD, up, down);
+    return negative(compiling, sum);
+}
+
+static struct part wedge(struct compiling *compiling, struct part a, struct part b)
+{
+    if (a.type.degree == GM_FORM_PLACE || (is_formula(a) && a.type.degree == GM_FORM_NUMBER)) {
+        a = sampled(compiling, a, (struct gm_form_type){0, false});
+    }
+    if (b.type.degree == GM_FORM_PLACE || (is_formula(b) && b.type.degree == GM_FORM_NUMBER)) {
+        b = sampled(compiling, b, (struct gm_form_type){0, false});
+    }
+    a = decided(compiling, a);
+    b = decided(compiling, b);
+    const int j = a.type.degree, k = b.type.degree;
+    if (j < 0 || k < 0 || a.type.dual || b.type.dual || j + k > 2) {
+        return refuse(compiling,
+                      "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
+                      gm_form_type_text(a.type), gm_form_type_text(b.type));
+    }
+    if (j == 1 && k == 1) {
+        if (compiling->linear && ((needs_of(compiling, a) | needs_of(compiling, b)) & GM_NEEDS_UNKNOWNS)) {
+            return refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
+        }
+        return made(compiling, (struct gm_form_step){.kind = GM_STEP_WEDGE,
+                                                     .type = {2, false},
+                                                     .needs = needs_of(compiling, a) | needs_of(compiling, b),
+                                                     .a = a.step,
+                                                     .b = b.step});
+    }
+    const struct part scalar = j == 0 ? a : b, other = j == 0 ? b : a;
+    const int degree = other.type.degree;
+    const struct part mean =
+        degree == 0 ? scalar
+                    : times(compiling, degree == 1 ? GM_MATRIX_MEAN1 : GM_MATRIX_MEAN2, scalar, other.type);
+    return operate(compiling, GM_OPERATION_MULTIPLY, mean, other);
+}
+
+static struct part interior(struct compiling *compiling, struct part u, struct part a)
+{
+    const struct gm_form_type velocity = {1, true};
+    a = decided(compiling, a);
+    if (!fit(compiling, &u, velocity)) {
+        return refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
+                      gm_form_type_text(u.type));
+    }
+    if (a.type.degree != 2) {
+        return refuse(compiling, "interior is of a 2-form here, and this is %s", gm_form_type_text(a.type));
+    }
+    struct part flux = star(compiling, u);
+    struct part mean = star(compiling, a);
+    const struct gm_form_type type = {1, a.type.dual};
+    if (a.type.dual) {
+        flux = times(compiling, GM_MATRIX_TRANSFER, flux, type);
+    }
+    mean = times(compiling, a.type.dual ? GM_MATRIX_MEAN1 : GM_MATRIX_ACROSS, mean, type);
+    flux.type = type;
+    return operate(compiling, GM_OPERATION_MULTIPLY, flux, mean);
+}
+
+static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
+{
+    if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
+        return refuse(compiling, "an equation has no numbers that are made of its unknowns");
+    }
+    return made(compiling,
+                (struct gm_form_step){
+                    .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
+}
+
+static struct part integral(struct compiling *compiling, struct part a)
+{
+    if (is_formula(a) && a.type.degree != GM_FORM_COVECTOR) {
+        a = sampled(compiling, a, (struct gm_form_type){0, false});
+    }
+    a = decided(compiling, a);
+    if (a.type.degree == 1 || a.type.degree < 0) {
+        return refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s",
+                      gm_form_type_text(a.type));
+    }
+    return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
+}
+
+static struct part inner(struct compiling *compiling, struct part a, struct part b)
+{
+    if (is_formula(a) && !is_formula(b)) {
+        const struct part swap = a;
+        a = b;
+        b = swap;
+    }
+    a = decided(compiling, a);
+    if (a.type.degree < 0 || !fit(compiling, &b, a.type)) {
+        return refuse(compiling, "inner is of two forms of one type, and these are %s and %s",
+                      gm_form_type_text(a.type), gm_form_type_text(b.type));
+    }
+    if (b.type.degree == GM_FORM_NUMBER) {
+        return refuse(compiling, "inner is of two forms, and this is a number");
+    }
+    struct part other = star(compiling, b);
+    other.type = a.type;
+    if (a.type.degree == 1 && a.type.dual) {
+        other = negative(compiling, other);
+        other.type = a.type;
+    }
+    return reduced(compiling, GM_STEP_SUM, operate(compiling, GM_OPERATION_MULTIPLY, a, other));
+}
+
+/* Adds what lines `boundary:` of a let, a dual 1-form, give to its derivative: the parts of dual cells that lie on
+   the boundary. */
+static struct part closed(struct compiling *compiling, gm_node_id let, struct part derivative)
+{
+    const struct gm_user_system *system = compiling->system;
+    for (size_t i = 0; i < system->item_count && !compiling->failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_BOUNDARY || item->count < 2 || item->nodes[1] != let) {
+            continue;
+        }
+        const struct part formula = {{GM_FORM_PLACE, false}, NONE, item->nodes[0]};
+        if (derivative.type.degree != 2 || !derivative.type.dual || compiling->of_forms[item->nodes[0]]) {
+            return refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
+        }
+        const struct part along = sampled(compiling, formula, (struct gm_form_type){1, false});
+        const struct part closing = made(compiling, (struct gm_form_step){.kind = GM_STEP_CLOSING,
+                                                                          .type = derivative.type,
+                                                                          .needs = needs_of(compiling, along),
+                                                                          .a = along.step,
+                                                                          .number = i});
+        derivative = operate(compiling, GM_OPERATION_ADD, derivative, closing);
+    }
+    return derivative;
+}
+
+static struct part called(struct compiling *compiling, const struct gm_form_call *call)
+{
+    const struct part a = compiling->parts[call->operands[0]],
+                      b = compiling->parts[call->operands[call->count > 1 ? 1 : 0]];
+    switch (call->operator) {
+    case GM_FORM_D:
+        return closed(compiling, call->operands[0], d(compiling, a));
+    case GM_FORM_STAR:
+        return star(compiling, a);
+    case GM_FORM_DELTA:
+        return delta(compiling, a);
+    case GM_FORM_LAPLACE:
+        return laplace(compiling, a);
+    case GM_FORM_WEDGE:
+        return wedge(compiling, a, b);
+    case GM_FORM_INTERIOR:
+        return interior(compiling, a, b);
+    case GM_FORM_LIE: {
+        const struct part c = decided(compiling, b);
+        if (c.type.degree != 2) {
+            return refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
+        }
+        return d(compiling, interior(compiling, a, c));
+    }
+    case GM_FORM_FORM:
+        for (size_t i = 0; i < call->count; i++) {
+            if (compiling->of_forms[call->operands[i]]) {
+                return refuse(compiling, "form(f, g) has formulas of x, y, z and t");
+            }
+        }
+        return (struct part){{GM_FORM_COVECTOR, false}, NONE, compiling->now};
+    case GM_FORM_INTEGRAL:
+        return integral(compiling, a);
+    case GM_FORM_INNER:
+        return inner(compiling, a, b);
+    default: {
+        const struct part c = decided(compiling, a);
+        if (c.type.degree > 0) {
+            return refuse(compiling, "max and min of one form are of a 0-form, and this is %s",
+                          gm_form_type_text(c.type));
+        }
+        return reduced(compiling, call->operator== GM_FORM_LARGEST ? GM_STEP_LARGEST : GM_STEP_LEAST, c);
+    }
+    }
+}
+
+/* ---- formulas ---- */
+
+/* 0 is of every type. */
+static bool is_zero(const struct compiling *compiling, struct part part)
+{
+    const struct gm_node *node = &compiling->system->graph.nodes[part.node];
+    return is_formula(part) && node->operation == GM_CONSTANT && node->value == 0;
+}
+
+static struct part two(struct compiling *compiling, enum gm_operation operation, struct part a, struct part b)
+{
+    const bool sum = operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT;
+    const bool product = operation == GM_OPERATION_MULTIPLY;
+    if (sum && is_zero(compiling, b)) {
+        return decided(compiling, a);
+    }
+    /* decide both from each other: the one that is known, or else the first */
+    if (is_formula(a) && !is_formula(b)) {
+        b = decided(compiling, b);
+    } else {
+        a = decided(compiling, a);
+    }
+    struct part known = is_formula(a) ? b : a, *open = is_formula(a) ? &a : &b;
+    if (product && known.type.degree > 0 && !known.type.dual && open->type.degree == GM_FORM_PLACE) {
+        return wedge(compiling, a, b);
+    }
+    if (is_formula(*open) && !(known.type.degree >= 0 && fit(compiling, open, known.type))) {
+        *open = decided(compiling, *open);
+    }
+    const int p = a.type.degree, q = b.type.degree;
+    const bool numbers = p == GM_FORM_NUMBER || q == GM_FORM_NUMBER;
+    const bool scalars = p <= 0 && q <= 0 && (numbers || same(a.type, b.type));
+    if (scalars || (sum && same(a.type, b.type)) || (product && numbers) ||
+        (operation == GM_OPERATION_DIVIDE && q == GM_FORM_NUMBER)) {
+        return operate(compiling, operation, a, b);
+    }
+    if (product && !a.type.dual && !b.type.dual && (p == 0 || q == 0)) {
+        return wedge(compiling, a, b);
+    }
+    char first[80], second[80];
+    return refuse(compiling, "%s is %s and %s %s: they cannot be %s",
+                  text_of(compiling, a.node, first, sizeof first), gm_form_type_text(a.type),
+                  text_of(compiling, b.node, second, sizeof second), gm_form_type_text(b.type),
+                  sum       ? "added"
+                  : product ? "multiplied with *; wedge(a, b) is a product of forms"
+                            : "combined so");
+}
+
+static struct part compile(struct compiling *compiling, gm_node_id id)
+{
+    const struct gm_user_system *system = compiling->system;
+    const struct gm_node node = system->graph.nodes[id];
+    compiling->now = id;
+    if (!compiling->of_forms[id]) {
+        return (struct part){{compiling->of_place[id] ? GM_FORM_PLACE : GM_FORM_NUMBER, false}, NONE, id};
+    }
+    if (node.operation == GM_VARIABLE && node.a < system->n) {
+        const struct gm_form_declared *form = &system->forms[node.a];
+        return made(compiling,
+                    (struct gm_form_step){.kind = GM_STEP_FORM,
+                                          .type = {form->degree, form->dual},
+                                          .needs = form->unknown ? GM_NEEDS_UNKNOWNS : GM_NEEDS_FIELDS,
+                                          .number = node.a});
+    }
+    if (node.operation == GM_VARIABLE) {
+        return called(compiling, &system->calls[node.a - system->first_call]);
+    }
+    struct part a = compiling->parts[node.a];
+    if (gm_operation_rows[node.operation].arity == 2) {
+        return two(compiling, node.operation, a, compiling->parts[node.b]);
+    }
+    a = decided(compiling, a);
+    if (node.operation != GM_OPERATION_NEGATE && a.type.degree > 0) {
+        return refuse(compiling, "%s is of a number or a 0-form, and this is %s",
+                      gm_operation_rows[node.operation].name, gm_form_type_text(a.type));
+    }
+    return operate(compiling, node.operation, a, a);
+}
+
+/* Marks what the roots need, from above, and then what depends on forms, place and time, from below. */
+static bool survey(struct compiling *compiling, const struct gm_form_root *roots, size_t count)
+{
+    const struct gm_user_system *system = compiling->system;
+    struct gm_arena *arena = system->arena;
+    const size_t nodes = compiling->nodes = system->graph.count;
+    compiling->marked = gm_arena_take(arena, nodes + 1, sizeof(bool));
+    compiling->of_forms = gm_arena_take(arena, nodes + 1, sizeof(bool));
+    compiling->of_place = gm_arena_take(arena, nodes + 1, sizeof(bool));
+    compiling->of_time = gm_arena_take(arena, nodes + 1, sizeof(bool));
+    compiling->parts = gm_arena_take(arena, nodes + 1, sizeof *compiling->parts);
+    if (!compiling->marked || !compiling->of_forms || !compiling->of_place || !compiling->of_time ||
+        !compiling->parts) {
+        return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        compiling->marked[roots[i].node] = true;
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_BOUNDARY) {
+            compiling->marked[item->nodes[0]] = true;
+        }
+    }
+    for (size_t i = nodes; i > 0; i--) {
+        const struct gm_node *node = &system->graph.nodes[i - 1];
+        if (!compiling->marked[i - 1] || node->operation == GM_CONSTANT) {
+            continue;
+        }
+        if (node->operation == GM_VARIABLE) {
+            const size_t call = node->a - system->first_call;
+            for (size_t k = 0; node->a >= system->first_call && k < system->calls[call].count; k++) {
+                compiling->marked[system->calls[call].operands[k]] = true;
+            }
+            continue;
+        }
+        compiling->marked[node->a] = true;
+        if (gm_operation_rows[node->operation].arity == 2) {
+            compiling->marked[node->b] = true;
+        }
+    }
+    for (size_t i = 0; i < nodes; i++) {
+        const struct gm_node *node = &system->graph.nodes[i];
+        if (!compiling->marked[i] || node->operation == GM_CONSTANT) {
+            continue;
+        }
+        if (node->operation == GM_VARIABLE) {
+            const size_t number = node->a;
+            compiling->of_forms[i] = number < system->n || number >= system->first_call;
+            compiling->of_place[i] = number >= system->velocities && number < system->first_call;
+            compiling->of_time[i] = number == system->n;
+            continue;
+        }
+        const gm_node_id other = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
+        compiling->of_forms[i] = compiling->of_forms[node->a] || compiling->of_forms[other];
+        compiling->of_place[i] = compiling->of_place[node->a] || compiling->of_place[other];
+        compiling->of_time[i] = compiling->of_time[node->a] || compiling->of_time[other];
+    }
+    return true;
+}
+
+/* The step of a root, of the type that it has to be. */
+static void finish(struct compiling *compiling, const struct gm_form_root *root, size_t *step)
+{
+    struct part part = compiling->parts[root->node];
+    compiling->now = root->node;
+    compiling->fault->offset = root->place;
+    const bool formula = is_formula(part) && part.type.degree != GM_FORM_COVECTOR;
+    const bool zero = root->type.degree >= 0 && is_zero(compiling, part);
+    if (root->type.degree == GM_FORM_ANY) {
+        part = decided(compiling, part);
+    } else if (zero) {
+        part = zero_of(compiling, root->type);
+    } else if ((root->density && formula && (root->type.degree != 1 || root->along)) ||
+               (formula && root->type.degree == 0)) {
+        part = sampled(compiling, part, root->type);
+    } else if (!fit(compiling, &part, root->type)) {
+        char text[80];
+        refuse(compiling, "%s is %s, and has to be %s here",
+               text_of(compiling, root->node, text, sizeof text), gm_form_type_text(part.type),
+               gm_form_type_text(root->type));
+    } else if (part.type.degree == GM_FORM_NUMBER && root->type.degree == 0) {
+        part = operate(compiling, GM_OPERATION_ADD, zero_of(compiling, root->type), part);
+    }
+    *step = part.step;
+}
+
+bool gm_form_compile(struct gm_form_program *program, struct gm_user_system *system,
+                     const struct gm_form_root *roots, size_t count, bool linear, struct gm_fault *fault)
+{
+    struct compiling compiling = {.program = program, .system = system, .fault = fault, .linear = linear};
+    *program = (struct gm_form_program){
+        .roots = gm_arena_take(system->arena, count + 1, sizeof *program->roots), .root_count = count};
+    *fault = (struct gm_fault){0};
+    if (!program->roots || !survey(&compiling, roots, count)) {
+        return false;
+    }
+    for (size_t i = 0; i < compiling.nodes && !compiling.failed; i++) {
+        if (compiling.marked[i]) {
+            compiling.parts[i] = compile(&compiling, (gm_node_id)i);
+        }
+    }
+    for (size_t i = 0; i < count && !compiling.failed; i++) {
+        finish(&compiling, &roots[i], &program->roots[i]);
+    }
+    return !compiling.failed && !system->graph.failed;
+}

@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Discrete exterior calculus on triangles. Edge e has the vector t from its low to its high vertex, its dual the
+   direction J t from the triangle on its right to the one on its left, J the rotation by 90 degrees. star star
+   is -1 in degree 1. With lambda_i the barycentric coordinates, Whitney's 1-form of an edge i -> j is
+       lambda_i d lambda_j - lambda_j d lambda_i;
+   their mass matrix in a triangle, edges i -> j and k -> l, g the gradients, L_ab = area (1 + delta_ab)/12, is
+       L_ik g_j.g_l - L_il g_j.g_k - L_jk g_i.g_l + L_jl g_i.g_k.
+   Hirani, Discrete Exterior Calculus (2003); Whitney, Geometric Integration Theory (1957). */
+#include "core/form/space.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/linear/cholesky.h"
+
+size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type)
+{
+    const int simplex = type.dual ? 2 - type.degree : type.degree;
+    return type.degree < 0 ? 1
+           : simplex == 0  ? complex->vertices
+           : simplex == 1  ? complex->edges
+                           : complex->triangles;
+}
+
+long gm_form_betti(const struct gm_complex *complex, int degree)
+{
+    const long euler = (long)complex->vertices - (long)complex->edges + (long)complex->triangles;
+    const long pieces = (long)complex->pieces, closed = (long)complex->closed;
+    return degree == 0 ? pieces : degree == 2 ? closed : pieces + closed - euler;
+}
+
+void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
+{
+    for (size_t c = 0; c < 3; c++) {
+        point[c] = c < complex->coordinates ? complex->point[complex->coordinates * vertex + c] : 0;
+    }
+}
+
+/* The entries of a matrix that is being made. */
+struct entries {
+    struct gm_matrix_entry *list;
+    size_t count;
+};
+
+static struct entries entries_for(struct gm_arena *arena, size_t most)
+{
+    struct entries entries = {gm_arena_keep(arena, malloc((most + 1) * sizeof *entries.list), free), 0};
+    gm_arena_need(arena, entries.list);
+    return entries;
+}
+
+static void add(struct entries *entries, size_t row, size_t column, double value)
+{
+    entries->list[entries->count++] = (struct gm_matrix_entry){(int)row, (int)column, value};
+}
+
+/* Makes the matrix, and frees its entries. */
+static struct gm_matrix made(struct gm_form_space *space, struct entries *entries, size_t rows,
+                             size_t columns)
+{
+    struct gm_matrix matrix = gm_matrix_of(space->arena, rows, columns, entries->list, entries->count);
+    gm_arena_drop(space->arena, entries->list);
+    return matrix;
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The inner products of the gradients of barycentric coordinates, g_a.g_b = e_a.e_b / (4 area^2) with the edges
+   e_a opposite to corner a, one after another. */
+static void gradients(const struct gm_complex *complex, size_t t, double products[3][3])
+{
+    double p[9], e[3][3];
+    gm_complex_corners_in_space(complex, t, p);
+    for (size_t a = 0; a < 3; a++) {
+        for (size_t c = 0; c < 3; c++) {
+            e[a][c] = p[(a + 2) % 3 * 3 + c] - p[(a + 1) % 3 * 3 + c];
+        }
+    }
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) {
+            products[a][b] = dot(e[a], e[b]) / (4 * complex->area[t] * complex->area[t]);
+        }
+    }
+}
+
+static struct gm_matrix mass_of(struct gm_form_space *space)
+{
+    const struct gm_complex *complex = space->complex;
+    struct entries entries = entries_for(space->arena, 9 * complex->triangles);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double g[3][3];
+        gradients(complex, t, g);
+        for (size_t a = 0; a < 3; a++) {
+            for (size_t b = 0; b < 3; b++) {
+                const size_t i = a, j = (a + 1) % 3, k = b, l = (b + 1) % 3;
+                const double sign = complex->triangle_sign[3 * t + a] * complex->triangle_sign[3 * t + b];
+                const double unit = complex->area[t] / 12;
+                const double value = unit * ((1 + (i == k)) * g[j][l] - (1 + (i == l)) * g[j][k] -
+                                             (1 + (j == k)) * g[i][l] + (1 + (j == l)) * g[i][k]);
+                add(&entries, (size_t)complex->triangle_edge[3 * t + a],
+                    (size_t)complex->triangle_edge[3 * t + b], sign * value);
+            }
+        }
+    }
+    return made(space, &entries, complex->edges, complex->edges);
+}
+
+/* The piece of a dual edge from a triangle's dual vertex w to the middle m of its edge number `side`: the
+   integral of Whitney's form of i -> j is h_i l_j - h_j l_i, h = (w + m)/2, l = m - w; negative on the left. */
+static struct gm_matrix transfer_of(struct gm_form_space *space)
+{
+    const struct gm_complex *complex = space->complex;
+    struct entries entries = entries_for(space->arena, 9 * complex->triangles);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        const double *w = complex->weight + 3 * t;
+        const signed char *sign = complex->triangle_sign + 3 * t;
+        for (size_t side = 0; side < 3; side++) {
+            double h[3], l[3];
+            for (size_t c = 0; c < 3; c++) {
+                const double m = c == (side + 2) % 3 ? 0 : 0.5;
+                h[c] = (w[c] + m) / 2;
+                l[c] = m - w[c];
+            }
+            for (size_t a = 0; a < 3; a++) {
+                const size_t i = a, j = (a + 1) % 3;
+                add(&entries, (size_t)complex->triangle_edge[3 * t + side],
+                    (size_t)complex->triangle_edge[3 * t + a],
+                    -sign[side] * sign[a] * (h[i] * l[j] - h[j] * l[i]));
+            }
+        }
+    }
+    return made(space, &entries, complex->edges, complex->edges);
+}
+
+static void make_derivatives(struct gm_form_space *space)
+{
+    const struct gm_complex *complex = space->complex;
+    struct gm_matrix *matrix = space->matrix;
+    struct entries d0 = entries_for(space->arena, 2 * complex->edges),
+                   d1 = entries_for(space->arena, 3 * complex->triangles),
+                   ends = entries_for(space->arena, 2 * complex->edges),
+                   corners = entries_for(space->arena, 3 * complex->triangles),
+                   sides = entries_for(space->arena, 2 * complex->edges);
+    for (size_t e = 0; e < complex->edges; e++) {
+        const int *pair = complex->edge_triangle + 2 * e;
+        for (size_t k = 0; k < 2; k++) {
+            add(&d0, e, (size_t)complex->edge[2 * e + k], k ? 1 : -1);
+            add(&ends, e, (size_t)complex->edge[2 * e + k], 0.5);
+            if (pair[k] >= 0) {
+                add(&sides, e, (size_t)pair[k], pair[1 - k] >= 0 ? 0.5 : 1);
+            }
+        }
+    }
+    for (size_t k = 0; k < 3 * complex->triangles; k++) {
+        add(&d1, k / 3, (size_t)complex->triangle_edge[k], complex->triangle_sign[k]);
+        add(&corners, k / 3, (size_t)complex->triangle[k], 1.0 / 3);
+    }
+    matrix[GM_MATRIX_D0] = made(space, &d0, complex->edges, complex->vertices);
+    matrix[GM_MATRIX_D1] = made(space, &d1, complex->triangles, complex->edges);
+    matrix[GM_MATRIX_MEAN1] = made(space, &ends, complex->edges, complex->vertices);
+    matrix[GM_MATRIX_MEAN2] = made(space, &corners, complex->triangles, complex->vertices);
+    matrix[GM_MATRIX_ACROSS] = made(space, &sides, complex->edges, complex->triangles);
+    matrix[GM_MATRIX_DUAL_D0] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D1], 1);
+    matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
+}
+
+static void close_mass(void *mass)
+{
+    gm_cholesky_close(mass);
+}
+
+/* The rows of a symmetric matrix up to the diagonal. */
+static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix *a)
+{
+    int *start = gm_arena_take(arena, a->rows + 1, sizeof *start);
+    int *column = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *column);
+    double *value = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *value);
+    for (size_t i = 0; i < a->rows; i++) {
+        start[i + 1] = start[i];
+        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+            if (a->column[k] <= (int)i) {
+                column[start[i + 1]] = a->column[k];
+                value[start[i + 1]++] = a->value[k];
+            }
+        }
+    }
+    return gm_cholesky_open(a->rows, start, column, value, GM_CHOLESKY_EXACT);
+}
+
+static void make_stars(struct gm_form_space *space)
+{
+    const struct gm_complex *complex = space->complex;
+    struct gm_arena *arena = space->arena;
+    struct gm_matrix *matrix = space->matrix;
+    matrix[GM_MATRIX_STAR0] = gm_matrix_diagonal(arena, complex->star0, complex->vertices, 1, 1);
+    matrix[GM_MATRIX_DUAL_STAR2] = gm_matrix_diagonal(arena, complex->star0, complex->vertices, -1, 1);
+    matrix[GM_MATRIX_STAR2] = gm_matrix_diagonal(arena, complex->area, complex->triangles, -1, 1);
+    matrix[GM_MATRIX_DUAL_STAR0] = gm_matrix_diagonal(arena, complex->area, complex->triangles, 1, 1);
+    struct gm_matrix diagonal = gm_matrix_diagonal(arena, complex->star1, complex->edges, 1, 1);
+    const struct gm_matrix flux = gm_matrix_product(arena, &diagonal, &matrix[GM_MATRIX_D0]);
+    matrix[GM_MATRIX_LAPLACE] = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_D1], &flux);
+    double *cells = gm_arena_take(arena, complex->vertices, sizeof *cells);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        cells[v] = 1 / complex->star0[v];
+    }
+    gm_matrix_scale(&matrix[GM_MATRIX_LAPLACE], cells);
+    if (complex->star == GM_STAR_CIRCUMCENTRIC) {
+        matrix[GM_MATRIX_STAR1] = diagonal;
+        matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
+    } else {
+        matrix[GM_MATRIX_STAR1] = mass_of(space);
+        space->mass = gm_arena_keep(arena, factor(arena, &matrix[GM_MATRIX_STAR1]), close_mass);
+        gm_arena_need(arena, space->mass);
+    }
+    matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
+}
+
+static void close_complex(void *complex)
+{
+    gm_complex_close(complex);
+}
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct gm_form_space *space = data;
+    gm_arena_keep(arena, space->complex, close_complex);
+    make_derivatives(space);
+    make_stars(space);
+    space->dual_vertex = gm_arena_take(arena, 3 * space->complex->triangles, sizeof(double));
+    for (size_t t = 0; t < space->complex->triangles; t++) {
+        double p[9];
+        gm_complex_corners_in_space(space->complex, t, p);
+        const double *w = space->complex->weight + 3 * t;
+        for (size_t c = 0; c < 3; c++) {
+            space->dual_vertex[3 * t + c] = w[0] * p[c] + w[1] * p[3 + c] + w[2] * p[6 + c];
+        }
+    }
+}
+
+bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex)
+{
+    *space = (struct gm_form_space){.arena = gm_arena_open(), .complex = complex};
+    if (!space->arena) {
+        gm_complex_close(complex);
+        return false;
+    }
+    if (!gm_arena_run(space->arena, make, space)) {
+        gm_form_space_close(space);
+        return false;
+    }
+    return true;
+}
+
+void gm_form_space_close(struct gm_form_space *space)
+{
+    gm_arena_close(space->arena);
+    space->arena = NULL;
+}
+
+/* ---- integrals ---- */
+
+/* Gauss' five points and weights on [0, 1] */
+static const double gauss[5][2] = {{0.046910077030668004, 0.11846344252809454},
+                                   {0.23076534494715845, 0.23931433524968324},
+                                   {0.5, 0.28444444444444444},
+                                   {0.7692346550528415, 0.23931433524968324},
+                                   {0.953089922969332, 0.11846344252809454}};
+
+/* Radon's seven points of degree 5: barycentric coordinates a, b, b and the weight */
+static const double radon[3][3] = {
+    {1.0 / 3, 1.0 / 3, 0.225},
+    {0.05971587178976982, 0.47014206410511509, 0.13239415278850618},
+    {0.79742698535308732, 0.10128650732345634, 0.12593918054482715},
+};
+
+static struct gm_form_points room_for(struct gm_arena *arena, size_t numbers, size_t each, bool vectors)
+{
+    const size_t count = numbers * each;
+    struct gm_form_points points = {.count = count, .each = each};
+    points.point = gm_arena_take(arena, 4 * count, sizeof(double));
+    if (vectors) {
+        points.vector = gm_arena_take(arena, 3 * count, sizeof(double));
+    } else {
+        points.weight = gm_arena_take(arena, count, sizeof(double));
+    }
+    return points;
+}
+
+static void put(const struct gm_form_points *points, size_t at, const double *p, double weight)
+{
+    for (size_t c = 0; c < 3; c++) {
+        points->point[c * points->count + at] = p[c];
+    }
+    points->weight[at] = weight;
+}
+
+/* Five points of the straight piece from p to q. */
+static void put_piece(const struct gm_form_points *points, size_t at, const double *p, const double *q)
+{
+    for (size_t i = 0; i < 5; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            points->point[c * points->count + at + i] = p[c] + gauss[i][0] * (q[c] - p[c]);
+            points->vector[c * points->count + at + i] = gauss[i][1] * (q[c] - p[c]);
+        }
+    }
+}
+
+/* The corners of edge number `side` of a triangle, from low to high, and its middle. */
+static void edge_of(const struct gm_complex *complex, size_t t, size_t side, double low[3], double high[3],
+                    double middle[3])
+{
+    double p[9];
+    gm_complex_corners_in_space(complex, t, p);
+    const bool along = complex->triangle_sign[3 * t + side] > 0;
+    for (size_t c = 0; c < 3; c++) {
+        const double a = p[3 * side + c], b = p[(side + 1) % 3 * 3 + c];
+        low[c] = along ? a : b;
+        high[c] = along ? b : a;
+        middle[c] = (a + b) / 2;
+    }
+}
+
+static struct gm_form_points points_of_lines(const struct gm_form_space *space, struct gm_arena *arena,
+                                             bool dual)
+{
+    const struct gm_complex *complex = space->complex;
+    const struct gm_form_points points = room_for(arena, complex->edges, dual ? 10 : 5, true);
+    for (size_t k = 0; k < 3 * complex->triangles; k++) {
+        double low[3], high[3], middle[3];
+        const size_t e = (size_t)complex->triangle_edge[k];
+        edge_of(complex, k / 3, k % 3, low, high, middle);
+        const double *centre = space->dual_vertex + 3 * (k / 3);
+        const int *pair = complex->edge_triangle + 2 * e;
+        if (dual && (pair[0] < 0 || pair[1] < 0)) { /* half of a dual edge: the other one has no length */
+            put_piece(&points, pair[0] < 0 ? 10 * e : 10 * e + 5, middle, middle);
+        }
+        if (!dual) {
+            put_piece(&points, 5 * e, low, high);
+        } else if (complex->triangle_sign[k] > 0) { /* on the left: the dual edge ends here */
+            put_piece(&points, 10 * e, middle, centre);
+        } else {
+            put_piece(&points, 10 * e + 5, centre, middle);
+        }
+    }
+    return points;
+}
+
+struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struct gm_arena *arena,
+                                        struct gm_form_type type)
+{
+    const struct gm_complex *complex = space->complex;
+    if (type.degree == 1) {
+        return points_of_lines(space, arena, type.dual);
+    }
+    const bool vertices = (type.degree == 0) != type.dual;
+    const size_t numbers = vertices ? complex->vertices : complex->triangles,
+                 each = type.degree == 2 && !type.dual ? 7 : 1;
+    const struct gm_form_points points = room_for(arena, numbers, each, false);
+    for (size_t i = 0; i < numbers && each == 1; i++) {
+        double p[3];
+        if (vertices) {
+            gm_form_vertex(complex, i, p);
+        }
+        put(&points, i, vertices ? p : space->dual_vertex + 3 * i, type.degree == 2 ? complex->star0[i] : 1);
+    }
+    for (size_t t = 0; t < numbers && each == 7; t++) {
+        double p[9];
+        gm_complex_corners_in_space(complex, t, p);
+        for (size_t i = 0; i < 7; i++) {
+            const double *rule = radon[(i + 2) / 3];
+            double at[3];
+            for (size_t c = 0; c < 3; c++) {
+                at[c] = 0;
+                for (size_t corner = 0; corner < 3; corner++) {
+                    at[c] += p[3 * corner + c] * (corner == (i + 2) % 3 ? rule[0] : rule[1]);
+                }
+            }
+            put(&points, 7 * t + i, at, rule[2] * complex->area[t]);
+        }
+    }
+    return points;
+}

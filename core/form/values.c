@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steps are computed one after another, constant ones once. The derivative of a step over the unknowns is a
+   product of the matrices of the steps before it. */
+#include "core/form/values.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/linear/cholesky.h"
+
+static size_t size_of(const struct gm_form_values *values, size_t step)
+{
+    return gm_form_size(values->space->complex, values->program->steps[step].type);
+}
+
+static const struct gm_form_points *points_of(struct gm_form_space *space, struct gm_arena *arena,
+                                              struct gm_form_type type)
+{
+    struct gm_form_points **points = &space->points[type.dual][type.degree];
+    if (!*points) {
+        struct gm_form_points *made = gm_arena_take(arena, 1, sizeof *made);
+        *made = gm_form_points_of(space, arena, type);
+        *points = made;
+    }
+    return *points;
+}
+
+void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
+                         const struct gm_form_program *program, struct gm_form_space *space,
+                         const struct gm_user_system *system, const double *variables)
+{
+    const size_t parameters = system->velocities - system->parameters;
+    double *constants = gm_arena_take(arena, GM_SAMPLE_INPUTS + parameters, sizeof *constants);
+    memcpy(constants + GM_SAMPLE_INPUTS, variables + system->parameters, parameters * sizeof *constants);
+    *values = (struct gm_form_values){.program = program, .space = space, .time = NAN};
+    values->slot = gm_arena_take(arena, program->count + 1, sizeof *values->slot);
+    values->tapes = gm_arena_take(arena, program->count + 1, sizeof *values->tapes);
+    values->sampled = gm_arena_take(arena, program->count + 1, sizeof *values->sampled);
+    values->solved = gm_arena_take(arena, space->complex->edges, sizeof *values->solved);
+    for (size_t i = 0; i < program->count; i++) {
+        const struct gm_form_step *step = &program->steps[i];
+        if (step->kind != GM_STEP_FORM) {
+            values->slot[i] = gm_arena_take(arena, size_of(values, i), sizeof(double));
+        }
+        if (step->kind == GM_STEP_SAMPLE) {
+            const size_t count = step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
+            values->sampled[i] = gm_arena_take(arena, 3 * count, sizeof(double));
+            gm_tape_keep(arena, &values->tapes[i],
+                         gm_tape_open(&values->tapes[i], &system->graph, step->nodes, step->components,
+                                      GM_SAMPLE_INPUTS, constants));
+        }
+    }
+}
+
+static void sample(const struct gm_form_values *values, size_t i, double t)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    double *out = values->slot[i], *found = values->sampled[i];
+    if (step->type.degree < 0) {
+        const double here[GM_SAMPLE_INPUTS] = {0, 0, 0, t};
+        gm_tape_values(&values->tapes[i], here, out, 1);
+        return;
+    }
+    const struct gm_form_points *points = values->space->points[step->type.dual][step->type.degree];
+    const size_t count = points->count;
+    for (size_t k = 0; k < count; k++) {
+        points->point[3 * count + k] = t;
+    }
+    gm_tape_values(&values->tapes[i], points->point, found, count);
+    for (size_t k = 0; k < count; k += points->each) {
+        double sum = 0;
+        for (size_t j = k; j < k + points->each; j++) {
+            if (points->weight) {
+                sum += points->weight[j] * found[j];
+            }
+            if (!points->weight && step->components == 1) { /* a density along the edge */
+                sum += found[j] * hypot(hypot(points->vector[j], points->vector[count + j]),
+                                        points->vector[2 * count + j]);
+            }
+            for (size_t c = 0; !points->weight && step->components > 1 && c < step->components; c++) {
+                sum += points->vector[c * count + j] * found[c * count + j];
+            }
+        }
+        out[k / points->each] = sum;
+    }
+}
+
+static void operate(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const double *a = values->slot[step->a], *b = values->slot[step->b];
+    const size_t n = size_of(values, i), p = size_of(values, step->a) == n ? 1 : 0,
+                 q = size_of(values, step->b) == n ? 1 : 0;
+    double *out = values->slot[i];
+    switch ((enum gm_operation)step->number) {
+    case GM_OPERATION_ADD:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = a[p * k] + b[q * k];
+        }
+        break;
+    case GM_OPERATION_SUBTRACT:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = a[p * k] - b[q * k];
+        }
+        break;
+    case GM_OPERATION_MULTIPLY:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = a[p * k] * b[q * k];
+        }
+        break;
+    default:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = gm_operation_value((enum gm_operation)step->number, a[p * k], b[q * k]);
+        }
+    }
+}
+
+/* The integral of the product of two Whitney forms over each triangle. */
+static void wedge(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_complex *complex = values->space->complex;
+    const struct gm_form_step *step = &values->program->steps[i];
+    const double *a = values->slot[step->a], *b = values->slot[step->b];
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double p[3], q[3], sum = 0;
+        for (size_t k = 0; k < 3; k++) {
+            const int sign = complex->triangle_sign[3 * t + k], e = complex->triangle_edge[3 * t + k];
+            p[k] = sign * a[e];
+            q[k] = sign * b[e];
+        }
+        for (int k = 0; k < 3; k++) {
+            const int next = (k + 1) % 3;
+            sum += p[k] * q[next] - p[next] * q[k];
+        }
+        values->slot[i][t] = sum / 6;
+    }
+}
+
+/* y = matrix x; the star of dual 1-forms is solved for where its inverse is a mass matrix. */
+static void multiply(const struct gm_form_space *space, enum gm_form_matrix matrix, const double *x,
+                     double *y)
+{
+    if (matrix == GM_MATRIX_DUAL_STAR1 && space->mass) {
+        gm_cholesky_solve(space->mass, x, y);
+        for (size_t e = 0; e < space->complex->edges; e++) {
+            y[e] = -y[e];
+        }
+    } else {
+        gm_matrix_apply(&space->matrix[matrix], x, y);
+    }
+}
+
+static void reduce(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const double *a = values->slot[step->a];
+    double result = step->kind == GM_STEP_SUM ? 0 : a[0];
+    for (size_t k = 0; k < size_of(values, step->a); k++) {
+        result = step->kind == GM_STEP_SUM       ? result + a[k]
+                 : step->kind == GM_STEP_LARGEST ? fmax(result, a[k])
+                                                 : fmin(result, a[k]);
+    }
+    values->slot[i][0] = result;
+}
+
+void gm_form_values_run(struct gm_form_values *values, double t, double *const *forms)
+{
+    const bool first = isnan(values->time), later = values->time != t;
+    for (size_t i = 0; i < values->program->count; i++) {
+        const struct gm_form_step *step = &values->program->steps[i];
+        if (!first && (step->needs == 0 || (step->needs == GM_NEEDS_TIME && !later))) {
+            continue;
+        }
+        switch (step->kind) {
+        case GM_STEP_FORM:
+            values->slot[i] = forms[step->number];
+            break;
+        case GM_STEP_SAMPLE:
+            sample(values, i, t);
+            break;
+        case GM_STEP_MATRIX:
+            multiply(values->space, (enum gm_form_matrix)step->number, values->slot[step->a],
+                     values->slot[i]);
+            break;
+        case GM_STEP_OPERATE:
+            operate(values, i);
+            break;
+        case GM_STEP_WEDGE:
+            wedge(values, i);
+            break;
+        case GM_STEP_CLOSING:
+            gm_matrix_apply(&values->closings[step->number], values->slot[step->a], values->slot[i]);
+            break;
+        default:
+            reduce(values, i);
+        }
+    }
+    values->time = t;
+}
+
+const double *gm_form_values_root(const struct gm_form_values *values, size_t root)
+{
+    return values->slot[values->program->roots[root]];
+}
+
+/* The derivative of a sum, or of a product with what does not depend on the unknowns. */
+static struct gm_matrix derivative(const struct gm_form_values *values, struct gm_arena *arena, size_t i,
+                                   const struct gm_matrix *parts)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const struct gm_matrix *a = parts[step->a].start ? &parts[step->a] : NULL,
+                           *b = parts[step->b].start ? &parts[step->b] : NULL;
+    const enum gm_operation operation = (enum gm_operation)step->number;
+    const double sign = operation == GM_OPERATION_SUBTRACT ? -1 : 1;
+    if (operation == GM_OPERATION_NEGATE) {
+        return gm_matrix_sum(arena, -1, a, 0, NULL);
+    }
+    if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT) {
+        return a ? gm_matrix_sum(arena, 1, a, sign, b) : gm_matrix_sum(arena, sign, b, 0, NULL);
+    }
+    const size_t factor = a ? step->b : step->a, n = size_of(values, i);
+    const bool number = size_of(values, factor) != n;
+    double *scale = gm_arena_take(arena, n, sizeof *scale);
+    for (size_t k = 0; k < n; k++) {
+        const double value = values->slot[factor][number ? 0 : k];
+        scale[k] = operation == GM_OPERATION_DIVIDE ? 1 / value : value;
+    }
+    struct gm_matrix product = gm_matrix_sum(arena, 1, a ? a : b, 0, NULL);
+    gm_matrix_scale(&product, scale);
+    return product;
+}
+
+struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
+                                       size_t root, const size_t *offset, size_t columns)
+{
+    const struct gm_form_program *program = values->program;
+    const size_t last = program->roots[root];
+    struct gm_matrix *parts = gm_arena_take(arena, program->count + 1, sizeof *parts);
+    for (size_t i = 0; i <= last; i++) {
+        const struct gm_form_step *step = &program->steps[i];
+        if (!(step->needs & GM_NEEDS_UNKNOWNS)) {
+            continue;
+        }
+        if (step->kind == GM_STEP_FORM) {
+            const size_t n = size_of(values, i);
+            double *ones = gm_arena_take(arena, n, sizeof *ones);
+            for (size_t k = 0; k < n; k++) {
+                ones[k] = 1;
+            }
+            parts[i] = gm_matrix_diagonal(arena, ones, n, 1, 1);
+            parts[i].columns = columns;
+            for (size_t k = 0; k < n; k++) {
+                parts[i].column[k] += (int)offset[step->number];
+            }
+        } else if (step->kind == GM_STEP_MATRIX) {
+            if (step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass) {
+                gm_arena_refuse(arena,
+                                "this star has no sparse inverse for 1-forms: write an equation with "
+                                "star(f) on one side, as in star(f) = d(p), or take star=circumcentric");
+            }
+            parts[i] = gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
+        } else {
+            parts[i] = derivative(values, arena, i, parts);
+        }
+    }
+    return parts[last];
+}
+
+double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,
+                      double *scratch)
+{
+    double sum = 0;
+    multiply(space, (enum gm_form_matrix)((type.dual ? GM_MATRIX_DUAL_STAR0 : GM_MATRIX_STAR0) + type.degree),
+             a, scratch);
+    for (size_t k = 0; k < gm_form_size(space->complex, type); k++) {
+        sum += a[k] * scratch[k];
+    }
+    return fabs(sum);
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A program of forms on one mesh, for given parameters: its values, and its matrices in the unknowns. */
+#ifndef GM_CORE_FORM_VALUES_H
+#define GM_CORE_FORM_VALUES_H
+
+#include "core/form/program.h"
+#include "core/tape.h"
+
+struct gm_form_values {
+    const struct gm_form_program *program;
+    struct gm_form_space *space;
+    double **slot;                    /* the value of each step */
+    struct gm_tape *tapes;            /* for each step that samples */
+    double **sampled;                 /* scratch of each of these */
+    double *solved;                   /* scratch: a number for each edge */
+    const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
+    double time;                      /* of the samples; NaN: none were made */
+};
+
+/* Called in a body of the arena, which owns all. `variables` has the values of all variables of the system. */
+void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
+                         const struct gm_form_program *program, struct gm_form_space *space,
+                         const struct gm_user_system *system, const double *variables);
+
+/* Computes all steps for these forms, of which form i of the system is forms[i]. */
+void gm_form_values_run(struct gm_form_values *values, double t, double *const *forms);
+
+/* The root's form or number, after a run. */
+const double *gm_form_values_root(const struct gm_form_values *values, size_t root);
+
+/* The matrix of a linear root over the unknowns, whose numbers begin at columns offset[form]: a body of the
+   arena, after a run. Leaves the body if it holds an inverse of the mass matrix. */
+struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
+                                       size_t root, const size_t *offset, size_t columns);
+
+/* The sum of a times star a, of one form; scratch: as many numbers. */
+double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,
+                      double *scratch);
+
+#endif

@@ -1,0 +1,902 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The equations of the unknowns U are L U = -r, r their residuals at U = 0. Rows of degree 0 are multiplied by
+   the areas of their cells, so that K of -laplace(u) is symmetric. Where constants on a piece solve L U = 0, one
+   number of it is pinned, the mean of r there is removed, and then that of U. */
+#include "core/ode/user/forms.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/form/generators.h"
+#include "core/form/values.h"
+#include "core/linear/cholesky.h"
+#include "core/ode/kernel/loops.h"
+
+struct own {
+    struct gm_ode facets;
+    struct gm_split split;
+    struct gm_loops loops;
+    struct gm_arena *arena; /* owns all of this */
+    const struct gm_form_model *model;
+    struct gm_form_space space;
+    struct gm_form_values rates, exacts, equations, observed;
+    struct gm_matrix *closings; /* for each item of the system */
+    pthread_mutex_t turn;       /* one call after another */
+    size_t half;                /* of the state, if it splits: forms of the first group are padded to it */
+    size_t *offset;             /* of each form in the state, or among the unknowns */
+    double **forms;             /* where each form is */
+    size_t unknowns;
+    bool *held, *held_unknown; /* of each number of the state, and of the unknowns */
+    double *given;             /* values of held unknowns, else 0 */
+    double *unknown, *residual, *start, *seen, *scratch;
+    double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
+    bool solved, observes;
+    struct gm_matrix matrix;
+    struct gm_cholesky *factor; /* NULL: LU for each solve */
+    double sign;                /* of the factor's matrix */
+    double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
+    int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
+    size_t pieces;
+    double *defect; /* of each piece */
+};
+
+static struct own *own_of(const struct gm_problem *problem)
+{
+    return (struct own *)(uintptr_t)problem->parameters;
+}
+
+static struct gm_form_type type_of(const struct gm_user_system *system, size_t form)
+{
+    return (struct gm_form_type){system->forms[form].degree, system->forms[form].dual};
+}
+
+/* ---- the model ---- */
+
+static bool compile_forms(struct gm_form_model *model, struct gm_form_root *roots, struct gm_fault *fault)
+{
+    struct gm_user_system *system = model->system;
+    size_t rates = 0, equations = 0, exacts = 0;
+    struct gm_form_root *starts = roots + system->n, *exact = starts + system->n,
+                        *residuals = exact + system->n;
+    for (size_t i = 0; i < system->n; i++) {
+        const struct gm_form_declared *form = &system->forms[i];
+        const struct gm_form_type type = type_of(system, i);
+        if (form->exact != GM_NO_NODE) {
+            exact[exacts++] = (struct gm_form_root){form->exact, type, true, false, form->place};
+        }
+        if (form->unknown) {
+            system->graph.place = system->graph.places[form->left];
+            const gm_node_id node =
+                gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
+            system->graph.place = GM_NO_PLACE;
+            residuals[equations++] =
+                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, false, form->place};
+            continue;
+        }
+        starts[rates] = (struct gm_form_root){form->start, type, true, false, form->place};
+        roots[rates++] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
+    }
+    if (!gm_form_compile(&model->rates, system, roots, rates, false, fault) ||
+        !gm_form_compile(&model->starts, system, starts, rates, false, fault) ||
+        !gm_form_compile(&model->exacts, system, exact, exacts, false, fault) ||
+        !gm_form_compile(&model->equations, system, residuals, equations, true, fault)) {
+        return false;
+    }
+    for (size_t i = 0, k = 0; i < system->n; i++) {
+        if (!system->forms[i].unknown) {
+            continue;
+        }
+        const struct gm_form_type type = type_of(system, i),
+                                  found = model->equations.steps[model->equations.roots[k++]].type;
+        const int places = type.dual ? 2 - type.degree : type.degree,
+                  rows = found.dual ? 2 - found.degree : found.degree;
+        if (found.degree < 0 || places != rows) {
+            return gm_fail(fault, system->graph.places[system->forms[i].left],
+                           "the equation of %s, which is %s, is of %s: it has not one number for each of %s",
+                           system->variables[i].name, gm_form_type_text(type), gm_form_type_text(found),
+                           system->variables[i].name);
+        }
+    }
+    for (size_t p = 0; p < 2; p++) {
+        const struct gm_form_program *program = p ? &model->exacts : &model->starts;
+        for (size_t i = 0; i < program->count; i++) {
+            if (program->steps[i].needs & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS)) {
+                return gm_fail(fault, (p ? exact : starts)[0].place,
+                               "%s: holds formulas of x, y, z, t and parameters alone",
+                               p ? "exact" : "start");
+            }
+        }
+    }
+    return true;
+}
+
+/* Compiles the values of forms that are held on a part of the boundary. */
+static bool compile_held(struct gm_form_model *model, struct gm_fault *fault)
+{
+    struct gm_user_system *system = model->system;
+    struct gm_form_root *roots = gm_arena_take(system->arena, system->item_count + 1, sizeof *roots);
+    model->held_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->held_item);
+    size_t count = 0;
+    for (size_t i = 0; roots && model->held_item && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_BOUNDARY || item->count > 1) {
+            continue;
+        }
+        const struct gm_form_type type = type_of(system, item->variable);
+        if (type.dual ? type.degree != 2 : type.degree == 2) {
+            return gm_fail(fault, item->place, "%s is %s: a 0-form, a 1-form or a dual 2-form is held",
+                           system->variables[item->variable].name, gm_form_type_text(type));
+        }
+        model->held_item[count] = i;
+        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
+    }
+    if (!roots || !model->held_item || !gm_form_compile(&model->held, system, roots, count, false, fault)) {
+        return false;
+    }
+    for (size_t i = 0; i < model->held.count; i++) {
+        if (model->held.steps[i].needs) {
+            return gm_fail(fault, roots[0].place, "a value that is held does not change in time");
+        }
+    }
+    return true;
+}
+
+/* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
+static void find_split(struct gm_form_model *model)
+{
+    const struct gm_user_system *system = model->system;
+    const struct gm_form_program *rates = &model->rates;
+    const size_t fields = rates->root_count;
+    bool *needs = gm_arena_take(system->arena, (rates->count + 1) * (system->n + 1), sizeof *needs);
+    for (size_t i = 0; needs && i < rates->count; i++) {
+        const struct gm_form_step *step = &rates->steps[i];
+        bool *mine = needs + i * system->n;
+        const bool binary = step->kind == GM_STEP_OPERATE || step->kind == GM_STEP_WEDGE,
+                   leaf = step->kind == GM_STEP_FORM || step->kind == GM_STEP_SAMPLE;
+        for (size_t f = 0; f < system->n; f++) {
+            mine[f] = (step->kind == GM_STEP_FORM && step->number == f) ||
+                      (!leaf && needs[step->a * system->n + f]) || (binary && needs[step->b * system->n + f]);
+        }
+    }
+    for (size_t split = 1; needs && split < fields && model->equations.root_count == 0; split++) {
+        bool splits = true;
+        for (size_t i = 0; i < fields; i++) {
+            for (size_t f = 0; f < fields; f++) {
+                splits &= (i < split) != (f < split) || !needs[rates->roots[i] * system->n + f];
+            }
+        }
+        if (splits) {
+            model->split = split;
+            return;
+        }
+    }
+}
+
+bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault)
+{
+    *model = (struct gm_form_model){.system = system};
+    *fault = (struct gm_fault){0};
+    struct gm_form_root *roots = gm_arena_take(system->arena, 4 * system->n + 1, sizeof *roots);
+    struct gm_form_root *observed = gm_arena_take(system->arena, system->item_count + 1, sizeof *observed);
+    model->observed_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->observed_item);
+    if (!roots || !observed || !model->observed_item || !compile_forms(model, roots, fault)) {
+        return false;
+    }
+    for (size_t i = 0; i < model->rates.count; i++) {
+        system->timed |= (model->rates.steps[i].needs & GM_NEEDS_TIME) != 0;
+    }
+    for (size_t i = 0; i < model->equations.count; i++) {
+        system->timed |= (model->equations.steps[i].needs & GM_NEEDS_TIME) != 0;
+    }
+    find_split(model);
+    if (!compile_held(model, fault)) {
+        return false;
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE || item->word == GM_WORD_LET) {
+            const int degree = item->word == GM_WORD_LET ? GM_FORM_ANY : GM_FORM_NUMBER;
+            model->observed_item[model->observed_count] = i;
+            observed[model->observed_count++] =
+                (struct gm_form_root){item->nodes[0], {degree, false}, false, false, item->place};
+        }
+    }
+    return gm_form_compile(&model->observed, system, observed, model->observed_count, false, fault);
+}
+
+/* ---- the mesh ---- */
+
+static const char *const stars[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"};
+
+static struct gm_complex *open_mesh(const struct gm_user_system *system, enum gm_star star,
+                                    const double *variables, double numbers[GM_MOST_OPERANDS],
+                                    struct gm_fault *fault)
+{
+    const struct gm_system_item *mesh = gm_system_item_of(system, GM_WORD_MESH, 0);
+    struct gm_tape tape = {0};
+    struct gm_triangulation_fault wrong;
+    if (mesh->count > GM_MOST_OPERANDS) {
+        gm_fail(fault, mesh->place, "a mesh has at most four numbers");
+        return NULL;
+    }
+    const bool opened =
+        mesh->count == 0 || gm_tape_open(&tape, &system->graph, mesh->nodes, mesh->count, 0, variables);
+    if (opened && mesh->count > 0) {
+        gm_tape_values(&tape, numbers, numbers, 1);
+    }
+    gm_tape_close(&tape);
+    if (!opened || !gm_generator_check(mesh->name, numbers, mesh->count, mesh->place, fault)) {
+        return NULL;
+    }
+    struct gm_complex *complex = gm_generator_open(mesh->name, numbers, mesh->count, star, &wrong);
+    if (!complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+        gm_fail(fault, mesh->place,
+                "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
+                "star=auto or star=barycentric",
+                wrong.value);
+    }
+    return complex;
+}
+
+/* ---- unknowns ---- */
+
+/* Labels the vertices or triangles by their piece. */
+static void label(const struct gm_complex *complex, bool triangles, int *piece)
+{
+    const size_t count = triangles ? complex->triangles : complex->vertices;
+    bool changed = true;
+    for (size_t i = 0; i < count; i++) {
+        piece[i] = (int)i;
+    }
+    while (changed) { /* the least number of a piece spreads */
+        changed = false;
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
+            if (pair[0] < 0 || pair[1] < 0) {
+                continue;
+            }
+            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
+            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
+            piece[pair[0]] = piece[pair[1]] = least;
+        }
+    }
+}
+
+/* Finds the pieces on which constants of an unknown of degree 0 solve the equations. */
+static void find_constants(struct own *own, size_t form)
+{
+    const struct gm_form_type type = type_of(own->model->system, form);
+    const struct gm_complex *complex = own->space.complex;
+    const size_t first = own->offset[form], n = gm_form_size(complex, type);
+    bool free_of = type.degree == 0;
+    for (size_t i = 0; i < own->unknowns && free_of; i++) {
+        double sum = 0, size = 0;
+        for (int k = own->matrix.start[i]; k < own->matrix.start[i + 1]; k++) {
+            const size_t column = (size_t)own->matrix.column[k];
+            if (column >= first && column < first + n) {
+                sum += own->matrix.value[k];
+                size += fabs(own->matrix.value[k]);
+            }
+        }
+        free_of = fabs(sum) <= 1e-10 * size;
+    }
+    if (free_of) {
+        label(complex, type.dual, own->piece + first);
+        for (size_t i = 0; i < n; i++) {
+            own->piece[first + i] += (int)first; /* the number that is pinned */
+        }
+    }
+}
+
+static void close_factor(void *factor)
+{
+    gm_cholesky_close(factor);
+}
+
+/* True if a number of the unknowns is held, or pinned. */
+static bool is_pinned(const struct own *own, size_t i)
+{
+    return own->held_unknown[i] || own->piece[i] == (int)i;
+}
+
+/* Replaces rows and columns of pinned numbers by those of the identity. */
+static void pin(struct own *own)
+{
+    const struct gm_matrix *a = &own->matrix;
+    for (size_t i = 0; i < own->unknowns; i++) {
+        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+            const int j = a->column[k];
+            if (is_pinned(own, i) || is_pinned(own, (size_t)j)) {
+                a->value[k] = j == (int)i ? 1 : 0;
+            }
+        }
+    }
+}
+
+/* Factors the matrix if it is symmetric and definite. */
+static void factor(struct own *own)
+{
+    const struct gm_matrix *a = &own->matrix;
+    struct gm_arena *arena = own->arena;
+    const size_t n = own->unknowns;
+    const struct gm_matrix back = gm_matrix_transposed(arena, a, -1);
+    const struct gm_matrix skew = gm_matrix_sum(arena, 1, a, 1, &back);
+    double largest = 0, asymmetry = 0, trace = 0;
+    for (int k = 0; k < a->start[n]; k++) {
+        largest = fmax(largest, fabs(a->value[k]));
+    }
+    for (int k = 0; k < skew.start[n]; k++) {
+        asymmetry = fmax(asymmetry, fabs(skew.value[k]));
+    }
+    int *start = gm_arena_take(arena, n + 1, sizeof *start);
+    int *column = gm_arena_take(arena, (size_t)a->start[n] + 1, sizeof *column);
+    double *value = gm_arena_take(arena, (size_t)a->start[n] + 1, sizeof *value);
+    for (size_t i = 0; i < n; i++) {
+        start[i + 1] = start[i];
+        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+            const bool pin = is_pinned(own, i);
+            if (a->column[k] <= (int)i) {
+                column[start[i + 1]] = a->column[k];
+                value[start[i + 1]++] = a->value[k];
+                trace += a->column[k] == (int)i && !pin ? a->value[k] : 0;
+            }
+        }
+    }
+    own->sign = trace < 0 ? -1 : 1;
+    for (size_t i = 0; i < n; i++) {
+        for (int k = start[i]; k < start[i + 1]; k++) {
+            value[k] *= is_pinned(own, i) ? 1 : own->sign;
+        }
+    }
+    if (asymmetry <= 1e-12 * largest) {
+        own->factor = gm_cholesky_open(n, start, column, value, GM_CHOLESKY_EXACT);
+        if (own->factor) {
+            gm_arena_keep(arena, own->factor, close_factor);
+        }
+    }
+}
+
+static void assemble(struct own *own, struct gm_arena *arena)
+{
+    const struct gm_user_system *system = own->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    struct gm_matrix *rows = gm_arena_take(arena, system->n, sizeof *rows);
+    size_t entries = 0, count = 0;
+    for (size_t i = 0; i < system->n; i++) {
+        if (system->forms[i].unknown) {
+            const struct gm_form_type found =
+                own->model->equations.steps[own->model->equations.roots[count]].type;
+            rows[i] = gm_form_values_matrix(&own->equations, arena, count++, own->offset, own->unknowns);
+            if (!rows[i].start) {
+                gm_arena_refuse(arena, "the equation of %s holds no unknown", system->variables[i].name);
+            }
+            double *weight = own->weight + own->offset[i];
+            for (size_t k = 0; k < rows[i].rows; k++) {
+                const double cell = found.dual == (found.degree == 0) ? complex->area[k] : complex->star0[k];
+                weight[k] = found.degree == 0 ? cell : 1;
+            }
+            gm_matrix_scale(&rows[i], weight);
+            entries += (size_t)rows[i].start[rows[i].rows];
+        }
+    }
+    struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + own->unknowns) * sizeof *all), free);
+    gm_arena_need(arena, all);
+    for (entries = 0; entries < own->unknowns; entries++) { /* a place for pins */
+        all[entries] = (struct gm_matrix_entry){(int)entries, (int)entries, 0};
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        for (size_t k = 0; system->forms[i].unknown && k < rows[i].rows; k++) {
+            for (int l = rows[i].start[k]; l < rows[i].start[k + 1]; l++) {
+                all[entries++] =
+                    (struct gm_matrix_entry){(int)(own->offset[i] + k), rows[i].column[l], rows[i].value[l]};
+            }
+        }
+    }
+    own->matrix = gm_matrix_of(arena, own->unknowns, own->unknowns, all, entries);
+    gm_arena_drop(arena, all);
+    for (size_t i = 0; i < own->unknowns; i++) {
+        own->piece[i] = -1;
+    }
+    pin(own);
+    for (size_t i = 0; i < system->n; i++) {
+        if (system->forms[i].unknown) {
+            find_constants(own, i);
+        }
+    }
+    pin(own);
+    factor(own);
+}
+
+/* Removes means over pieces: of residuals, whose defect is noted, or of unknowns. */
+static void remove_means(struct own *own, size_t form, double *numbers, bool residual)
+{
+    const struct gm_form_type type = type_of(own->model->system, form);
+    const struct gm_complex *complex = own->space.complex;
+    const size_t first = own->offset[form], n = gm_form_size(complex, type);
+    const double *cell = type.dual ? complex->area : complex->star0;
+    own->defect[form] = residual ? 0 : own->defect[form];
+    for (size_t pin = first; pin < first + n; pin++) {
+        if (own->piece[pin] != (int)pin) {
+            continue;
+        }
+        double sum = 0, size = 0, area = 0;
+        for (size_t i = 0; i < n; i++) {
+            if (own->piece[first + i] == (int)pin) {
+                sum += numbers[first + i] * (residual ? 1 : cell[i]);
+                size += fabs(numbers[first + i]);
+                area += cell[i];
+            }
+        }
+        for (size_t i = 0; i < n; i++) {
+            if (own->piece[first + i] == (int)pin) {
+                numbers[first + i] -= sum / area * (residual ? cell[i] : 1);
+            }
+        }
+        if (residual) {
+            own->defect[form] = fmax(own->defect[form], size > 0 ? fabs(sum) / size : 0);
+            numbers[pin] = 0;
+        }
+    }
+}
+
+/* Solves for the unknowns at fields that own->forms has. */
+static void solve(struct own *own, double t)
+{
+    const struct gm_user_system *system = own->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    if (own->unknowns == 0) {
+        return;
+    }
+    memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
+    gm_form_values_run(&own->equations, t, own->forms);
+    for (size_t i = 0, k = 0; i < system->n; i++) {
+        if (system->forms[i].unknown) {
+            const double *residual = gm_form_values_root(&own->equations, k++);
+            double *right = own->residual + own->offset[i];
+            for (size_t j = 0; j < gm_form_size(complex, type_of(system, i)); j++) {
+                right[j] = -residual[j] * own->weight[own->offset[i] + j];
+            }
+            remove_means(own, i, own->residual, true);
+        }
+    }
+    for (size_t i = 0; i < own->unknowns; i++) {
+        own->residual[i] = own->held_unknown[i] ? 0 : own->residual[i];
+    }
+    bool good = true;
+    if (own->factor) {
+        for (size_t i = 0; i < own->unknowns; i++) {
+            own->residual[i] *= own->sign;
+        }
+        gm_cholesky_solve(own->factor, own->residual, own->unknown);
+    } else {
+        good = gm_lu_solve(own->unknowns, own->matrix.start, own->matrix.column, own->matrix.value,
+                           own->residual, own->unknown);
+    }
+    for (size_t i = 0; i < own->unknowns; i++) {
+        own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        if (system->forms[i].unknown) {
+            remove_means(own, i, own->unknown, false);
+        }
+    }
+}
+
+/* ---- the equations of motion ---- */
+
+static void place_forms(struct own *own, const double *y)
+{
+    for (size_t i = 0; i < own->model->system->n; i++) {
+        own->forms[i] = own->model->system->forms[i].unknown ? own->unknown + own->offset[i]
+                                                             : (double *)(uintptr_t)y + own->offset[i];
+    }
+}
+
+/* Writes the rates of fields first .. last - 1; f[0] is the rate of the state's number `base`. */
+static void write_rates(const struct gm_problem *problem, const double *y, double *f, size_t first,
+                        size_t last, size_t base)
+{
+    struct own *own = own_of(problem);
+    const struct gm_user_system *system = own->model->system;
+    const double t = own->model->system->timed ? y[problem->n - 1] : 0;
+    pthread_mutex_lock(&own->turn);
+    own->seen_time = NAN;
+    place_forms(own, y);
+    solve(own, t);
+    gm_form_values_run(&own->rates, t, own->forms);
+    for (size_t i = 0, k = 0; i < system->n; i++) {
+        if (!system->forms[i].unknown) {
+            const double *rate = gm_form_values_root(&own->rates, k);
+            for (size_t j = 0;
+                 k >= first && k < last && j < gm_form_size(own->space.complex, type_of(system, i)); j++) {
+                f[own->offset[i] - base + j] = own->held[own->offset[i] + j] ? 0 : rate[j];
+            }
+            k++;
+        }
+    }
+    pthread_mutex_unlock(&own->turn);
+}
+
+static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    (void)m;
+    memset(f, 0, problem->n * sizeof *f);
+    write_rates(problem, y, f, 0, SIZE_MAX, 0);
+    if (own_of(problem)->model->system->timed) {
+        f[problem->n - 1] = 1;
+    }
+}
+
+static void velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    (void)m;
+    memset(f, 0, own_of(problem)->half * sizeof *f);
+    write_rates(problem, y, f, 0, own_of(problem)->model->split, 0);
+}
+
+static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    (void)m;
+    memset(f, 0, own_of(problem)->half * sizeof *f);
+    write_rates(problem, y, f, own_of(problem)->model->split, SIZE_MAX, own_of(problem)->half);
+}
+
+/* ---- the problem ---- */
+
+struct opening {
+    struct own *own;
+    const struct gm_form_model *model;
+    struct gm_complex *complex;
+    const double *variables;
+    size_t n;
+    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
+};
+
+/* Marks the edges of the boundary that are on a part. False if there is no such part. */
+static bool mark_part(const struct opening *opening, const char *part, bool *edges)
+{
+    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
+    const struct gm_complex *complex = opening->own->space.complex;
+    const char *const *parts = gm_generator_parts(word);
+    bool there = parts[0] && strcmp(part, "all") == 0;
+    for (size_t i = 0; parts[i]; i++) {
+        there |= strcmp(parts[i], part) == 0;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        double p[3], q[3], middle[3];
+        const size_t e = (size_t)complex->boundary_edge[b];
+        gm_form_vertex(complex, (size_t)complex->edge[2 * e], p);
+        gm_form_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
+        for (int c = 0; c < 3; c++) {
+            middle[c] = (p[c] + q[c]) / 2;
+        }
+        edges[e] = gm_generator_on(word, opening->numbers, part, middle);
+    }
+    return there;
+}
+
+static void refuse_part(const struct opening *opening, const char *part)
+{
+    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
+    const char *const *parts = gm_generator_parts(word);
+    char names[64] = "none";
+    size_t used = 0;
+    for (size_t i = 0; parts[i]; i++) {
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", parts[i]);
+    }
+    gm_arena_refuse(opening->own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part,
+                    word, names);
+}
+
+/* Makes the matrices of lines that close dual cells: half of an edge belongs to each of its ends. Later lines
+   win. */
+static void make_closings(struct opening *opening)
+{
+    struct own *own = opening->own;
+    const struct gm_user_system *system = opening->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    struct gm_arena *arena = own->arena;
+    own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
+    bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
+         *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
+    struct gm_matrix_entry *entries = gm_arena_take(arena, 2 * complex->edges, sizeof *entries);
+    for (size_t i = system->item_count; i > 0; i--) {
+        const struct gm_system_item *item = &system->items[i - 1];
+        if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
+            continue;
+        }
+        size_t count = 0;
+        memset(edges, 0, complex->edges * sizeof *edges);
+        if (!mark_part(opening, item->name, edges)) {
+            refuse_part(opening, item->name);
+        }
+        for (size_t e = 0; e < complex->edges; e++) {
+            for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
+                entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
+            }
+            taken[e] |= edges[e];
+        }
+        own->closings[i - 1] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+    }
+}
+
+/* Marks the numbers of forms that are held, with their values. */
+static void hold(struct opening *opening)
+{
+    struct own *own = opening->own;
+    const struct gm_form_model *model = opening->model;
+    const struct gm_user_system *system = model->system;
+    const struct gm_complex *complex = own->space.complex;
+    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges);
+    struct gm_form_values values;
+    gm_form_values_open(&values, own->arena, &model->held, &own->space, system, opening->variables);
+    gm_form_values_run(&values, 0, own->forms);
+    for (size_t i = 0; i < model->held.root_count; i++) {
+        const struct gm_system_item *item = &system->items[model->held_item[i]];
+        const struct gm_form_declared *form = &system->forms[item->variable];
+        const double *value = gm_form_values_root(&values, i);
+        bool *held = (form->unknown ? own->held_unknown : own->held) + own->offset[item->variable];
+        double *to = (form->unknown ? own->given : own->start) + own->offset[item->variable];
+        if (form->degree == 1 && own->space.mass) {
+            gm_arena_refuse(own->arena,
+                            "%s is held on edges: this needs star=circumcentric, and here the dual "
+                            "vertices are other ones",
+                            system->variables[item->variable].name);
+        }
+        memset(edges, 0, complex->edges * sizeof *edges);
+        if (!mark_part(opening, item->name, edges)) {
+            refuse_part(opening, item->name);
+        }
+        for (size_t e = 0; e < complex->edges; e++) {
+            const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
+            if (edges[e] && form->degree == 1) {
+                held[e] = true;
+                to[e] = left ? value[e] : -value[e];
+            }
+            for (size_t k = 0; k < 2 && edges[e] && form->degree != 1; k++) {
+                const int v = complex->edge[2 * e + k];
+                held[v] = true;
+                to[v] = value[v];
+            }
+        }
+    }
+}
+
+static void close_space(void *space)
+{
+    gm_form_space_close(space);
+}
+
+static void close_turn(void *turn)
+{
+    pthread_mutex_destroy(turn);
+}
+
+/* Lays out the state: fields in their order, both groups of a split from equal halves. */
+static void lay_out(struct opening *opening)
+{
+    struct own *own = opening->own;
+    const struct gm_user_system *system = opening->model->system;
+    size_t at = 0, first = 0, k = 0;
+    for (size_t i = 0; i < system->n; i++) {
+        const size_t size = gm_form_size(own->space.complex, type_of(system, i));
+        if (system->forms[i].unknown) {
+            own->offset[i] = own->unknowns;
+            own->unknowns += size;
+            continue;
+        }
+        first = k++ == opening->model->split ? at : first;
+        own->offset[i] = at;
+        at += size;
+    }
+    opening->n = at > 0 ? at : 1; /* a steady problem has a state of nothing */
+    if (opening->model->split > 0) {
+        own->half = first > at - first ? first : at - first;
+        k = 0;
+        for (size_t i = 0; i < system->n; i++) {
+            if (!system->forms[i].unknown && k++ >= opening->model->split) {
+                own->offset[i] += own->half - first;
+            }
+        }
+        opening->n = 2 * own->half;
+    }
+    opening->n += system->timed;
+}
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    const struct gm_form_model *model = opening->model;
+    const struct gm_user_system *system = model->system;
+    struct own *own = opening->own = gm_arena_take(arena, 1, sizeof *own);
+    struct gm_complex *complex = opening->complex;
+    own->arena = arena;
+    own->model = model;
+    own->seen_time = NAN;
+    opening->complex = NULL; /* taken */
+    gm_arena_need(arena, gm_form_space_open(&own->space, complex));
+    gm_arena_keep(arena, &own->space, close_space);
+    gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
+    gm_arena_keep(arena, &own->turn, close_turn);
+    own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
+    own->forms = gm_arena_take(arena, system->n + 1, sizeof *own->forms);
+    own->defect = gm_arena_take(arena, system->n + 1, sizeof *own->defect);
+    lay_out(opening);
+    own->unknown = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    own->residual = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    own->weight = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    own->piece = gm_arena_take(arena, own->unknowns + 1, sizeof *own->piece);
+    own->start = gm_arena_take(arena, opening->n, sizeof(double));
+    own->seen = gm_arena_take(arena, opening->n, sizeof(double));
+    own->scratch = gm_arena_take(arena, 2 * (own->space.complex->edges + 1), sizeof(double));
+    own->held = gm_arena_take(arena, opening->n, sizeof *own->held);
+    own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
+    own->given = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    make_closings(opening);
+    gm_form_values_open(&own->rates, arena, &model->rates, &own->space, system, opening->variables);
+    gm_form_values_open(&own->exacts, arena, &model->exacts, &own->space, system, opening->variables);
+    gm_form_values_open(&own->equations, arena, &model->equations, &own->space, system, opening->variables);
+    gm_form_values_open(&own->observed, arena, &model->observed, &own->space, system, opening->variables);
+    struct gm_form_values starts;
+    gm_form_values_open(&starts, arena, &model->starts, &own->space, system, opening->variables);
+    gm_form_values_run(&starts, 0, own->forms);
+    for (size_t i = 0, k = 0; i < system->n; i++) {
+        const size_t size = gm_form_size(own->space.complex, type_of(system, i));
+        for (size_t j = 0; !system->forms[i].unknown && j < size; j++) {
+            own->start[own->offset[i] + j] = gm_form_values_root(&starts, k)[j];
+            if (!isfinite(own->start[own->offset[i] + j])) {
+                gm_arena_refuse(arena, "the start of %s is not finite at its number %zu",
+                                system->variables[i].name, j + 1);
+            }
+        }
+        k += !system->forms[i].unknown;
+    }
+    hold(opening);
+    own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
+    if (own->unknowns > 0) {
+        memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
+        place_forms(own, own->start);
+        gm_form_values_run(&own->equations, 0, own->forms);
+        assemble(own, arena);
+    }
+    own->loops = (struct gm_loops){.field = field};
+    own->facets = (struct gm_ode){.written = true};
+    if (model->split > 0 && !system->timed) {
+        own->loops.velocity = velocity;
+        own->loops.force = force;
+        own->split.no_potential = true;
+        own->facets.split = &own->split;
+    }
+    for (size_t isa = 0; isa < GM_ISA_COUNT; isa++) {
+        own->facets.loops[isa] = &own->loops;
+    }
+}
+
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
+                          const double *variables, struct gm_fault *fault)
+{
+    const char *written = model->system->texts[GM_WORD_STAR];
+    for (size_t i = 0; star == GM_STAR_AUTO && written && i < sizeof stars / sizeof *stars; i++) {
+        star = strcmp(stars[i], written) == 0 ? (enum gm_star)i : star;
+    }
+    *fault = (struct gm_fault){0};
+    if (gm_cholesky_missing()) {
+        return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
+    }
+    struct opening opening = {.model = model, .variables = variables};
+    opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
+    struct gm_arena *arena = opening.complex ? gm_arena_open() : NULL;
+    if (!arena || !gm_arena_run(arena, make, &opening)) {
+        if (arena && !fault->sentence[0]) {
+            gm_fail(fault, 0, "%s", gm_arena_reason(arena));
+        }
+        gm_complex_close(opening.complex);
+        gm_arena_close(arena);
+        return false;
+    }
+    *problem = (struct gm_problem){.name = "forms",
+                                   .kind = &gm_kind_ode,
+                                   .n = opening.n,
+                                   .m = 1,
+                                   .facets = &opening.own->facets,
+                                   .parameters = opening.own};
+    return true;
+}
+
+void gm_form_problem_close(struct gm_problem *problem)
+{
+    if (problem->parameters) {
+        gm_arena_close(own_of(problem)->arena);
+        problem->parameters = NULL;
+    }
+}
+
+void gm_form_start(const struct gm_problem *problem, double *y)
+{
+    memcpy(y, own_of(problem)->start, problem->n * sizeof *y);
+}
+
+const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem)
+{
+    return &own_of(problem)->space;
+}
+
+/* Solves for the unknowns of a state, unless it was the last one. */
+static void look(const struct gm_problem *problem, const double *y, double t)
+{
+    struct own *own = own_of(problem);
+    if (own->seen_time != t || memcmp(own->seen, y, problem->n * sizeof *y) != 0) {
+        memcpy(own->seen, y, problem->n * sizeof *y);
+        own->seen_time = t;
+        place_forms(own, own->seen);
+        solve(own, t);
+        own->observes = false;
+    }
+}
+
+const double *gm_form_of(const struct gm_problem *problem, const double *y, double t, size_t form)
+{
+    struct own *own = own_of(problem);
+    pthread_mutex_lock(&own->turn);
+    look(problem, y, t);
+    pthread_mutex_unlock(&own->turn);
+    return own->forms[form];
+}
+
+const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed)
+{
+    struct own *own = own_of(problem);
+    pthread_mutex_lock(&own->turn);
+    look(problem, y, t);
+    if (!own->observes) {
+        gm_form_values_run(&own->observed, t, own->forms);
+        own->observes = true;
+    }
+    pthread_mutex_unlock(&own->turn);
+    return gm_form_values_root(&own->observed, observed);
+}
+
+double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form)
+{
+    struct own *own = own_of(problem);
+    const struct gm_user_system *system = own->model->system;
+    const struct gm_form_type type = type_of(system, form);
+    const size_t n = gm_form_size(own->space.complex, type);
+    size_t number = 0;
+    for (size_t i = 0; i < form; i++) {
+        number += system->forms[i].exact != GM_NO_NODE;
+    }
+    pthread_mutex_lock(&own->turn);
+    look(problem, y, t);
+    gm_form_values_run(&own->exacts, t, own->forms);
+    const double *exact = gm_form_values_root(&own->exacts, number), *found = own->forms[form];
+    const double *cell = type.dual ? own->space.complex->area : own->space.complex->star0;
+    double *difference = own->scratch, mean = 0;
+    double *known = difference + n;
+    if (system->forms[form].unknown && own->piece[own->offset[form]] >= 0) {
+        for (size_t i = 0; i < n; i++) {
+            mean += cell[i] * exact[i] / own->space.complex->total_area;
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        known[i] = exact[i] - mean;
+        difference[i] = found[i] - known[i];
+    }
+    double *room = malloc(n * sizeof *room), error = NAN;
+    if (room) {
+        const double size = sqrt(gm_form_square(&own->space, type, known, room));
+        error = sqrt(gm_form_square(&own->space, type, difference, room)) / (size > 0 ? size : 1);
+    }
+    free(room);
+    pthread_mutex_unlock(&own->turn);
+    return error;
+}
+
+double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form)
+{
+    gm_form_of(problem, y, t, form);
+    return own_of(problem)->defect[form];
+}

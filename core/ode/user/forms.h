@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equations of discrete forms as a problem: fields that evolve are ordinary differential equations, unknowns are
+   solved for at every time. */
+#ifndef GM_CORE_ODE_USER_FORMS_H
+#define GM_CORE_ODE_USER_FORMS_H
+
+#include "core/form/program.h"
+#include "core/ode/ode.h"
+
+/* The programs of a system of forms, which know no mesh. */
+struct gm_form_model {
+    struct gm_user_system *system;
+    struct gm_form_program rates, starts, exacts, equations, observed, held;
+    size_t *held_item; /* the line of each root of `held` */
+    struct gm_form_root *observed_roots;
+    size_t observed_count; /* invariants, observables and lets, in the order of the items */
+    size_t *observed_item;
+    size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
+};
+
+/* Compiles all lines. False with a fault, whose sentence is empty when out of memory. */
+bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault);
+
+/* Opens the problem with these values of all variables. False with a fault; its offset is 0 if it is not of a
+   line. The caller closes with gm_form_problem_close. */
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
+                          const double *variables, struct gm_fault *fault);
+void gm_form_problem_close(struct gm_problem *problem);
+
+/* Writes the state at the start. */
+void gm_form_start(const struct gm_problem *problem, double *y);
+
+const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem);
+/* The numbers of form i of the system in a state, which for an unknown are solved for; valid until the next
+   call. */
+const double *gm_form_of(const struct gm_problem *problem, const double *y, double t, size_t form);
+/* The value of what is observed, a number or a form; valid until the next call. */
+const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
+/* The error of form i at a time, relative to the exact form; NaN without an `exact:`. */
+double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form);
+/* The part of the right side, in the equation of the unknown i, that no unknown can meet: relative. */
+double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form);
+
+#endif

@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A system of forms as a scene: its parameters and its star are keys; errors, invariants, what it observes and
+   the facts of its mesh are observables. The scene is made while the program runs, and does not change
+   afterwards; each lane has its own mesh. */
+#include "scenes/form/user_form.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/schemes.h"
+#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/rows.h"
+#include "scenes/common/system/studies.h"
+#include "scenes/common/system/texts.h"
+#include "scenes/common/written.h"
+#include "scenes/form/form.h"
+
+enum { DT, UNTIL };
+enum { SHOW, STAR, COMMON_ROWS = STAR + 1 + GM_CAMERA_KEYS };
+
+/* ---- observables ---- */
+
+enum fact { VERTICES, EDGES, TRIANGLES, EULER, BETTI0, BETTI1, BETTI2, AREA, STAR_LEAST, OBTUSE, FACTS };
+
+static const struct {
+    const char *key, *title;
+} facts[FACTS] = {
+    [VERTICES] = {"vertices", "vertices of the mesh"},
+    [EDGES] = {"edges", "edges of the mesh"},
+    [TRIANGLES] = {"triangles", "triangles of the mesh"},
+    [EULER] = {"euler", "vertices − edges + triangles"},
+    [BETTI0] = {"betti0", "connected pieces"},
+    [BETTI1] = {"betti1", "independent loops that enclose no part of the surface"},
+    [BETTI2] = {"betti2", "closed pieces"},
+    [AREA] = {"area", "area of the mesh"},
+    [STAR_LEAST] = {"star_least", "least |dual edge| / |edge| of circumcentres"},
+    [OBTUSE] = {"obtuse_share", "share of obtuse triangles"},
+};
+
+static double fact(const struct gm_complex *complex, enum fact fact)
+{
+    switch (fact) {
+    case VERTICES:
+        return (double)complex->vertices;
+    case EDGES:
+        return (double)complex->edges;
+    case TRIANGLES:
+        return (double)complex->triangles;
+    case EULER:
+        return (double)complex->vertices - (double)complex->edges + (double)complex->triangles;
+    case AREA:
+        return complex->total_area;
+    case STAR_LEAST:
+        return complex->star_least;
+    case OBTUSE:
+        return (double)complex->obtuse / (double)complex->triangles;
+    default:
+        return (double)gm_form_betti(complex, (int)fact - BETTI0);
+    }
+}
+
+static double observe(const struct gm_view *view)
+{
+    const struct gm_form_scene *scene = gm_form_scene_of(view->parameters);
+    const struct gm_form_subject subject = scene->subjects[view->observable - scene->of_file.observables];
+    switch (subject.what) {
+    case GM_FORM_ERROR:
+        return gm_form_error(view->problem, view->state, view->t, subject.index);
+    case GM_FORM_CONTRADICTION:
+        return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
+    case GM_FORM_OBSERVED:
+        return *gm_form_observed(view->problem, view->state, view->t, subject.index);
+    default:
+        return fact(gm_form_space_of(view->problem)->complex, (enum fact)subject.index);
+    }
+}
+
+static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm_form_subject subject)
+{
+    struct gm_system_scene *of_file = &scene->of_file;
+    for (size_t k = 0; k < of_file->observable_count; k++) {
+        if (gm_observables_clash(row.key, of_file->observables[k].key)) {
+            gm_arena_refuse(of_file->arena, "there are two observables %s", row.key);
+        }
+    }
+    if (of_file->observable_count == GM_MOST_FORM_OBSERVABLES) {
+        gm_arena_refuse(of_file->arena, "a system of forms has at most %d observables",
+                        GM_MOST_FORM_OBSERVABLES);
+    }
+    scene->subjects[of_file->observable_count] = subject;
+    of_file->observables[of_file->observable_count++] = row;
+}
+
+/* Adds the error of a form; the first one is also the solution's. */
+static void add_error(struct gm_form_scene *scene, size_t form, bool first)
+{
+    struct gm_arena *arena = scene->of_file.arena;
+    const char *name = scene->of_file.system.variables[form].name;
+    const struct gm_form_subject subject = {GM_FORM_ERROR, form};
+    if (first) {
+        add(scene,
+            (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", observe, "error of the solution"),
+            subject);
+    }
+    add(scene,
+        (struct gm_observable)GM_LOG_OBSERVABLE(gm_arena_print(arena, "%s_error", name), observe,
+                                                gm_arena_print(arena, "error of %s", name)),
+        subject);
+}
+
+static void make_observables(struct gm_form_scene *scene)
+{
+    struct gm_system_scene *of_file = &scene->of_file;
+    struct gm_arena *arena = of_file->arena;
+    const struct gm_user_system *system = &of_file->system;
+    bool first = true;
+    of_file->observables = gm_arena_take(arena, GM_MOST_FORM_OBSERVABLES, sizeof *of_file->observables);
+    for (size_t i = 0; i < system->n; i++) {
+        if (system->forms[i].exact != GM_NO_NODE) {
+            add_error(scene, i, first);
+            first = false;
+        }
+    }
+    for (size_t i = 0; i < scene->model.observed_count; i++) {
+        const struct gm_system_item *item = &system->items[scene->model.observed_item[i]];
+        if (item->word == GM_WORD_LET) {
+            continue;
+        }
+        const bool kept = item->word == GM_WORD_INVARIANT;
+        struct gm_observable row =
+            kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(gm_arena_print(arena, "%s_error", item->name),
+                                                            observe, item->name, item->name)
+                 : (struct gm_observable)GM_OBSERVABLE(item->name, observe, item->name);
+        gm_written_options(&row, item);
+        row.least = kept ? gm_system_option_number(item, GM_OPTION_SCALE, 0) : 0;
+        add(scene, row, (struct gm_form_subject){GM_FORM_OBSERVED, i});
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        const char *name = system->variables[i].name;
+        if (system->forms[i].unknown && system->forms[i].degree == 0) {
+            add(scene,
+                (struct gm_observable)GM_LOG_OBSERVABLE(
+                    gm_arena_print(arena, "%s_defect", name), observe,
+                    gm_arena_print(arena, "what the equation of %s cannot meet", name)),
+                (struct gm_form_subject){GM_FORM_CONTRADICTION, i});
+        }
+    }
+    for (size_t i = 0; i < FACTS; i++) {
+        add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
+            (struct gm_form_subject){GM_FORM_FACT, i});
+    }
+    of_file->scene.observables = of_file->observables;
+    of_file->scene.observable_count = of_file->observable_count;
+}
+
+/* ---- keys ---- */
+
+/* The forms that show= names: declared ones, then lets. */
+static void make_shows(struct gm_form_scene *scene)
+{
+    const struct gm_user_system *system = &scene->of_file.system;
+    const struct gm_form_program *observed = &scene->model.observed;
+    for (size_t i = 0; i < system->n && scene->show_count < GM_MOST_SHOWN_FORMS; i++) {
+        scene->shown[scene->show_count] = (struct gm_form_subject){GM_FORM_ERROR, i};
+        scene->shows[scene->show_count++] = system->variables[i].name;
+    }
+    for (size_t i = 0; i < scene->model.observed_count && scene->show_count < GM_MOST_SHOWN_FORMS; i++) {
+        const struct gm_system_item *item = &system->items[scene->model.observed_item[i]];
+        if (item->word == GM_WORD_LET && observed->steps[observed->roots[i]].type.degree >= 0) {
+            scene->shown[scene->show_count] = (struct gm_form_subject){GM_FORM_OBSERVED, i};
+            scene->shows[scene->show_count++] = item->name;
+        }
+    }
+}
+
+static void make_rows(struct gm_form_scene *scene)
+{
+    static const char *const stars[] = {"auto",     "circumcentric", "barycentric",
+                                        "galerkin", "incentric",     NULL};
+    struct gm_system_scene *of_file = &scene->of_file;
+    const struct gm_user_system *system = &of_file->system;
+    const bool steady = scene->model.rates.root_count == 0;
+    const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
+    const char *written = system->texts[GM_WORD_STAR];
+    const struct gm_parameter common[COMMON_ROWS] = {
+        GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
+                      "the form that is drawn", .live = true, .looks = true),
+        GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
+                      "dual vertices: circumcentres, centres of mass or of the circles inside"),
+        GM_CAMERA_ROWS(struct gm_system_lane, camera)};
+    double numbers[GM_SYSTEM_TIMES];
+    gm_system_make_rows(of_file, timing, common, COMMON_ROWS, false);
+    gm_parameters_reset(of_file->rows + GM_SYSTEM_ROWS, of_file->row_count + COMMON_ROWS - GM_SYSTEM_ROWS,
+                        of_file->initial);
+    gm_system_open_timing(of_file, numbers);
+    const double dt = numbers[0] > 0 ? numbers[0]
+                      : steady       ? 1
+                                     : 0.01,
+                 steps = numbers[2] >= 0 ? numbers[2]
+                         : steady        ? 0
+                                         : 100,
+                 until = numbers[1] >= 0 ? numbers[1] : steps * dt;
+    gm_written_timing(of_file->arena, system, dt, until, of_file->rows);
+    gm_parameters_reset(of_file->rows, GM_SYSTEM_ROWS, of_file->initial);
+}
+
+/* ---- from parameters to problem and start ---- */
+
+static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_system_lane *lane = parameters;
+    struct gm_fault fault = {0};
+    double *values = gm_system_start_values(lane, NULL);
+    const bool good = values && gm_form_problem_open(problem, &gm_form_scene_of(lane)->model,
+                                                     (enum gm_star)lane->star, values, &fault);
+    free(values);
+    if (!good) {
+        return gm_refuse(sentence, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
+    }
+    problem->name = lane->owner->scene.name;
+    return true;
+}
+
+static void start(const void *parameters, const struct gm_problem *problem, double *y)
+{
+    (void)parameters;
+    gm_form_start(problem, y);
+}
+
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence);
+
+static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
+{
+    return gm_system_settle(parameters, keys, count, open_other, sentence);
+}
+
+/* The longest step of explicit schemes is not known: rk4, or verlet where the fields split. */
+static void make_schemes(struct gm_form_scene *scene, const struct gm_problem *problem)
+{
+    static const char *const usual[] = {"rk4", NULL}, *const splitting[] = {"verlet", "rk4", NULL};
+    struct gm_system_scene *of_file = &scene->of_file;
+    const size_t count =
+        gm_written_schemes(of_file->arena, of_file->system.texts[GM_WORD_SCHEMES], problem, of_file->schemes);
+    of_file->scene.schemes = count > 0 ? of_file->schemes : scene->model.split > 0 ? splitting : usual;
+    of_file->scene.lanes = of_file->system.texts[GM_WORD_LANES];
+}
+
+/* A scene that is being made. */
+struct making {
+    struct gm_user_system *system;
+    const char *name;
+    const char *const *words;
+    struct gm_fault *fault;
+    struct gm_form_scene *scene;
+    struct gm_problem problem; /* of the file's own values */
+};
+
+static void close_problem(void *problem)
+{
+    gm_form_problem_close(problem);
+}
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct making *making = data;
+    struct gm_form_scene *scene = making->scene = gm_system_scene_take(arena, making->system, sizeof *scene);
+    struct gm_system_scene *of_file = &scene->of_file;
+    struct gm_user_system *system = &of_file->system;
+    const char *const *words = making->words;
+    char sentence[GM_MESSAGE];
+    if (!gm_form_model_open(&scene->model, system, making->fault)) {
+        gm_arena_refuse(arena, "%s",
+                        making->fault->sentence[0] ? making->fault->sentence : "not enough memory");
+    }
+    make_shows(scene);
+    if (scene->show_count == 0) {
+        gm_arena_refuse(arena, "the file has no form: a line field, unknown or let");
+    }
+    make_rows(scene);
+    char *const *texts = system->texts;
+    of_file->scene = (struct gm_scene){
+        .name = making->name,
+        .title = gm_system_title(system) ? gm_system_title(system) : "Forms on triangles",
+        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined system of forms.",
+        .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
+        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : "the unit of the equations",
+        .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
+        .initial = of_file->initial,
+        .words = words,
+        .source = words ? system->source : NULL,
+        .text = words ? system->source : NULL,
+        .mark = words ? gm_written_mark(arena, making->name, system->source) : NULL,
+        .parameters = of_file->rows,
+        .parameter_count = of_file->row_count + of_file->common_count,
+        .variant = gm_system_variant,
+        .idle = gm_system_idle,
+        .settle = settle,
+        .setup = setup,
+        .close = gm_form_problem_close,
+        .start = start,
+        .draw = gm_form_draw,
+        .work = &of_file->work,
+    };
+    gm_system_open_items(of_file);
+    if (!setup(of_file->initial, &making->problem, sentence)) {
+        gm_arena_refuse(arena, "%s", sentence);
+    }
+    gm_arena_keep(arena, &making->problem, close_problem);
+    make_observables(scene);
+    make_schemes(scene, &making->problem);
+    /* the mesh has an error of its own, so that errors of steps are distances from a finer run */
+    of_file->work = (struct gm_work){.arguments = "",
+                                     .coarsest = 4 * of_file->initial->timing.dt,
+                                     .halvings = 4,
+                                     .schemes = of_file->scene.schemes,
+                                     .reference = "rk4"};
+    gm_system_make_studies(of_file, &making->problem, NULL);
+    gm_arena_drop(arena, &making->problem);
+}
+
+/* Opens the scene of a system, which it takes. */
+static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
+                                        const char *const *words, struct gm_fault *fault, char *sentence)
+{
+    struct making making = {.system = system, .name = name, .words = words, .fault = fault};
+    return gm_system_scene_make(make, &making, system, sentence) ? &making.scene->of_file : NULL;
+}
+
+static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
+                                          char *sentence)
+{
+    struct gm_fault fault;
+    return open_one(system, first->scene.name, first->scene.words, &fault, sentence);
+}
+
+const struct gm_scene *gm_user_form_open(struct gm_user_system *system, const char *name,
+                                         const char *const *words, struct gm_fault *fault, char *sentence)
+{
+    const bool choices = system->choices.count > 0;
+    *fault = (struct gm_fault){0};
+    struct gm_system_scene *first = open_one(system, name, words, fault, sentence);
+    if (first && choices &&
+        !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {
+        gm_system_scene_close(&first->scene);
+        return NULL;
+    }
+    return first ? &first->scene : NULL;
+}

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Systems of forms: numbers of a second program that was written for them, what their equations keep, and what is
+refused where.
+usage: forms.py GEOMINT"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+GEOMINT = os.path.abspath(sys.argv[1])
+failures = 0
+
+
+def run(words, **more):
+    done = subprocess.run([GEOMINT, "run", *words], capture_output=True, text=True, **more)
+    return done.returncode, done.stdout, done.stderr
+
+
+def check(good, text):
+    global failures
+    if not good:
+        failures += 1
+        print(f"forms.py: {text}")
+
+
+def observed(*words):
+    status, out, err = run([*words, "--json"])
+    check(status == 0, f"{words}: {err}")
+    return json.loads(out)["observables"] if status == 0 else {}
+
+
+# words; key; the second program's value; how near
+NUMBERS = [
+    *[(["form-poisson", f"level={level}"], "u_error", error, 1e-9)
+      for level, error in ((1, .0942201730), (2, .0232681138), (3, .0057757128), (4, .0014404933))],
+    *[(["form-wave", f"level={level}"], "u_error", error, 5e-4 * error)
+      for level, error in ((2, 5.56e-2), (3, 1.216e-2), (4, 2.85e-3))],
+    (["form-shallow"], "h_error", 1.97e-4, 5e-7),
+    (["form-stokes", "n=20"], "psi_least", -.0997705, 1e-7),
+    (["form-stokes", "n=40"], "psi_least", -.0999905, 1e-7),
+    (["form-brusselator"], "total_u", 12.5435839, 1e-7),
+    (["form-brusselator"], "total_v", 24.9674168, 1e-7),
+    (["form-brusselator"], "least", .9318679, 1e-7),
+    (["form-brusselator"], "largest", 1.0760845, 1e-7),
+    (["form-vorticity", "level=3"], "w_error", .211, 5e-4),
+    (["form-vorticity", "level=4"], "w_error", .0550, 5e-5),
+    (["form-vorticity", "level=4"], "energy_error", 4.7e-4, 1e-6),
+    (["form-vorticity", "level=4", "star=barycentric"], "w_error", .0564, 5e-5),
+]
+kept = {}
+for words, key, value, tolerance in NUMBERS:
+    text = " ".join(words)
+    kept[text] = kept.get(text) or observed(*words)
+    found = kept[text].get(key, math.nan)
+    # three digits were given: half of the last one
+    check(abs(found - value) <= max(tolerance, 0.5 * 10 ** (math.floor(math.log10(abs(value))) - 2)
+                                    if tolerance > 1e-7 else tolerance), f"{text}: {key} is {found}, not {value}")
+
+KEPT = [
+    (["form-wave", "until=500", "--max"], "energy_error_max", 1.5e-4),
+    (["form-shallow"], "mass", 1e-14),
+    (["form-shallow"], "curl", 1e-12),
+    (["form-maxwell", "--max"], "energy_error_max", 1.28e-3),
+    (["form-maxwell", "dt=.01", "--max"], "energy_error_max", 3.2e-4),
+    (["form-darcy"], "defect", 1e-11),
+    (["form-heat"], "total_error", 1e-13),
+    (["form-vorticity", "level=4", "star=barycentric"], "energy_error", 1e-8),
+    (["form-vorticity", "level=4"], "enstrophy_error", 1e-7),
+]
+for words, key, most in KEPT:
+    found = observed(*words).get(key, math.nan)
+    check(abs(found) <= most, f"{' '.join(words)}: {key} is {found}, more than {most}")
+
+# order 2 with every star, on every mesh
+for star in ("circumcentric", "barycentric", "incentric"):
+    errors = [observed("form-poisson", f"level={level}", f"star={star}")["u_error"] for level in (3, 4)]
+    check(1.9 < math.log2(errors[0] / errors[1]) < 2.1, f"star={star}: errors {errors}")
+errors = [observed("form-darcy", f"N={n}", f"M={m}") for n, m in ((32, 20), (64, 42))]
+check(errors[0]["f_error"] > 4 * errors[1]["f_error"] and errors[1]["p_error"] < 1e-3, f"form-darcy: {errors}")
+for mesh, betti in (("torus 2 0.8 24", [1, 2, 1]), ("annulus 1 2 24", [1, 1, 0]), ("disc 1 6", [1, 0, 0])):
+    facts = observed("form-wave", f"mesh={mesh}", "until=0")
+    check([facts[f"betti{k}"] for k in range(3)] == betti, f"{mesh}: {facts}")
+
+# the line that is wrong, in place of the good one with the same word; where; the sentence's begin
+WAVE = """geomint: 1
+mesh: sphere 1 2
+field: u = 0-form, v = 0-form
+rate: u = v
+rate: v = laplace(u)
+start: u = x*y, v = 0
+"""
+STEADY = """geomint: 1
+mesh: sphere 1 2
+unknown: u = 0-form
+equation: u; -laplace(u) = x*y
+"""
+REFUSED = [
+    (WAVE, "rate: u = v", "rate: u = v + d(u)", "4:11: v is a 0-form and d(u) a 1-form: they cannot be added"),
+    (WAVE, "rate: u = v", "rate: u = d(u)*d(v)", "4:11: d(u) is a 1-form and d(v) a 1-form: they cannot be multiplied"),
+    (WAVE, "rate: u = v", "rate: u = d(d(d(u)))", "4:11: d is of a 0-form or a 1-form, and d(d(u)) is a 2-form"),
+    (WAVE, "rate: u = v", "rate: u = d(v)", "4:11: d(v) is a 1-form, and has to be a 0-form here"),
+    (WAVE, "rate: u = v", "rate: u = delta(v)", "4:11: delta is of a 1-form or a 2-form"),
+    (WAVE, "rate: u = v", "rate: u = star(lie(d(v), star(u)))", "4:16: the velocity of interior and lie is a dual 1-form"),
+    (WAVE, "rate: u = v", "rate: u = inner(u, d(u))*u", "4:11: inner is of two forms of one type"),
+    (WAVE, "rate: u = v", "rate: u = d(u, v)", "4:11: d takes one form"),
+    (WAVE, "rate: u = v", "rate: u = w", "4:11: there is no name w"),
+    (WAVE, "rate: u = v\n", "", "3:8: u has no rate"),
+    (WAVE, "field: u = 0-form,", "field: u,", "3:8: u has no degree: write field: u = 0-form"),
+    (WAVE, "v = 0-form", "v = 3-form", "3:"),
+    (WAVE, "v = 0-form", "u = 0-form", "3:"),
+    (WAVE, "mesh: sphere 1 2\n", "", "2:1: a field with a degree needs a line"),
+    (WAVE, "u = x*y, v = 0", "u = x*y", "3:20: v has no value at the start"),
+    (WAVE, "u = x*y", "u = log(x - 2)", "the start of u is not finite"),
+    (WAVE, "u = x*y", "u = d(v)", "6:"),
+    (WAVE, "sphere 1 2", "sphere 1 10", "10 is not a whole number from 0 to 9"),
+    (WAVE, "sphere 1 2", "sphere -1 2", "-1 is not a length"),
+    (WAVE, "sphere 1 2", "torus 1 2 20", "its radius 1 has to be above that of its tube, 2"),
+    (WAVE, "sphere 1 2", "torus 2 1 20 7", "not an even number"),
+    (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
+    (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
+    (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
+    (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "a dual edge that is not positive"),
+    (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),
+    (STEADY, "equation: u; -laplace(u) = x*y\n", "", "3:10: u has no equation"),
+    (STEADY, "= x*y", "= x*y\nboundary: top u = 0", "5:11: boundary: there is no part top; the parts of sphere are: none"),
+    (STEADY, "= x*y", "= x*y\nboundary: all w = 0", "5:15: there is no name w"),
+    (STEADY, "= x*y", "= u^2", "4:28: an equation is linear in its unknowns"),
+    (STEADY, "= x*y", "= x*y\nequation: u; u = 0", "5:11: u has two equations"),
+    (STEADY, "-laplace(u) = x*y", "d(u) = form(x, y)", "4:14: the equation of u, which is a 0-form, is of a 1-form"),
+]
+with tempfile.TemporaryDirectory() as folder:
+    for text, old, new, sentence in REFUSED:
+        assert old in text, old
+        with open(os.path.join(folder, "wrong.system"), "w", encoding="utf-8") as stream:
+            stream.write(text.replace(old, new, 1))
+        status, out, err = run(["wrong.system"], cwd=folder)
+        check(status == 1 and sentence in err and out == "" and len(err.splitlines()) in (1, 3),
+              f"{new!r} exits {status}: {out}{err}  not: {sentence}")
+
+sys.exit(failures > 0)
