@@ -16,7 +16,8 @@
 
 enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
 const char *const gm_typed_keys[] = {"H", "L", "rate", "coordinates", "momenta", NULL};
-const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", "S", "K-matrix", "L-matrix", "mesh", NULL};
+const char *const gm_replacing_keys[] = {"H", "L",        "V",        "rate", "bracket",
+                                         "S", "K-matrix", "L-matrix", "mesh", NULL};
 
 const char *gm_word_after(const char *word, const char *key)
 {
