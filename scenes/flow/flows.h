@@ -5,8 +5,8 @@
 #include "core/flow/boundary.h"
 #include "core/flow/flow.h"
 #include "core/flow/gmsh.h"
-#include "core/form/rectangle.h"
 #include "core/flow/start.h"
+#include "core/form/rectangle.h"
 #include "scenes/common/lane.h"
 
 /* The common part of all scenes of flows on complexes: room, and scenes from files. All solve, in the plane,

@@ -32,7 +32,7 @@ static const struct {
     [TRIANGLES] = {"triangles", "triangles of the mesh"},
     [EULER] = {"euler", "vertices − edges + triangles"},
     [BETTI0] = {"betti0", "connected pieces"},
-    [BETTI1] = {"betti1", "independent loops that enclose no part of the surface"},
+    [BETTI1] = {"betti1", "independent loops without an inside"},
     [BETTI2] = {"betti2", "closed pieces"},
     [AREA] = {"area", "area of the mesh"},
     [STAR_LEAST] = {"star_least", "least |dual edge| / |edge| of circumcentres"},

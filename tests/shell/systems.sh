@@ -8,11 +8,13 @@ systems=$2
 
 for file in "$systems"/*.system; do
     name=$(basename "$file" .system)
+    forms=$(grep -c '^mesh: ' "$file") # systems of forms are listed by their types
     for form in --long --latex; do
+        [ "$forms" -gt 0 ] && [ $form = --latex ] && continue
         "$geomint" list "$name" $form >out 2>err || fail "list $name $form: $(cat err)"
         [ -s out ] && [ ! -s err ] || fail "list $name $form: $(cat err)"
     done
-    "$geomint" list "$file" --json | python3 -c '
+    [ "$forms" -gt 0 ] || "$geomint" list "$file" --json | python3 -c '
 import json, sys
 about = json.load(sys.stdin)
 assert about["title"] and about["equations"] and about["structure"]

@@ -13,9 +13,9 @@
 
 #include "core/basics.h"
 #include "core/flow/boundary.h"
-#include "core/form/rectangle.h"
 #include "core/flow/start.h"
 #include "core/flow/tracers.h"
+#include "core/form/rectangle.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"
