@@ -76,8 +76,7 @@ static int unknown_command(const char *word)
     char near[GM_NEAR_NAMES] = "", folder[GM_MESSAGE];
     const struct gm_near *row;
     for (size_t i = 0; (row = gm_near_find(GM_NEAR_COMMAND, word, i)); i++) {
-        const size_t used = strlen(near);
-        snprintf(near + used, sizeof near - used, "%s%s", i > 0 ? " or " : "", row->meant);
+        gm_append(near, sizeof near, "%s%s", i > 0 ? " or " : "", row->meant);
     }
     const char *nearest = gm_nearest(word, gm_command_count + gm_scene_count(), first_word, NULL);
     if (!near[0] && nearest) {

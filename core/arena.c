@@ -116,6 +116,13 @@ void gm_arena_refuse(struct gm_arena *arena, const char *format, ...)
     gm_arena_leave(arena);
 }
 
+void gm_arena_check(struct gm_arena *arena, bool done, const char *message)
+{
+    if (!done) {
+        gm_arena_refuse(arena, "%s", message);
+    }
+}
+
 static void *refused(struct gm_arena *arena)
 {
     if (arena->leave) {
@@ -126,9 +133,7 @@ static void *refused(struct gm_arena *arena)
 
 void gm_arena_need(struct gm_arena *arena, bool there)
 {
-    if (!there) {
-        gm_arena_refuse(arena, "%s", no_memory);
-    }
+    gm_arena_check(arena, there, no_memory);
 }
 
 static struct gm_arena_entry *add(struct gm_arena *arena, struct gm_arena_entry *entry)

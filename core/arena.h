@@ -44,6 +44,8 @@ void gm_arena_release(struct gm_arena *arena, size_t mark);
 
 /* Leaves the body, for lack of memory, if `there` is false: another function returned nothing. */
 void gm_arena_need(struct gm_arena *arena, bool there);
+/* Leaves the body, with this message, if something could not be done. */
+void gm_arena_check(struct gm_arena *arena, bool done, const char *message);
 /* Leave the body, with a message, or with a reason in the body's data. */
 __attribute__((format(printf, 2, 3))) _Noreturn void gm_arena_refuse(struct gm_arena *arena,
                                                                      const char *format, ...);

@@ -167,9 +167,7 @@ static void open_lanes(struct gm_arena *arena, void *data)
         name_quantities(arena, lane);
     }
     gm_arena_keep(arena, &handle->chosen, gm_chosen_close);
-    if (!gm_chosen_open(&handle->chosen, request->scene, NULL, message)) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena, gm_chosen_open(&handle->chosen, request->scene, NULL, message), message);
 }
 
 geomint *geomint_open(int count, const char *const words[])

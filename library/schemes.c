@@ -15,9 +15,7 @@ static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_wor
     char message[GM_MESSAGE] = "the scheme is NULL";
     const struct gm_scheme *scheme =
         opening->scheme ? gm_scheme_sought(opening->scheme, &opening->refusal, message) : NULL;
-    if (!scheme) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena, scheme, message);
     return scheme;
 }
 

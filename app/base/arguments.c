@@ -183,6 +183,15 @@ char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
     return text;
 }
 
+void gm_append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text + used, size - used, format, values);
+    va_end(values);
+}
+
 char *gm_text(const char *format, ...)
 {
     char *text = NULL;

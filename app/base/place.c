@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "core/expression/reader.h"
 #include "render/message.h"
 
@@ -24,7 +25,6 @@ void gm_place_show(const char *text, size_t length, size_t offset, char *message
 {
     enum { BEFORE = 60, WIDTH = 100 };
     size_t begin = offset;
-    const size_t used = strlen(message);
     while (begin > 0 && text[begin - 1] != '\n' && offset - begin < BEFORE) {
         begin--;
     }
@@ -40,5 +40,5 @@ void gm_place_show(const char *text, size_t length, size_t offset, char *message
             columns += i < offset;
         }
     }
-    snprintf(message + used, GM_MESSAGE - used, "\n    %.*s\n    %*s^", shown, line, columns, "");
+    gm_append(message, GM_MESSAGE, "\n    %.*s\n    %*s^", shown, line, columns, "");
 }

@@ -135,9 +135,7 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         const char *comma = option->commands & (GM_SWEEP | GM_RUN) ? strrchr(stem->begin, ',') : NULL;
         struct stem last = *stem;
         if (comma) { /* a list is completed at its last value */
-            const size_t used = strlen(last.front);
-            snprintf(last.front + used, sizeof last.front - used, "%.*s", (int)(comma + 1 - stem->begin),
-                     stem->begin);
+            gm_append(last.front, sizeof last.front, "%.*s", (int)(comma + 1 - stem->begin), stem->begin);
             last.begin = comma + 1;
         }
         offer_observables(&last, scene);

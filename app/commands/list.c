@@ -105,12 +105,11 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
                      equations ? "; derivative of a step: " : "", equations ? gm_tangent_word(scheme) : "");
             gm_print_wrapped(text, printf("  "), 2);
             const char *alias;
-            size_t used = 0;
-            for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)) && used < sizeof text; i++) {
-                used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
-                                         i == 0 ? "also called " : ", ", alias);
+            text[0] = '\0';
+            for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)); i++) {
+                gm_append(text, sizeof text, "%s%s", i == 0 ? "also called " : ", ", alias);
             }
-            if (used > 0) {
+            if (text[0]) {
                 gm_print_wrapped(text, printf("  "), 2);
             }
         }
@@ -130,10 +129,8 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
     }
     const char *comma = " ";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        const size_t used = strlen(text);
         if (claims >> bit & 1) {
-            snprintf(text + used, sizeof text - used, "%s%s %s", comma, gm_claim_letter(bit),
-                     gm_claim_word(bit));
+            gm_append(text, sizeof text, "%s%s %s", comma, gm_claim_letter(bit), gm_claim_word(bit));
             comma = ", ";
         }
     }

@@ -340,14 +340,12 @@ static void refuse_option(char *message, const char *word, const char *next, con
     }
     const bool search = !elsewhere && !meant[0];
     const char *near = search ? gm_nearest(name + strlen("--"), ROWS, name_at, &command) : NULL;
-    size_t used = (size_t)snprintf(message, GM_MESSAGE, "%s option %.60s%s%s%s",
-                                   elsewhere ? "this command has no" : "there is no", name, meant,
-                                   near ? "; did you mean --" : "", near ? near : "");
+    gm_refuse(message, "%s option %.60s%s%s%s", elsewhere ? "this command has no" : "there is no", name,
+              meant, near ? "; did you mean --" : "", near ? near : "");
     const char *between = elsewhere ? "; it has " : "; there are ";
-    for (size_t i = 0; i < ROWS && !near && !meant[0] && used < GM_MESSAGE; i++) {
+    for (size_t i = 0; i < ROWS && !near && !meant[0]; i++) {
         if (gm_option_rows[i].commands & command) {
-            used +=
-                (size_t)snprintf(message + used, GM_MESSAGE - used, "%s%s", between, gm_option_rows[i].name);
+            gm_append(message, GM_MESSAGE, "%s%s", between, gm_option_rows[i].name);
             between = ", ";
         }
     }

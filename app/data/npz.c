@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "render/cells/text.h"
 
 enum { NPY_HEAD = 256 };
@@ -144,14 +145,14 @@ static size_t head_of(const struct gm_npz_entry *entry, char head[NPY_HEAD], siz
     if (shape->type == GM_NPZ_LETTER) {
         snprintf(length, sizeof length, "%" PRIu64, shape->lengths[0]);
     }
-    size_t used =
-        (size_t)snprintf(dictionary, capacity, "{'descr': '%s%s', 'fortran_order': False, 'shape': (",
-                         types[shape->type], length);
+    snprintf(dictionary, capacity, "{'descr': '%s%s', 'fortran_order': False, 'shape': (", types[shape->type],
+             length);
     for (size_t i = 0; i < axes; i++) {
-        used += (size_t)snprintf(dictionary + used, capacity - used, "%s%" PRIu64 "%s", i ? " " : "",
-                                 shape->lengths[i], i + 1 < axes || axes == 1 ? "," : "");
+        gm_append(dictionary, capacity, "%s%" PRIu64 "%s", i ? " " : "", shape->lengths[i],
+                  i + 1 < axes || axes == 1 ? "," : "");
     }
-    used += (size_t)snprintf(dictionary + used, capacity - used, "), }");
+    gm_append(dictionary, capacity, "), }");
+    const size_t used = strlen(dictionary);
     size_t size = (FRONT + used + 1 + ALIGNED - 1) / ALIGNED * ALIGNED;
     size = size > least ? size : least;
     memset(dictionary + used, ' ', size - FRONT - used - 1);

@@ -234,8 +234,7 @@ static void hint_at(struct gm_face *face, int key)
     }
     face->hinted[key / 32] |= 1u << key % 32;
     snprintf(face->hint, sizeof face->hint, key > ' ' && key <= '~' ? "%c" : "this key", key);
-    const size_t used = strlen(face->hint);
-    snprintf(face->hint + used, sizeof face->hint - used, " does nothing here; ? lists the keys");
+    gm_append(face->hint, sizeof face->hint, " does nothing here; ? lists the keys");
     face->hint_until = gm_clock_milliseconds() + HINT_MILLISECONDS;
 }
 

@@ -62,11 +62,9 @@ static bool check_words(const struct gm_arguments *words, char *message)
             return gm_refuse(message, "--keys %.40s is too long: a word lasts at most %d s", word, LONGEST);
         }
         if (is_like_a_key(word) && !key_of(word)) {
-            size_t used =
-                (size_t)snprintf(message, GM_MESSAGE, "--keys has no key %.40s; its keys are", word);
-            for (size_t k = 0; gm_key_name(k) && used < GM_MESSAGE; k++) {
-                used += (size_t)snprintf(message + used, GM_MESSAGE - used, "%s %s", k ? "," : "",
-                                         gm_key_name(k));
+            gm_refuse(message, "--keys has no key %.40s; its keys are", word);
+            for (size_t k = 0; gm_key_name(k); k++) {
+                gm_append(message, GM_MESSAGE, "%s %s", k ? "," : "", gm_key_name(k));
             }
             return false;
         }

@@ -22,15 +22,13 @@ static void shorten(char *arguments, size_t size, const char *quick)
 {
     struct gm_arguments self = {0}, instead = {0};
     if (gm_arguments_split(&self, arguments) && gm_arguments_split(&instead, quick)) {
-        size_t used = 0;
-        for (int i = 0; i < self.count && used < size; i++) {
+        arguments[0] = '\0';
+        for (int i = 0; i < self.count; i++) {
             if (!gm_arguments_have(&instead, self.words[i])) {
-                used += (size_t)snprintf(arguments + used, size - used, "%s ", self.words[i]);
+                gm_append(arguments, size, "%s ", self.words[i]);
             }
         }
-        if (used < size) {
-            snprintf(arguments + used, size - used, "%s", quick);
-        }
+        gm_append(arguments, size, "%s", quick);
     }
     gm_arguments_close(&self);
     gm_arguments_close(&instead);
@@ -259,11 +257,11 @@ static void open_values(const struct gm_request *request, size_t lane, const cha
 {
     struct gm_arguments words = {0};
     char value[GM_TEXT_SIZE];
-    size_t used = (size_t)snprintf(text, size, "%s", "");
+    text[0] = '\0';
     gm_arguments_split(&words, keys);
-    for (int i = 0; i < words.count && used < size; i++) {
-        used += (size_t)snprintf(text + used, size - used, "%s%s=%s", used ? " " : "", words.words[i],
-                                 value_of(request, lane, words.words[i], value, sizeof value));
+    for (int i = 0; i < words.count; i++) {
+        gm_append(text, size, "%s%s=%s", text[0] ? " " : "", words.words[i],
+                  value_of(request, lane, words.words[i], value, sizeof value));
     }
     gm_arguments_close(&words);
 }
@@ -284,9 +282,8 @@ static void put_values(const struct gm_request *request, const char *keys, const
             first &= !same || k >= i;
             all &= !same || held[k];
         }
-        const size_t used = strlen(texts[all]);
         if (first) {
-            snprintf(texts[all] + used, GM_FIGURE_LABEL - used, "%s%s", used ? ", " : "with ", own);
+            gm_append(texts[all], GM_FIGURE_LABEL, "%s%s", texts[all][0] ? ", " : "with ", own);
         }
     }
 }
@@ -333,14 +330,13 @@ static void label(const struct gm_figure_job *job, const struct gm_request *requ
 {
     struct gm_arguments words = {0};
     char value[GM_TEXT_SIZE];
-    size_t used = (size_t)snprintf(text, size, "%s", request->lanes[lane].scheme->name);
+    snprintf(text, size, "%s", request->lanes[lane].scheme->name);
     gm_arguments_split(&words, job->arguments);
-    for (int i = 0; i < words.count && used < size; i++) {
+    for (int i = 0; i < words.count; i++) {
         char key[64];
         snprintf(key, sizeof key, "%.*s", (int)strcspn(words.words[i], "="), words.words[i]);
         if (strchr(words.words[i], ',') && gm_word_parameter(request->scene, key)) {
-            used += (size_t)snprintf(text + used, size - used, " %s=%s", key,
-                                     value_of(request, lane, key, value, sizeof value));
+            gm_append(text, size, " %s=%s", key, value_of(request, lane, key, value, sizeof value));
         }
     }
     gm_arguments_close(&words);
@@ -508,8 +504,7 @@ void gm_statement_expectation(const struct gm_statement *statement, double scale
         snprintf(part, sizeof part, "%.3g to %.3g", 100 * low, 100 * high);
     }
     if (statement->scale && statement->measure != GM_EXCEEDS) {
-        const size_t used = strlen(text);
-        snprintf(text + used, size - used, ", %s %% of %s", part, statement->scale->name);
+        gm_append(text, size, ", %s %% of %s", part, statement->scale->name);
     }
 }
 

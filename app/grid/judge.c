@@ -62,14 +62,13 @@ char gm_cell_letter(const struct gm_grid_cell *cell)
 const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size)
 {
     bool noted[128] = {['.'] = true};
-    size_t used = (size_t)snprintf(text, size, "%s", "");
+    text[0] = '\0';
     for (size_t i = 0; i < grid->count; i++) {
         for (size_t k = 0; k < grid->lines[i].count; k++) {
             const struct gm_grid_cell *cell = &grid->lines[i].cells[k];
             const char letter = gm_cell_letter(cell);
-            if (!noted[(size_t)letter] && used < size) {
-                used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
-                                         gm_cell_word(grid, cell));
+            if (!noted[(size_t)letter]) {
+                gm_append(text, size, "%s%c %s", text[0] ? ", " : "", letter, gm_cell_word(grid, cell));
                 noted[(size_t)letter] = true;
             }
         }
@@ -205,38 +204,35 @@ static const char *error_text(double error, char text[24])
     return text;
 }
 
-/* "uniform Gauss 4 at 1 and 10⁻¹, control Gauss 4 at 10⁻²." */
-static size_t name_cheapest(const struct gm_grid *grid, const char *front, enum gm_cost cost, char *text,
-                            size_t size)
+/* Appends "uniform Gauss 4 at 1 and 10⁻¹, control Gauss 4 at 10⁻²." */
+static void name_cheapest(const struct gm_grid *grid, enum gm_cost cost, char *text, size_t size)
 {
-    size_t used = (size_t)snprintf(text, size, "%s", front);
     enum { ERRORS = 3 };
     const struct gm_grid_line *lines[ERRORS];
     for (size_t i = 0; i < ERRORS; i++) {
         lines[i] = gm_work_cheapest(grid, grid->errors[i], cost);
     }
-    for (size_t i = 0; i < ERRORS && used < size; i++) {
+    for (size_t i = 0; i < ERRORS; i++) {
         char word[24];
         error_text(grid->errors[i], word);
-        const bool same = i > 0 && lines[i] == lines[i - 1];
-        const bool last = i + 1 == ERRORS || lines[i + 1] != lines[i];
-        used += same ? (size_t)snprintf(text + used, size - used, "%s %s", last ? " and" : ",", word)
-                     : (size_t)snprintf(text + used, size - used, "%s %s at %s", i ? ";" : "",
-                                        lines[i] ? lines[i]->scheme->title : "none", word);
+        if (i > 0 && lines[i] == lines[i - 1]) {
+            gm_append(text, size, "%s %s", i + 1 == ERRORS || lines[i + 1] != lines[i] ? " and" : ",", word);
+        } else {
+            gm_append(text, size, "%s %s at %s", i ? ";" : "", lines[i] ? lines[i]->scheme->title : "none",
+                      word);
+        }
     }
-    used = used < size ? used : size - 1;
-    used += (size_t)snprintf(text + used, size - used, ".");
-    return used < size ? used : size - 1;
+    gm_append(text, size, ".");
 }
 
 const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size)
 {
-    const size_t used = name_cheapest(grid, "Cheapest by run time:", GM_COST_SECONDS, text, size);
+    snprintf(text, size, "Cheapest by run time:");
+    name_cheapest(grid, GM_COST_SECONDS, text, size);
     if (grid->parameter) {
-        char front[64];
-        snprintf(front, sizeof front, "  %s %s:", grid->smaller_is_finer ? "Largest" : "Fewest",
-                 grid->parameter->key);
-        name_cheapest(grid, front, GM_COST_RESOLUTION, text + used, size - used);
+        gm_append(text, size, "  %s %s:", grid->smaller_is_finer ? "Largest" : "Fewest",
+                  grid->parameter->key);
+        name_cheapest(grid, GM_COST_RESOLUTION, text, size);
     }
     return text;
 }

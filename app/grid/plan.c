@@ -50,17 +50,15 @@ void gm_cells_open(struct gm_grid *grid)
     }
     const struct gm_scene *scene =
         gm_request_scene(typed->count, typed->words, &grid->request.refusal, message);
-    if (!scene) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_arena_check(grid->arena, scene, message);
     struct gm_arguments *words = gm_arguments_in(grid->arena);
     gm_arena_need(grid->arena, gm_words_complete(words, scene, typed, row->usual(grid, scene)));
     if (row->edit) {
         row->edit(grid, words);
     }
-    if (!gm_request_parse(&grid->request, words->count, words->words, row->schemes, message)) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_arena_check(grid->arena,
+                   gm_request_parse(&grid->request, words->count, words->words, row->schemes, message),
+                   message);
     gm_arena_keep(grid->arena, &grid->request, gm_request_close);
     row->lay_out(grid, words);
 }

@@ -202,9 +202,7 @@ void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const stru
                                  .folder = folder,
                                  .name = name,
                                  .identity = identify(arena, schedule, provenance)};
-    if (!gm_folder_make(folder, message)) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena, gm_folder_make(folder, message), message);
     frames->there = gm_arena_take(arena, (size_t)schedule->count, sizeof *frames->there);
     look(frames);
 }

@@ -134,10 +134,9 @@ static void tell_lacking(void)
     uint32_t letters[GM_LACKING];
     const size_t count = gm_glyphs_lacking(letters);
     char told[TOLD * 16] = "";
-    size_t used = 0;
     for (size_t i = 0; i < count && i < TOLD; i++) {
         const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
-        used += (size_t)snprintf(told + used, sizeof told - used, "%sU+%04" PRIX32, between, letters[i]);
+        gm_append(told, sizeof told, "%sU+%04" PRIX32, between, letters[i]);
     }
     if (count == 1) {
         gm_complain("the font has no letter %s: a box stands for it in the picture", told);

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/native/engine.h"
 #include "core/schemes.h"
@@ -343,8 +344,7 @@ void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
         gm_drive_other_end(drive, end, sizeof end);
     }
     gm_lane_warning(drive->lane, text, size);
-    const size_t used = strlen(text);
-    snprintf(text + used, size - used, "%s%s", used && end[0] ? "; " : "", end);
+    gm_append(text, size, "%s%s", text[0] && end[0] ? "; " : "", end);
 }
 
 double gm_drive_seconds(const struct gm_request *request, size_t index)

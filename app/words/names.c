@@ -260,8 +260,7 @@ bool gm_system_near(const char *word, char near[GM_NEAR_NAMES], char *message)
     const char *found = gm_nearest(word, (size_t)names.list.count, name_at, &names.list);
     snprintf(near, GM_NEAR_NAMES, "%s", found ? found : "");
     for (int i = 0; !found && i < names.containing.count && i < MOST; i++) {
-        const size_t used = strlen(near);
-        snprintf(near + used, GM_NEAR_NAMES - used, "%s%s", i > 0 ? ", " : "", names.containing.words[i]);
+        gm_append(near, GM_NEAR_NAMES, "%s%s", i > 0 ? ", " : "", names.containing.words[i]);
     }
     gm_arguments_close(&names.list);
     gm_arguments_close(&names.containing);

@@ -96,8 +96,7 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
     char number[48];
     if (row->type == GM_REAL && list->piece_count == list->count &&
         gm_words_decimal_comma(list, index, number, sizeof number)) {
-        const size_t used = strlen(message);
-        snprintf(message + used, GM_MESSAGE - used, "; " GM_DECIMAL_POINT, number);
+        gm_append(message, GM_MESSAGE, "; " GM_DECIMAL_POINT, number);
     }
     return false;
 }
@@ -106,14 +105,12 @@ static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const s
 static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
                      size_t size)
 {
-    const size_t length = strlen(name);
     char value[GM_TEXT_SIZE];
-    const char *comma = length ? ", " : "";
+    const char *comma = name[0] ? ", " : "";
     if (strcmp(list->key, "scheme") == 0) {
-        snprintf(name + length, size - length, "%s%s", comma, scheme->title);
+        gm_append(name, size, "%s%s", comma, scheme->title);
     } else {
-        snprintf(name + length, size - length, "%s%s = %s", comma, gm_key_symbol(list->key),
-                 gm_word_name(list, index, value));
+        gm_append(name, size, "%s%s = %s", comma, gm_key_symbol(list->key), gm_word_name(list, index, value));
     }
 }
 
@@ -220,11 +217,10 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
         const size_t count = gm_fitting_schemes(scene, fitting);
         const char *between = "; these do: ";
-        size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
-        for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
+        gm_refuse(message, "none of these schemes takes %s=", row->key);
+        for (size_t k = 0; k < count; k++) {
             if (gm_scheme_takes(fitting[k], row)) {
-                told +=
-                    (size_t)snprintf(message + told, GM_MESSAGE - told, "%s%s", between, fitting[k]->name);
+                gm_append(message, GM_MESSAGE, "%s%s", between, fitting[k]->name);
                 between = ", ";
                 used = true;
             }
@@ -689,8 +685,6 @@ static void close_lane(void *lane)
 
 struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message)
 {
-    if (!lane) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena, lane, message);
     return gm_arena_keep(arena, lane, close_lane);
 }

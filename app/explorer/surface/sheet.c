@@ -83,22 +83,15 @@ void gm_sheet_number(double value, char *text, size_t size)
         snprintf(digits, sizeof digits, "%.3g", value);
     }
     /* a true minus sign, and no zeros or plus signs to fill an exponent */
-    size_t at = 0;
     text[0] = '\0';
-    for (const char *c = digits; *c && at + 4 < size; c++) {
-        if (*c == '-') {
-            at += (size_t)snprintf(text + at, size - at, "−");
-        } else if (*c != '+') {
-            at += (size_t)snprintf(text + at, size - at, "%c", *c);
-        }
+    for (const char *c = digits; *c && strlen(text) + 4 < size; c++) {
         if (*c == 'e') {
-            bool minus = c[1] == '-';
-            while (c[1] == '-' || c[1] == '+' || (c[1] == '0' && c[2])) {
-                c++;
-            }
-            if (minus) {
-                at += (size_t)snprintf(text + at, size - at, "−");
-            }
+            gm_append(text, size, c[1] == '-' ? "e−" : "e");
+            c += 1 + strspn(c + 2, "0");
+        } else if (*c == '-') {
+            gm_append(text, size, "−");
+        } else {
+            gm_append(text, size, "%c", *c);
         }
     }
 }

@@ -13,6 +13,7 @@
 #include <term.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "app/output/say.h"
 #include "core/basics.h"
 #include "core/memory.h"
@@ -101,15 +102,11 @@ static bool find_demand(struct demand *demand, const char *option, const char *g
             return true;
         }
     }
-    int at = snprintf(message, GM_MESSAGE, "%s is \"%.40s\", but it must be ", demand->name, demand->value);
+    gm_refuse(message, "%s is \"%.40s\", but it must be ", demand->name, demand->value);
     for (int i = 0; i < count; i++) {
-        at += snprintf(message + at, (size_t)(GM_MESSAGE - at), "%s%s",
-                       i == 0          ? ""
-                       : i + 1 < count ? ", "
-                                       : " or ",
-                       names[i]);
+        const char *between = i + 2 < count ? ", " : i + 2 == count ? " or " : ".";
+        gm_append(message, GM_MESSAGE, "%s%s", names[i], between);
     }
-    snprintf(message + at, (size_t)(GM_MESSAGE - at), ".");
     return false;
 }
 
@@ -444,10 +441,9 @@ static void report_answers(const struct gm_terminal *terminal)
 static void report_ladder(const struct gm_terminal *terminal)
 {
     char text[GM_REASON] = "";
-    size_t at = 0;
     for (int i = 0; i < RUNGS; i++) {
         if (can(terminal, i)) {
-            at += (size_t)snprintf(text + at, sizeof text - at, "%s%s", at ? ", " : "", graphics_names[i]);
+            gm_append(text, sizeof text, "%s%s", text[0] ? ", " : "", graphics_names[i]);
         }
     }
     printf("  %-12s %s\n", "key b", text);

@@ -38,13 +38,13 @@ static void key_hints(const struct gm_shot *shot, char *hints, size_t size)
 #include "app/explorer/view/keys.def"
 #undef GM_KEYS
     };
-    size_t used = 0;
+    hints[0] = '\0';
     for (int rank = 1; rank <= (int)GM_COUNT(rows); rank++) {
-        for (size_t i = 0; i < GM_COUNT(rows) && used < size; i++) {
+        for (size_t i = 0; i < GM_COUNT(rows); i++) {
             const bool go = rank == 1 && shot->paused;
             if (rows[i].rank == rank) {
-                used += (size_t)snprintf(hints + used, size - used, "%s%s:%s", used ? "|" : "", rows[i].keys,
-                                         go ? "resume" : rows[i].word);
+                gm_append(hints, size, "%s%s:%s", hints[0] ? "|" : "", rows[i].keys,
+                          go ? "resume" : rows[i].word);
             }
         }
     }

@@ -38,14 +38,12 @@ unsigned gm_schemes_claims(const struct gm_shot *shot)
 /* Writes the claims' letters in their columns, or if `close` without spaces. */
 static void claims_text(unsigned claims, unsigned columns, bool close, char *text, size_t size)
 {
-    size_t at = 0;
     text[0] = '\0';
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT && at + 1 < size; bit++) {
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (claims >> bit & 1) {
-            at += (size_t)snprintf(text + at, size - at, "%s", gm_claim_letter(bit));
-        } else if ((columns >> bit & 1) && at > 0 && !close) {
-            text[at++] = ' ';
-            text[at] = '\0';
+            gm_append(text, size, "%s", gm_claim_letter(bit));
+        } else if ((columns >> bit & 1) && text[0] && !close) {
+            gm_append(text, size, " ");
         }
     }
 }

@@ -236,8 +236,8 @@ void gm_studies_status(const struct gm_studies *studies, char *text, size_t size
 
 void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *scene, char *text, size_t size)
 {
-    size_t used = (size_t)snprintf(text, size, "%s", studies->notice);
-    for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
+    snprintf(text, size, "%s", studies->notice);
+    for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && !text[0]; i++) {
         const struct gm_study_look *look = studies->looks[i];
         if (!studies->studies[i] || studies->scenes[i] != scene || studies->shown == (enum gm_study_kind)i ||
             (look &&
@@ -247,12 +247,10 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
         const char *words = gm_study_words(studies->studies[i]); /* the scene is the first word */
         const int length = (int)strcspn(words, " ");
         if (look && look->finished) {
-            used += (size_t)snprintf(text + used, size - used,
-                                     keys[i] ? "%s of %.*s is ready: %c shows it" : "%s of %.*s is ready",
-                                     gm_study_rows[i]->name, length, words, keys[i]);
+            snprintf(text, size, keys[i] ? "%s of %.*s is ready: %c shows it" : "%s of %.*s is ready",
+                     gm_study_rows[i]->name, length, words, keys[i]);
         } else {
-            used += (size_t)snprintf(text + used, size - used, "%s of %.*s %d %%", gm_study_rows[i]->name,
-                                     length, words, percent(look));
+            snprintf(text, size, "%s of %.*s %d %%", gm_study_rows[i]->name, length, words, percent(look));
         }
     }
 }

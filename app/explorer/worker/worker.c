@@ -313,8 +313,7 @@ void gm_worker_close(struct gm_worker *worker, char *parting)
     }
     char movie[GM_MESSAGE];
     if (gm_capture_stop_recording(&worker->capture, movie)) {
-        const size_t told = strlen(parting);
-        snprintf(parting + told, GM_MESSAGE - told, "%s%s", told ? " " : "", movie);
+        gm_append(parting, GM_MESSAGE, "%s%s", parting[0] ? " " : "", movie);
     }
     release(worker);
 }

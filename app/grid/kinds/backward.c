@@ -53,9 +53,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     (void)words;
     char message[GM_MESSAGE];
     const struct gm_request *request = &grid->request;
-    if (!gm_request_ends_together(request, message)) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_arena_check(grid->arena, gm_request_ends_together(request, message), message);
     grid->lines = gm_arena_take(grid->arena, request->count, sizeof *grid->lines);
     for (size_t i = 0; i < request->count; i++) {
         const struct gm_lane_spec *spec = &request->lanes[i];

@@ -24,8 +24,7 @@ static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
     const char *const *schemes = planned ? scene->stability->schemes : scene->schemes;
     char list[512] = "";
     for (size_t i = 0; schemes[i] && (planned || i < MOST); i++) {
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? "," : "", schemes[i]);
+        gm_append(list, sizeof list, "%s%s", i ? "," : "", schemes[i]);
     }
     return gm_arena_print(grid->arena, "%s scheme=%s", scene->stability->arguments, list);
 }

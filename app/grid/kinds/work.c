@@ -74,10 +74,9 @@ static bool is_varied(const struct gm_grid *grid, const char *word)
 static void note_settings(struct gm_grid *grid, const struct gm_arguments *words)
 {
     for (int i = 1; i < words->count; i++) {
-        const size_t used = strlen(grid->settings);
         if (!is_varied(grid, words->words[i])) {
-            snprintf(grid->settings + used, sizeof grid->settings - used, "%s%s", used ? " " : "",
-                     words->words[i]);
+            gm_append(grid->settings, sizeof grid->settings, "%s%s", grid->settings[0] ? " " : "",
+                      words->words[i]);
         }
     }
 }
@@ -335,9 +334,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     grid->parameter = resolution ? gm_scene_parameter(scene, resolution) : NULL;
     grid->errors = work && work->errors ? work->errors : usual_errors;
     grid->ratio = ratio && is_typed(grid, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
-    if (!gm_request_ends_together(&grid->request, message)) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_arena_check(grid->arena, gm_request_ends_together(&grid->request, message), message);
     if (!is_one_problem(grid)) {
         gm_arena_refuse(
             grid->arena, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",

@@ -147,9 +147,7 @@ struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct 
 {
     char message[GM_MESSAGE];
     struct gm_sweep_chart *chart = gm_arena_take(arena, 1, sizeof *chart);
-    if (!plan(chart, sweep, message)) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena, plan(chart, sweep, message), message);
     for (const char *at = strstr(sweep->head, ",status,"); at > sweep->head; at--) {
         chart->status += *at == ',';
     }

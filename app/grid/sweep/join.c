@@ -26,9 +26,7 @@ void gm_sweep_note(const struct gm_sweep *sweep, const char *path)
     /* the words as gm_arguments_split reads them */
     const char *text = gm_arena_print(sweep->arena, "geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n",
                                       sweep->arguments, sweep->measure ? sweep->measure : "", sweep->shards);
-    if (!gm_folder_make_for(path, message)) {
-        gm_arena_refuse(sweep->arena, "%s", message);
-    }
+    gm_arena_check(sweep->arena, gm_folder_make_for(path, message), message);
     if (access(note, F_OK) != 0) {
         const int error = gm_temporary_write(note, text, strlen(text));
         if (error != 0) {

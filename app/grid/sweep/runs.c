@@ -127,10 +127,10 @@ static void try_some(const struct gm_sweep *sweep, const char *key, const char *
 {
     char message[GM_MESSAGE], ignored[GM_MESSAGE];
     int other;
-    if (!try_run(sweep, 0, key, value, status, message) &&
-        !try_run(sweep, middle_of(sweep), key, value, &other, ignored)) {
-        gm_arena_refuse(sweep->arena, "%s", message);
-    }
+    gm_arena_check(sweep->arena,
+                   try_run(sweep, 0, key, value, status, message) ||
+                       try_run(sweep, middle_of(sweep), key, value, &other, ignored),
+                   message);
 }
 
 /* Returns true if the key can have this value. */
@@ -227,13 +227,13 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
         gm_arena_refuse(arena, "sweep of which scene? See geomint list scenes");
     }
     sweep->scene = gm_request_scene(arguments->count, arguments->words, status, message);
-    if (!sweep->scene ||
-        !gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
-                       GM_RUN_SCHEMES, message) ||
-        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
-        !gm_chosen_open(&sweep->chosen, sweep->scene, measure, message)) {
-        gm_arena_refuse(arena, "%s", message);
-    }
+    gm_arena_check(arena,
+                   sweep->scene &&
+                       gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                                     GM_RUN_SCHEMES, message) &&
+                       gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) &&
+                       gm_chosen_open(&sweep->chosen, sweep->scene, measure, message),
+                   message);
     check(sweep, status);
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, put_head), free);

@@ -187,9 +187,7 @@ static bool begin_anew(struct gm_sweep_table *table, char *message)
 static void open_file(struct gm_sweep_table *table, const char *retry)
 {
     char message[GM_MESSAGE];
-    if (!gm_folder_make_for(table->path, message)) {
-        gm_arena_refuse(table->arena, "%s", message);
-    }
+    gm_arena_check(table->arena, gm_folder_make_for(table->path, message), message);
     table->fd = open(table->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     struct stat found = {0};
     if (table->fd < 0 || fstat(table->fd, &found) != 0) {
@@ -208,16 +206,12 @@ static void open_file(struct gm_sweep_table *table, const char *retry)
         gm_arena_need(table->arena, false);
     }
     read_rows(table, retry);
-    bool begun = true;
     if (table->again_count > 0) {
-        begun = begin_anew(table, message);
+        gm_arena_check(table->arena, begin_anew(table, message), message);
     } else if (table->size < found.st_size && ftruncate(table->fd, table->size) != 0) {
-        begun = refuse_writing(message, table->path);
+        gm_arena_check(table->arena, refuse_writing(message, table->path), message);
     } else if (table->size == 0) {
-        begun = append(table, table->sweep->head, message);
-    }
-    if (!begun) {
-        gm_arena_refuse(table->arena, "%s", message);
+        gm_arena_check(table->arena, append(table, table->sweep->head, message), message);
     }
 }
 

@@ -56,10 +56,10 @@ static void measure(struct gm_grid *grid)
     char path[PATH], message[GM_MESSAGE];
     struct gm_sweep_sum sum;
     struct gm_sweep_table *table = gm_sweep_table_open(grid->arena, &grid->sweep, path_of(grid, path), NULL);
-    if (!gm_sweep_table_fill(table, 0, grid->chart, grid->listener, &sum, message) ||
-        !gm_sweep_table_close(table, message)) {
-        gm_arena_refuse(grid->arena, "%s", message);
-    }
+    gm_arena_check(grid->arena,
+                   gm_sweep_table_fill(table, 0, grid->chart, grid->listener, &sum, message) &&
+                       gm_sweep_table_close(table, message),
+                   message);
 }
 
 static void draw(const struct gm_grid *grid, struct gm_picture *picture)
