@@ -57,7 +57,7 @@ struct gm_node {
     };
 };
 
-/* The exact value of a constant that was computed from others. That of 0.1 + 0.2 is 3/10, not 0.3 + 5.6e-17. */
+/* The exact value of a constant that was computed from others: 3/10 of 0.1 + 0.2, not 0.3 + 5.6e-17. */
 struct gm_exact_value;
 
 struct gm_formula {

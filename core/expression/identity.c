@@ -207,31 +207,34 @@ static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, s
     return found;
 }
 
-/* True if the field has no other values than these formulas: rational ones of known numbers. */
-static bool is_known(const struct gm_random_values *random)
+/* The number of points that refute a formula if it is 0 at none of them; 0: the field cannot. A rational formula of known
+   numbers has the same values there. A root may have the wrong sign, at half of the points. */
+static int points_to_refute(const struct gm_random_values *random)
 {
     bool known = true;
+    int roots = 0;
     gm_residue residue;
     for (size_t k = 0; k < random->count && known; k++) {
         const struct gm_node *node = &random->graph->nodes[random->parts[k]];
         known = node->operation == GM_CONSTANT ? gm_formula_residue(random->graph, random->parts[k], &residue)
                 : node->operation == GM_VARIABLE
                     ? !is_fixed(random, node) || gm_residue_of(random->fixed[node->a], &residue)
-                    : gm_is_rational(node->operation);
+                    : gm_is_rational(node->operation) || node->operation == GM_OPERATION_SQRT;
+        roots += node->operation == GM_OPERATION_SQRT;
     }
-    return known;
+    return !known || roots > 1 ? 0 : roots ? PROOFS_BY_SIGN : 1;
 }
 
-/* The number of points, up to `enough` in `tries` of them, where the value is 0; -1: it is not 0 at one. */
-static int zeros(struct gm_random_values *random, gm_node_id node, int enough, uint64_t tries)
+/* The number of points, up to `enough`, where the value is 0; minus that, up to `most`, where it never is; 0: both. */
+static int zeros(struct gm_random_values *random, gm_node_id node, int enough, int most, uint64_t tries)
 {
-    int found = 0;
-    for (uint64_t i = 0; i < tries && found >= 0 && found < enough; i++) {
+    int found = 0, others = 0;
+    for (uint64_t i = 0; i < tries && found < enough && others < most && !(found && others); i++) {
         if (take_point(random)) {
-            found = random->values[node] == 0 ? found + 1 : -1;
+            *(random->values[node] == 0 ? &found : &others) += 1;
         }
     }
-    return found;
+    return found && others ? 0 : found - others;
 }
 
 /* A value, and the sum of the magnitudes of its terms and of theirs: its rounding error in units of the last place. */
@@ -300,12 +303,13 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
                                                                          : LEAST_TRIES;
         struct gm_random_values random = {
             .graph = graph, .parts = parts, .count = count, .values = &memory->exact};
-        const bool proved = zeros(&random, node, enough, tries) == enough;
+        const bool proved = zeros(&random, node, enough, 1, tries) == enough;
         random.fixed = fixed;
         random.variables = variables;
-        const int here = proved ? enough : zeros(&random, node, enough, tries);
+        const int refuting = points_to_refute(&random),
+                  here = proved ? enough : zeros(&random, node, enough, refuting + !refuting, tries);
         const double bound = here == enough ? small : rounding;
-        int tests = here < 0 && is_known(&random) ? -1 : 0;
+        int tests = here < 0 && -here == refuting ? -1 : 0;
         for (uint64_t i = 0; i < tries && tests >= 0 && tests < (proved ? 1 : TESTS); i++) {
             const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
             if (isfinite(there.value) && isfinite(there.size)) {

@@ -16,9 +16,9 @@ enum gm_identity {
 /* The proof uses the field of the 2^61 - 1 residues (gm_residue_of): + - * / and whole powers are exact, roots are
    roots, and sin and cos, exp, sinh and cosh are points of their curves. A formula that is 0 at random points there is
    0; the probability of an error is below 1e-15 times the degree. Signs and roots have two values and take
-   more points. If the proof fails it is tried where variable i < variables is fixed[i], unless that is NaN. A
-   rational formula of known numbers that is not 0 there is refuted; else doubles at 20 random points must be 0 to
-   their rounding error. */
+   more points. If the proof fails it is tried where variable i < variables is fixed[i], unless that is NaN.
+   A formula of known numbers, rational but for one root, that is not 0 there is refuted. For others doubles
+   at 20 random points must be 0 to their rounding error. */
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables);
 

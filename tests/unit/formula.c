@@ -564,6 +564,8 @@ static void identities_are_found(void **unused)
         {"2^30*y*2^31 - y", GM_NOT_ZERO},
         {"(x + y)^2 - (x^2 + 2*x*y + y^2) + 1e-17*x", GM_NOT_ZERO},
         {"0.3*x - 0.3000000000001*x", GM_NOT_ZERO},
+        {"sqrt(x)*(x + y) - sqrt(x)*x - sqrt(x)*y + 1e-17/x", GM_NOT_ZERO},
+        {"sqrt((1 + x^2)^2) - 1 - x^2", GM_ZERO_TESTED},
         {"exp(x + y) - exp(x)*exp(y)*(1 + 1e-13)", GM_NOT_ZERO},
         {"x + y", GM_NOT_ZERO},
         {"x^2 + 1e-9*y", GM_NOT_ZERO},
