@@ -24,8 +24,7 @@
 #include "render/message.h"
 
 /* The flags of the build for built-in problems: no operation is fused or exchanged. (The search for common
-   subexpressions would take a fifth of the time and find nothing.) Functions of formulas are always the
-   library's, except single instructions. */
+   subexpressions would take a fifth of the time and find nothing.) */
 static const char *const flags[] = {
     "-std=c17",
     "-O3",
@@ -33,20 +32,6 @@ static const char *const flags[] = {
     "-fno-math-errno",
     "-fno-gcse",
     "-fno-gcse-after-reload",
-    "-fno-builtin-pow",
-    "-fno-builtin-exp",
-    "-fno-builtin-log",
-    "-fno-builtin-sin",
-    "-fno-builtin-cos",
-    "-fno-builtin-tan",
-    "-fno-builtin-asin",
-    "-fno-builtin-acos",
-    "-fno-builtin-atan",
-    "-fno-builtin-atan2",
-    "-fno-builtin-sinh",
-    "-fno-builtin-cosh",
-    "-fno-builtin-tanh",
-    "-fno-builtin-erfc",
     "-fno-builtin-fmod",
     "-D_GNU_SOURCE",
     "-DGM_PROBLEM=user",

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 enum { MOST = 32, MOST_VISITED = 4 * MOST, MOST_POWER = 64 };
 
 struct tidying {
@@ -87,7 +89,7 @@ static bool multiply(struct tidying *tidying, struct product *product, gm_node_i
     }
     switch (here.operation) {
     case GM_CONSTANT:
-        *(halves > 0 ? &product->above : &product->below) *= pow(here.value, (double)labs(halves / 2));
+        *(halves > 0 ? &product->above : &product->below) *= gm_pow(here.value, (double)labs(halves / 2));
         return true;
     case GM_OPERATION_NEGATE:
         product->above *= halves / 2 % 2 ? -1 : 1;

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/functions/functions.h"
 
 /* A dual edge shorter than this part of its edge counts as none: two right angles that face each other leave
    round-off of either sign. */
@@ -106,7 +107,7 @@ static void orient(struct building *building)
         double longest = 0;
         for (int k = 0; k < 3; k++) {
             const int n = (k + 1) % 3;
-            longest = fmax(longest, hypot(p[2 * n] - p[2 * k], p[2 * n + 1] - p[2 * k + 1]));
+            longest = fmax(longest, gm_hypot(p[2 * n] - p[2 * k], p[2 * n + 1] - p[2 * k + 1]));
         }
         const double twice = twice_area(p);
         const int *v = complex->triangle + 3 * t;
@@ -346,11 +347,11 @@ static void measure(struct gm_complex *complex)
             const double x = bx - ax, y = by - ay;
             const int e = complex->triangle_edge[3 * t + (size_t)a];
             complex->star1[e] += dot / cross / 2;
-            complex->length[e] = hypot(x, y);
+            complex->length[e] = gm_hypot(x, y);
             share[k] = (x * x + y * y) * dot / cross;
             sum += share[k];
             obtuse |= dot < 0;
-            const double angle = atan2(cross, dot) * 180 / M_PI;
+            const double angle = gm_atan2(cross, dot) * 180 / M_PI;
             complex->smallest_angle = fmin(complex->smallest_angle, angle);
             complex->largest_angle = fmax(complex->largest_angle, angle);
         }
@@ -379,9 +380,9 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
         a++;
     }
     const int k = (a + 2) % 3, b = (a + 1) % 3;
-    return fabs(atan2(2 * complex->area[triangle],
-                      (p[2 * a] - p[2 * k]) * (p[2 * b] - p[2 * k]) +
-                          (p[2 * a + 1] - p[2 * k + 1]) * (p[2 * b + 1] - p[2 * k + 1]))) *
+    return fabs(gm_atan2(2 * complex->area[triangle],
+                         (p[2 * a] - p[2 * k]) * (p[2 * b] - p[2 * k]) +
+                             (p[2 * a + 1] - p[2 * k + 1]) * (p[2 * b + 1] - p[2 * k + 1]))) *
            180 / M_PI;
 }
 

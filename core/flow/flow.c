@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 size_t gm_flow_size(const struct gm_flow *flow)
 {
     return gm_flow_block_numbers(flow) + 1 + GM_TRACER_NUMBERS * flow->tracers;
@@ -225,7 +227,7 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi)
     for (size_t t = 0; t < flow->complex->triangles; t++) {
         double u[2];
         gm_flow_velocity(flow->complex, psi, t, u);
-        largest = fmax(largest, hypot(u[0], u[1]));
+        largest = fmax(largest, gm_hypot(u[0], u[1]));
     }
     return largest;
 }

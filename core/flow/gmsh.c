@@ -5,6 +5,7 @@
 #include "core/flow/gmsh.h"
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/functions/functions.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -681,7 +682,7 @@ static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
     add_normals(reader, normal);
-    const double size = hypot(hypot(normal[0], normal[1]), normal[2]);
+    const double size = gm_hypot(gm_hypot(normal[0], normal[1]), normal[2]);
     int first = 0;
     for (int k = 0; k < 3; k++) {
         normal[k] /= size > 0 ? size : 1;

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 static double strip_height(const struct gm_rectangle *r)
 {
     return (r->transposed ? r->width : r->height) / (double)r->strips;
@@ -52,7 +54,7 @@ static double wall_distance(double h, double a)
     double low = h, high = a;
     for (int i = 0; i < 100; i++) {
         const double c = (low + high) / 2;
-        const bool far = 2 * atan(h / c) < atan(h / (a - c));
+        const bool far = 2 * gm_atan(h / c) < gm_atan(h / (a - c));
         low = far ? low : c;
         high = far ? c : high;
     }
@@ -93,14 +95,14 @@ static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
     /* the far walls have their given places, which N a and M h miss by a rounding */
     const double length = r->transposed ? r->height : r->width, depth = r->transposed ? r->width : r->height;
     /* the bend from the other wall takes a little of c, which matters in short rows alone */
-    const double rest = n < 6 ? 1 / (1 - pow(decay, (double)(n - 1))) : 1;
+    const double rest = n < 6 ? 1 / (1 - gm_pow(decay, (double)(n - 1))) : 1;
     for (long row = 0; row <= m; row++) {
         const double across = row == m ? depth : h * (double)row;
         for (long k = 0; row % 2 == 0 && k <= n; k++) {
             add_point(pattern, r, k == n ? length : a * (double)k, across);
         }
         for (long k = 0; row % 2 == 1 && k < n; k++) {
-            const double bend = pow(decay, (double)k) - pow(decay, (double)(n - 1 - k));
+            const double bend = gm_pow(decay, (double)k) - gm_pow(decay, (double)(n - 1 - k));
             add_point(pattern, r, ((double)k + 0.5) * a + (c - a / 2) * rest * bend, across);
         }
     }
@@ -152,7 +154,7 @@ static double random_in_unit(uint64_t *state)
 static bool is_fixed(const struct gm_rectangle *r, const double *p)
 {
     for (size_t i = 0; i < r->fixed_count; i++) {
-        if (hypot(p[0] - r->fixed[2 * i], p[1] - r->fixed[2 * i + 1]) < 1e-9 * (r->width + r->height)) {
+        if (gm_hypot(p[0] - r->fixed[2 * i], p[1] - r->fixed[2 * i + 1]) < 1e-9 * (r->width + r->height)) {
             return true;
         }
     }
@@ -171,7 +173,7 @@ static double largest_angle(const struct gm_rectangle *r, const struct pattern *
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         const double ax = p[2 * i] - p[2 * k], ay = p[2 * i + 1] - p[2 * k + 1];
         const double bx = p[2 * j] - p[2 * k], by = p[2 * j + 1] - p[2 * k + 1];
-        largest = fmax(largest, atan2(fabs(ax * by - ay * bx), ax * bx + ay * by));
+        largest = fmax(largest, gm_atan2(fabs(ax * by - ay * bx), ax * bx + ay * by));
     }
     return largest * 180 / M_PI;
 }
@@ -202,8 +204,8 @@ static bool jiggle(struct pattern *pattern, const struct gm_rectangle *r, const 
         if ((side && floor_or_lid) || is_fixed(r, p)) {
             continue;
         }
-        shift[2 * v] = side ? 0 : far * cos(turn);
-        shift[2 * v + 1] = floor_or_lid ? 0 : far * sin(turn);
+        shift[2 * v] = side ? 0 : far * gm_cos(turn);
+        shift[2 * v + 1] = floor_or_lid ? 0 : far * gm_sin(turn);
     }
     bool bad = true;
     for (int round = 0; bad; round++) {

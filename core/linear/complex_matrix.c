@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/complex.h"
+
 enum { SIZE = GM_COMPLEX_LARGEST * GM_COMPLEX_LARGEST, TERMS = 20 };
 
 static const double factorials[GM_PHI_MOST] = {1, 1, 2, 6};
@@ -19,9 +21,9 @@ bool gm_complex_eliminate(size_t n, double complex *a, double complex *r)
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
         for (size_t i = k + 1; i < n; i++) {
-            pivot = cabs(a[i * n + k]) > cabs(a[pivot * n + k]) ? i : pivot;
+            pivot = gm_cabs(a[i * n + k]) > gm_cabs(a[pivot * n + k]) ? i : pivot;
         }
-        if (!(cabs(a[pivot * n + k]) > 0)) {
+        if (!(gm_cabs(a[pivot * n + k]) > 0)) {
             return false;
         }
         for (size_t j = k; j < n && pivot != k; j++) {
@@ -121,10 +123,10 @@ void gm_complex_phi(size_t n, const double complex *z, size_t count, double comp
 {
     double norm = 0;
     for (size_t i = 0; i < n * n; i++) {
-        norm += cabs(z[i]);
+        norm += gm_cabs(z[i]);
     }
     if (n == 1 && norm >= 1) {
-        phi[0] = cexp(z[0]);
+        phi[0] = gm_cexp(z[0]);
         for (size_t k = 1; k < count; k++) {
             phi[k] = (phi[k - 1] - 1 / factorials[k - 1]) / z[0];
         }

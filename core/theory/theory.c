@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/functions/functions.h"
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
@@ -127,7 +128,7 @@ static bool holds(const struct gm_coefficients *coefficients, const struct gm_tr
     for (int tree = first; tree < last; tree++) {
         const struct gm_ball defect = residual(coefficients, trees, weights, tree);
         const double size = fabs(gm_ball_midpoint(defect));
-        norm = hypot(norm, size / trees->trees[tree].symmetry);
+        norm = gm_hypot(norm, size / trees->trees[tree].symmetry);
         if (!gm_ball_may_vanish(defect) || is_beyond_doubt(coefficients, trees, weights, tree, defect)) {
             failing++;
             if (size > fabs(theory->residual)) {
@@ -143,7 +144,7 @@ static bool holds(const struct gm_coefficients *coefficients, const struct gm_tr
     }
     theory->failing = failing;
     theory->of = last - first;
-    theory->error_constant = norm * pow(coefficients->evaluations, theory->order);
+    theory->error_constant = norm * gm_pow(coefficients->evaluations, theory->order);
     return false;
 }
 
@@ -487,7 +488,7 @@ static int digits_of(const struct gm_coefficients *coefficients)
                 i < s * s ? coefficients->a[side][i] : coefficients->b[side][i - s * s];
             const double size = fabs(gm_ball_midpoint(ball));
             if (size > 0 && ball.radius > rounding * size) {
-                const double digits = 1 + floor(log10(size)) - log10(2 * ball.radius);
+                const double digits = 1 + floor(gm_log10(size)) - gm_log10(2 * ball.radius);
                 fewest = fmin(fewest, digits);
                 most = fmax(most, digits);
             }

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/schemes.h"
 
 const char *gm_kept_texts_add(struct gm_kept_texts *texts, char *text)
@@ -125,6 +126,6 @@ bool gm_written_schemes(const char *text, const struct gm_problem *problem, cons
 
 double gm_written_rounded(double value)
 {
-    const double scale = pow(10, floor(log10(value))), digits = value / scale;
+    const double scale = gm_pow(10, floor(gm_log10(value))), digits = value / scale;
     return (digits < sqrt(2) ? 1 : digits < sqrt(10) ? 2 : digits < sqrt(50) ? 5 : 10) * scale;
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "core/field/families/heat.h"
+#include "core/functions/functions.h"
 #include "scenes/field/frames.h"
 
 /* Returns the divisor of a value at a node that gives the value in the original frame. */
@@ -88,8 +89,8 @@ static bool carry(const struct gm_view *view, size_t j, double unit, struct gm_e
     for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
         seen[e].u /= view->state[j];
         carried[e] = gm_heat_carried(nu, &frame, seen[e]);
-        carried[e].u = log(carried[e].u);
-        seen[e].u = log(seen[e].u);
+        carried[e].u = gm_log(carried[e].u);
+        seen[e].u = gm_log(seen[e].u);
     }
     return isfinite(frame.boost) && frame.projection * view->dt < 1;
 }

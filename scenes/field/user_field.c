@@ -17,6 +17,7 @@
 
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "core/model/scope.h"
@@ -257,7 +258,7 @@ static void make_work(struct gm_user_field *field)
         work->errors = field->errors;
         for (size_t i = 0; i < GM_COUNT(field->resolutions); i++) {
             field->resolutions[i] = fmax(field->kind->rows->lowest, floor(ldexp(points, (int)i - 1)));
-            field->errors[i] = pow(10, -1 - (double)i);
+            field->errors[i] = gm_pow(10, -1 - (double)i);
         }
     }
 }

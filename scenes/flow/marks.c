@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 enum { MOST_LEVELS = 64 };
 
 static const struct gm_flow *flow_of(const struct gm_lane *lane)
@@ -230,7 +232,7 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
                      *b = complex->point + 2 * complex->boundary_vertex[e];
         const double x = outward[0], z = outward[1];
         const bool upright = fabs(x) >= fabs(z);
-        const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
+        const double away = (upright ? 0.012 : 0.028) * size / gm_hypot(x, z);
         struct gm_mark *name =
             gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
                          upright && x < 0 ? GM_ANCHOR_RIGHT

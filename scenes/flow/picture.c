@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/marks.h"
 
@@ -40,7 +41,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     if (flows->show == GM_SHOW_SPEED) {
         gm_flow_vertex_velocities(complex, y, scratch);
         for (size_t v = 0; v < n; v++) {
-            values[v] = hypot(scratch[2 * v], scratch[2 * v + 1]);
+            values[v] = gm_hypot(scratch[2 * v], scratch[2 * v + 1]);
         }
         return values;
     }
@@ -295,7 +296,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
             gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
                            points, made);
             const double *first = points, *last = points + 2 * (made - 1);
-            const double slope = made > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
+            const double slope = made > 1 ? gm_log(first[1] / last[1]) / gm_log(first[0] / last[0]) : NAN;
             const char *name = made > 1
                                    ? gm_picture_text(picture, "%s, order %.2f", look->errors[k].name, slope)
                                    : look->errors[k].name;

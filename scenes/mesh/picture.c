@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/expression/number.h"
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/mesh/observed.h"
 
@@ -205,7 +206,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
         if (made > 0) {
             gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, points[0],
-                         points[1] * pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
+                         points[1] * gm_pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
         }
         series++;
     }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
@@ -158,7 +159,7 @@ double gm_log_volume(const struct gm_view *view)
 double gm_volume_error(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return expm1(values.log_volume - values.divergence);
+    return gm_expm1(values.log_volume - values.divergence);
 }
 
 const char *gm_volume_why(const struct gm_view *view)

@@ -11,6 +11,7 @@
    rotation of Kirchhoff's equations (30) corrected:
        figures 7, 9     four vortices on a square
        figures 8, 10    two opposite ones turned by an angle */
+#include "core/functions/functions.h"
 #include "scenes/ode/vortices_draw.h"
 
 #include <math.h>
@@ -72,11 +73,11 @@ static void turn_polygon(const struct gm_problem *problem, double t, const doubl
     (void)m;
     const size_t count = problem->n / 2;
     const double strength = *(const double *)problem->parameters;
-    const double radius = hypot(y0[0], y0[count]);
+    const double radius = gm_hypot(y0[0], y0[count]);
     const double turn = (double)(count - 1) * strength / (4 * M_PI * radius * radius) * t;
     for (size_t i = 0; i < count; i++) {
-        y[i] = cos(turn) * y0[i] - sin(turn) * y0[count + i];
-        y[count + i] = sin(turn) * y0[i] + cos(turn) * y0[count + i];
+        y[i] = gm_cos(turn) * y0[i] - gm_sin(turn) * y0[count + i];
+        y[count + i] = gm_sin(turn) * y0[i] + gm_cos(turn) * y0[count + i];
     }
 }
 
@@ -189,7 +190,7 @@ static double symmetry_defect(const struct gm_view *view)
     }
     return vortices->configuration == GM_REDUCED
                ? 0
-               : fmax(hypot(s[0] + s[2], s[4] + s[6]), hypot(s[1] + s[3], s[5] + s[7]));
+               : fmax(gm_hypot(s[0] + s[2], s[4] + s[6]), gm_hypot(s[1] + s[3], s[5] + s[7]));
 }
 
 static double pair_distance(const struct gm_view *view)
@@ -199,7 +200,7 @@ static double pair_distance(const struct gm_view *view)
     if (vortices->configuration != GM_VORTEX_COLLISION) {
         return NAN;
     }
-    return hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
+    return gm_hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
 }
 
 static double position_error(const struct gm_view *view)
@@ -212,7 +213,7 @@ static double position_error(const struct gm_view *view)
     const size_t count = problem->n / 2;
     const double turn =
         (double)(count - 1) * *(const double *)problem->parameters / (4 * M_PI) * (view->t - view->t0);
-    return hypot(view->state[0] - cos(turn), view->state[count] - sin(turn));
+    return gm_hypot(view->state[0] - gm_cos(turn), view->state[count] - gm_sin(turn));
 }
 
 static double tracers_lost(const struct gm_view *view)
@@ -239,7 +240,7 @@ static double quarter_turn(const struct gm_view *view)
 static void record_crossing(const struct gm_view *view, double *entry)
 {
     const size_t count = gm_vortices_carried(view->parameters);
-    entry[0] = hypot(view->state[0], view->state[count]);
+    entry[0] = gm_hypot(view->state[0], view->state[count]);
 }
 
 static double section_shift(const struct gm_view *view)
@@ -262,7 +263,7 @@ static double section_shift(const struct gm_view *view)
 static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
 {
     const struct gm_vortices *vortices = parameters_of;
-    const double turned = atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
+    const double turned = gm_atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
     switch (vortices->configuration) {
     case GM_REDUCED:
     case GM_TWO_TURNED: /* its mirror image is as near */
@@ -272,7 +273,7 @@ static size_t point(const void *parameters_of, double x, double y, struct gm_cho
         gm_choose(&choices[0], "angle", remainder(turned, 2 * M_PI));
         return 1;
     case GM_VORTEX_COLLISION:
-        gm_choose(&choices[0], "distance", fmin(2 * hypot(x, y), 1));
+        gm_choose(&choices[0], "distance", fmin(2 * gm_hypot(x, y), 1));
         return 1;
     default:
         return 0;

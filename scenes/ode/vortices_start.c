@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "core/functions/functions.h"
+
 #include "scenes/ode/vortices_start.h"
 
 /* splitmix64 (Steele, Lea & Flood 2014): a number in [0, 1) */
@@ -45,8 +47,8 @@ static void place(const struct gm_vortices *vortices, size_t count, double *x, d
         default:
             break;
         }
-        x[i] = radius * cos(turn);
-        y[i] = radius * sin(turn);
+        x[i] = radius * gm_cos(turn);
+        y[i] = radius * gm_sin(turn);
         if (vortices->configuration == GM_PATCHES) { /* odd ones are opposite to even ones */
             x[i] *= i % 2 == 0 ? 1 : -1;
             y[i] = (i % 2 == 0 ? 1 : -1) * (y[i] + 1 - patch);
@@ -82,7 +84,7 @@ bool gm_vortices_coincide(const struct gm_vortices *vortices)
     bool close = false;
     for (size_t i = 0; i < 4; i++) {
         for (size_t j = i + 1; j < 4; j++) {
-            close |= hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
+            close |= gm_hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
         }
     }
     return close;
@@ -96,7 +98,7 @@ void gm_vortices_start(const void *parameters_, const struct gm_problem *problem
     for (size_t k = 0; k < tracers; k++) {
         const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
                      turn = golden_angle * (double)k;
-        y[2 * carried + k] = radius * cos(turn);
-        y[2 * carried + tracers + k] = radius * sin(turn);
+        y[2 * carried + k] = radius * gm_cos(turn);
+        y[2 * carried + tracers + k] = radius * gm_sin(turn);
     }
 }

@@ -2,6 +2,7 @@
 /* The kind of fields in one space dimension: its facets, the families of schemes that need them, and their
    certification. */
 #include "core/field/field.h"
+#include "core/functions/functions.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,7 +63,7 @@ static void exact_breather(const struct gm_problem *problem, double x, double t,
 {
     const double w = 0.6, g = sqrt((1 - w) * (1 + w));
     (void)problem;
-    values[0] = 4 * atan(g * sin(w * t) / (w * cosh(g * x)));
+    values[0] = 4 * gm_atan(g * gm_sin(w * t) / (w * gm_cosh(g * x)));
 }
 
 /* A soliton of velocity 1. */
@@ -71,15 +72,15 @@ static void exact_kdv(const struct gm_problem *problem, double x, double t, doub
     const double lambda = gm_kdv_of(problem)->framed.lambda,
                  period = problem->line.dx * (double)problem->line.points;
     const double along = x - (1 + lambda) * t, away = along - period * floor(along / period + 0.5);
-    values[0] = 3 / (cosh(away / 2) * cosh(away / 2)) + lambda;
+    values[0] = 3 / (gm_cosh(away / 2) * gm_cosh(away / 2)) + lambda;
 }
 
 static void exact_nls(const struct gm_problem *problem, double x, double t, double *values)
 {
     (void)problem;
-    const double size = sqrt(2) / cosh(x - t), phase = (x - t) / 2 + 1.25 * t;
-    values[0] = size * cos(phase);
-    values[1] = size * sin(phase);
+    const double size = sqrt(2) / gm_cosh(x - t), phase = (x - t) / 2 + 1.25 * t;
+    values[0] = size * gm_cos(phase);
+    values[1] = size * gm_sin(phase);
 }
 
 /* dx sum of u in the original frame */
@@ -398,7 +399,7 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
         }
         free(y);
     }
-    note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
+    note_order(certificate, farthest, equation->power > 0 ? gm_log2(error[0] / error[1]) : order, name);
 }
 
 /* The equation of a file, and the same from a moving frame. */

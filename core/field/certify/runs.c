@@ -9,6 +9,7 @@
 
 #include "core/basics.h"
 #include "core/field/multisymplectic.h"
+#include "core/functions/functions.h"
 
 static const struct gm_settings no_settings;
 
@@ -169,7 +170,7 @@ double gm_field_order_in_time(const struct gm_field_subject *subject, const doub
         change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
     }
     free(end);
-    return good ? log2(change[0] / change[1]) : NAN;
+    return good ? gm_log2(change[0] / change[1]) : NAN;
 }
 
 /* ---- on finer and finer grids ---- */
@@ -207,7 +208,7 @@ static double tell(const struct refined *refined, double by_differences, double 
                    struct gm_ladder *ladder, const char **reason)
 {
     const size_t last = refined->count - 1;
-    const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
+    const double by_errors = gm_log2(refined->error[last - 1] / refined->error[last]);
     const bool exactly =
         by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
     ladder->count = exactly ? last + 1 : last;
@@ -252,7 +253,7 @@ static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_
     const double on_coarse = largest_difference(coarse, differences),
                  on_fine = largest_difference(fine, differences),
                  round_off = ldexp(8 * DBL_EPSILON, differences) * gm_field_size(fine->problem, fine->start);
-    return on_fine <= round_off || log2(on_coarse / on_fine) > differences - 0.5;
+    return on_fine <= round_off || gm_log2(on_coarse / on_fine) > differences - 0.5;
 }
 
 double gm_field_order(const struct gm_certified_system *system, const struct gm_scheme *scheme,
@@ -277,7 +278,7 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
             size = gm_field_size(system->problem, system->start);
         } else {
             const double change = apart(coarse->problem, before, state, 2);
-            const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
+            const double slope = k > 1 ? gm_log2(refined.change[k - 2] / change) : NAN;
             refined.change[k - 1] = change;
             if (change < 1e-11 * size) {
                 *reason = "differences between runs on finer grids do not exceed round-off";
@@ -285,7 +286,7 @@ double gm_field_order(const struct gm_certified_system *system, const struct gm_
                 break;
             }
             /* an order above that which is claimed may be one of grids that are too coarse for it */
-            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const double by_errors = gm_log2(refined.error[k - 1] / refined.error[k]);
             const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
                               fabs(slope - slope_before) < 0.15 ||
                               (slope > wanted && (k + 1 == LEVELS || !system->finer));

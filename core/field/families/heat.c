@@ -23,6 +23,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/functions/functions.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
    and the last of v hold the boundary values of the new level already. */
@@ -50,9 +51,9 @@ static void by_boosts(const struct step *step)
 {
     const double nu = step->viscosity, h = step->h, k = step->k, *u = step->u, r = nu * k / (h * h);
     for (size_t j = 1; j + 1 < step->points; j++) {
-        const double a = nu / h * log(u[j + 1] / u[j - 1]);
+        const double a = nu / h * gm_log(u[j + 1] / u[j - 1]);
         const double away = a / (4 * nu) * (2 * step->sigma + a * k);
-        step->v[j] = exp(away) * (u[j] + 2 * r * (sqrt(u[j + 1]) * sqrt(u[j - 1]) - u[j]));
+        step->v[j] = gm_exp(away) * (u[j] + 2 * r * (sqrt(u[j + 1]) * sqrt(u[j - 1]) - u[j]));
     }
 }
 
@@ -60,11 +61,11 @@ static void by_projections(const struct step *step)
 {
     const double nu = step->viscosity, h = step->h, k = step->k, *u = step->u;
     for (size_t j = 1; j + 1 < step->points; j++) {
-        const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
+        const double right = gm_log(u[j + 1] / u[j]), left = gm_log(u[j - 1] / u[j]);
         const double a = nu / h * (right - left), p = 2 * nu / (h * h) * (right + left), m = 1 - p * k;
         const double arrival = step->sigma + a * k;
         const double away = a * (2 * step->sigma + a * k) + p * arrival * arrival / m;
-        step->v[j] = u[j] * exp(away / (4 * nu)) / sqrt(m);
+        step->v[j] = u[j] * gm_exp(away / (4 * nu)) / sqrt(m);
     }
 }
 
@@ -74,8 +75,9 @@ struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetr
     const double b = symmetry->boost, p = symmetry->projection, s = symmetry->scale;
     const double m = 1 - p * event.t, x = event.x + b * event.t;
     const double power = b * (2 * event.x + b * event.t) + p * x * x / m;
-    return (struct gm_event){
-        .t = s * s * event.t / m, .x = s * x / m, .u = event.u * exp(-power / (4 * diffusivity)) * sqrt(m)};
+    return (struct gm_event){.t = s * s * event.t / m,
+                             .x = s * x / m,
+                             .u = event.u * gm_exp(-power / (4 * diffusivity)) * sqrt(m)};
 }
 
 unsigned gm_heat_keeps(const struct gm_scheme *scheme)
@@ -86,7 +88,7 @@ unsigned gm_heat_keeps(const struct gm_scheme *scheme)
 struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
                                       const double u[3])
 {
-    const double right = log(u[2] / u[1]), left = log(u[0] / u[1]);
+    const double right = gm_log(u[2] / u[1]), left = gm_log(u[0] / u[1]);
     return (struct gm_heat_symmetry){
         .boost = diffusivity / h * (right - left),
         .projection =

@@ -5,11 +5,13 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
+
 double gm_heat_factor(const struct gm_heat *heat, bool fixed, double x, double t)
 {
     const double lambda = heat->framed.lambda, passed = t - heat->framed.line.begin;
     const double original = fixed ? x - lambda * passed : x;
-    return exp(-lambda / (4 * heat->diffusivity) * (2 * original + lambda * passed));
+    return gm_exp(-lambda / (4 * heat->diffusivity) * (2 * original + lambda * passed));
 }
 
 const struct gm_problem gm_problem_heat = {

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/linear/sine.h"
 #include "core/tape.h"
 
 struct own {
@@ -147,7 +146,6 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
                 gm_tape_open(&self->gradient, &system->graph, system->rates, n, n, values) &&
                 gm_tape_open(&self->hessian, &system->graph, form->hessian, n * n, n, values) &&
                 gm_user_line_open(&self->line, system, form->formulas.start, n, form->formulas.exact, values);
-    self->gradient.sines = gm_sines; /* no other engine computes forms */
     if (good) {
         gm_formula_evaluate(&system->graph, system->graph.count, values, all);
         for (size_t i = 0; i < n * n; i++) {

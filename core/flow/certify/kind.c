@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kind of flows on complexes: its families of schemes and their certification. */
 #include "core/flow/flow.h"
+#include "core/functions/functions.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,7 +42,7 @@ static struct gm_flow *open_torus(double viscosity, double *start)
     flow->viscosity = viscosity;
     for (size_t v = 0; v < complex->vertices; v++) {
         const double x = 2 * M_PI * complex->point[2 * v], z = 2 * M_PI * complex->point[2 * v + 1];
-        omega[v] = 6 * sin(x + z + 0.3) + 5 * sin(x - 2 * z + 1.1) + 4 * sin(2 * x + z + 0.2);
+        omega[v] = 6 * gm_sin(x + z + 0.3) + 5 * gm_sin(x - 2 * z + 1.1) + 4 * gm_sin(2 * x + z + 0.2);
     }
     if (!gm_flow_start_vorticity(flow, omega, start)) {
         gm_flow_close(flow);
@@ -104,7 +105,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
     }
     gm_flow_close(flow);
     ladder->count = good ? LADDER : 0;
-    certificate->order = good ? log(ladder->error[0] / ladder->error[LADDER - 1]) / log(4) : NAN;
+    certificate->order = good ? gm_log(ladder->error[0] / ladder->error[LADDER - 1]) / gm_log(4) : NAN;
     certificate->order_problem = "torus";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
 }

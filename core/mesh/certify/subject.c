@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/certify.h"
+#include "core/functions/functions.h"
 #include "core/linear/differences.h"
 #include "core/mesh/nodes.h"
 
@@ -26,8 +27,8 @@ static void profile(const void *unused, const double *x, size_t count, double *v
     (void)unused;
     for (size_t i = 0; i < count; i++) {
         const double from_middle = gamma * (x[i] - length / 2);
-        value[i] = 4 * atan(exp(from_middle));
-        slope[i] = 2 * gamma / cosh(from_middle);
+        value[i] = 4 * gm_atan(gm_exp(from_middle));
+        slope[i] = 2 * gamma / gm_cosh(from_middle);
         rate[i] = -velocity * slope[i];
     }
 }

@@ -4,6 +4,8 @@
        R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
 #include "core/ode/certify/linear_stability.h"
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/linear/complex_matrix.h"
 
 #include <complex.h>
@@ -40,7 +42,7 @@ static double grown(const struct gm_problem *problem, const struct gm_scheme *sc
         if (gm_run_advance(run, steps) == GM_OK) {
             size = 0;
             for (size_t i = 0; i < problem->n; i++) {
-                size = hypot(size, gm_run_state(run)[i]);
+                size = gm_hypot(size, gm_run_state(run)[i]);
                 end[i] = gm_run_state(run)[i];
             }
         }
@@ -64,7 +66,7 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
         double end[3];
         struct gm_problem problem = gm_problem_linear;
         problem.parameters = matrix;
-        return pow(grown(&problem, scheme, 1, y, steps, end), 1 / (double)steps);
+        return gm_pow(grown(&problem, scheme, 1, y, steps, end), 1 / (double)steps);
     }
     case GM_TEST_OSCILLATOR: {
         /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its
@@ -127,7 +129,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 {
     const double complex z = re + im * I;
     if (scheme->family == &gm_family_explicit) {
-        return cabs(stability_function(scheme->coefficients, z));
+        return gm_cabs(stability_function(scheme->coefficients, z));
     }
     if (scheme->family == &gm_family_implicit) {
         const struct gm_tableau *row = scheme->coefficients;
@@ -135,7 +137,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
         for (int i = 0; i < row->composition->steps; i++) {
             product *= stability_function(row, gm_composition_fraction(row->composition, i) * z);
         }
-        return cabs(product);
+        return gm_cabs(product);
     }
     if (gm_scheme_is_composition(scheme)) {
         const struct gm_substeps *substeps = scheme->coefficients;

@@ -7,6 +7,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "core/certify.h"
+#include "core/functions/functions.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
@@ -108,10 +109,10 @@ static double measure_by_tolerance(const struct gm_subject *subject, const struc
         return NAN;
     }
     for (int i = 0; i < LADDER; i++) {
-        const struct gm_settings settings = {.tolerance = pow(10, -4 - 2 * i)};
+        const struct gm_settings settings = {.tolerance = gm_pow(10, -4 - 2 * i)};
         const struct trial trial = make_trial(subject, scheme, &settings, until / TIMES, 1, exact);
-        x[i] = log(scheme->family->by_tolerance ? trial.step : settings.tolerance);
-        e[i] = log(trial.error);
+        x[i] = gm_log(scheme->family->by_tolerance ? trial.step : settings.tolerance);
+        e[i] = gm_log(trial.error);
     }
     return slope(x, e, LADDER);
 }
@@ -144,7 +145,7 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     /* the highest orders exceed round-off at large steps only */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const int64_t before = between;
-        const double finer = (adaptive ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
+        const double finer = (adaptive ? 8 : span) / TIMES * gm_pow(2, 1 + (double)i / PER_OCTAVE);
         between = lround(finer);
         if (!adaptive && between == before) {
             continue;
@@ -157,8 +158,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
             break;
         }
         if (error < ceiling) {
-            x[count] = log(ladder->dt[count] = dt);
-            e[count] = log(ladder->error[count] = error);
+            x[count] = gm_log(ladder->dt[count] = dt);
+            e[count] = gm_log(ladder->error[count] = error);
             ladder->count = (size_t)++count;
         }
     }

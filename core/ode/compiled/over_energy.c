@@ -14,7 +14,7 @@
 #include "core/scheme.h"
 
 #define GM_PASS_SCALAR
-#include "core/ode/kernel/simd.h"
+#include "core/functions/lanes.h"
 
 #include GM_KERNELS
 

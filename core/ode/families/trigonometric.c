@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
@@ -22,7 +23,7 @@ static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GA
 
 static double sinc(double x)
 {
-    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : gm_sin(x) / x;
 }
 
 /* phi and a at h omega */
@@ -73,9 +74,9 @@ static struct component *components(const struct gm_task *task, struct gm_member
         double phi, a;
         filters(*(const enum filter *)task->scheme->coefficients, x, &phi, &a);
         list[c] = (struct component){.kick = task->dt / 2 * a,
-                                     .cosine = cos(x),
+                                     .cosine = gm_cos(x),
                                      .sine_over_omega = task->dt * sinc(x),
-                                     .omega_sine = omega * sin(x)};
+                                     .omega_sine = omega * gm_sin(x)};
     }
     return list;
 }

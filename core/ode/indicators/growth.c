@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/ode.h"
@@ -118,7 +119,7 @@ static void record(struct gm_growth *growth, int64_t steps)
 static void add(struct gm_growth *growth, double step, double length)
 {
     struct sums *sums = &growth->sums;
-    const double ratio = log(length);
+    const double ratio = gm_log(length);
     sums->growth += ratio;
     sums->moment += (sums->time + step / 2) * ratio;
     sums->time += step;
@@ -164,7 +165,7 @@ static double orthonormalise(const struct gm_growth *growth)
         for (size_t c = 0; c < size; c++) {
             v[c] /= sqrt(square);
         }
-        logarithm += log(square) / 2;
+        logarithm += gm_log(square) / 2;
     }
     return logarithm;
 }

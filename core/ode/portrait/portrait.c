@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
@@ -278,7 +279,7 @@ static int compare(const struct search *search, const double *a, const double *b
 static bool is_on_curve(const struct search *search, const struct gm_equilibrium *equilibrium)
 {
     static const double aside = 1e-3; /* of the window */
-    const double *j = equilibrium->jacobian, *row = hypot(j[0], j[1]) > hypot(j[2], j[3]) ? j : j + 2,
+    const double *j = equilibrium->jacobian, *row = gm_hypot(j[0], j[1]) > gm_hypot(j[2], j[3]) ? j : j + 2,
                  null[] = {row[1], -row[0]};
     const double largest = fmax(fabs(null[0]) / search->size[0], fabs(null[1]) / search->size[1]);
     for (double sign = -1; sign <= 1; sign += 2) {

@@ -46,6 +46,9 @@ static bool spell(enum gm_operation operation, const char *words[3])
         {GM_OPERATION_MIN, {"K(smaller)(", ", ", ")"}},
         {GM_OPERATION_MAX, {"K(larger)(", ", ", ")"}},
         {GM_OPERATION_BELOW, {"K(below)(", ", ", ")"}},
+#define GM_FORMULA_FUNCTION(constant, name, arity)                                                           \
+    {GM_OPERATION_##constant, {"K(" #name ")(", (arity) == 2 ? ", " : NULL, ")"}},
+#include "core/functions/functions.def"
     };
     static const char *const others[GM_OPERATIONS] = {
 #define GM_OPERATION(constant, ...) [GM_OPERATION_##constant] = "K(value_" #constant ")(",

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
@@ -187,7 +188,7 @@ static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const cha
     const double size = fmax(fabs(low), fabs(high)), round_off = 1e-12 * size;
     /* a state at rest has no width of its own */
     const double width = high - low > round_off ? 1.06 * (high - low) : size > 0 ? size : 1;
-    const double step = exp2(floor(log2(width))) / 8, margin = (width - (high - low)) / 2;
+    const double step = ldexp(1, (int)floor(gm_log2(width))) / 8, margin = (width - (high - low)) / 2;
     *axis = (struct gm_axis){.label = label ? gm_typeset(picture, label) : "",
                              .low = step * floor((low - margin) / step),
                              .high = step * ceil((high + margin) / step)};
@@ -240,8 +241,9 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     double sum = 0;
     size_t chords = 0;
     for (size_t i = 1; i < count; i++) {
-        const double length = hypot((points[2 * i] - points[2 * i - 2]) / (panel->x.high - panel->x.low),
-                                    (points[2 * i + 1] - points[2 * i - 1]) / (panel->y.high - panel->y.low));
+        const double length =
+            gm_hypot((points[2 * i] - points[2 * i - 2]) / (panel->x.high - panel->x.low),
+                     (points[2 * i + 1] - points[2 * i - 1]) / (panel->y.high - panel->y.low));
         sum += isfinite(length) ? length : 0;
         chords += isfinite(length);
     }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/curve.h"
 #include "core/ode/ode.h"
 #include "scenes/common/system/look.h"
@@ -94,7 +95,8 @@ double gm_ring_action_error(const struct gm_view *view)
 {
     const struct gm_curve_action before = loop_at(view, view->start), now = loop_at(view, view->state);
     const double roundoff = 1e-12,
-                 wanted = resolved(&before, most) * exp(-friction_of(view->problem) * (view->t - view->t0)),
+                 wanted =
+                     resolved(&before, most) * gm_exp(-friction_of(view->problem) * (view->t - view->t0)),
                  divisor = fabs(wanted) <= roundoff * now.magnitude ? now.magnitude : wanted,
                  error = resolved(&now, most) - wanted;
     return error == 0 ? 0 : error / divisor;

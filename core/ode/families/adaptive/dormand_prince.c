@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode_scheme_texts.h"
@@ -94,7 +95,8 @@ static double norm_of(const struct member *member, const double *vector, const d
     double sum = 0;
     for (size_t c = 0; c < member->n; c++) {
         const double scale = member->tolerance * (1 + fabs(member->y[c]));
-        sum += pow((vector[c] - (origin ? origin[c] : 0)) / scale, 2);
+        const double part = (vector[c] - (origin ? origin[c] : 0)) / scale;
+        sum += part * part;
     }
     return sqrt(sum / (double)member->n);
 }
@@ -117,7 +119,7 @@ static enum gm_status begin(const struct gm_task *task, struct member *member, s
     gm_field(task->problem, stage, slope, 1);
     progress->evaluations += 2;
     const double steepest = fmax(rate, norm_of(member, slope, member->k) / guess);
-    const double next = steepest > none ? pow(0.01 / steepest, 0.2) : fmax(1e-6, guess / 1000);
+    const double next = steepest > none ? gm_pow(0.01 / steepest, 0.2) : fmax(1e-6, guess / 1000);
     member->number[TIME] = task->t;
     member->number[STEP] = copysign(next > 0 ? fmin(100 * guess, next) : guess, task->dt);
     return isfinite(rate) ? GM_OK : GM_BLOW_UP;
@@ -192,7 +194,7 @@ static enum gm_status own_step(const struct gm_task *task, struct member *member
     double h = member->number[STEP], most = 5;
     for (int too_small = 0; too_small < MOST_TOO_SMALL && t + h != t;) {
         const double error = try_step(task, member, h, progress);
-        const double factor = fmin(most, fmax(0.2, 0.9 * pow(error, -0.2)));
+        const double factor = fmin(most, fmax(0.2, 0.9 * gm_pow(error, -0.2)));
         if (error <= 1) {
             progress->own_steps++;
             member->number[STEP] = h * factor;

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 
 #include "core/basics.h"
+#include "core/functions/complex.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -43,7 +44,7 @@ static void drift_by_midpoint(double ds, double binding, double complex *u, doub
 
 static void levi_civita(const struct gm_problem *problem, double ds, double binding, double *y, double *t)
 {
-    double complex u = csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
+    double complex u = gm_csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
     drift_by_midpoint(ds / 2, binding, &u, &w, t);
     const double complex q = u * u;
     const double at[] = {creal(q), cimag(q)};

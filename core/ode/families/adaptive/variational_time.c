@@ -21,6 +21,7 @@
 #include <stdlib.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
@@ -52,7 +53,7 @@ static bool find_root(enum rule rule, double v, double slope, double square, dou
     for (int sign = 1; sign >= -1; sign -= 2) {
         const double candidate = (v - sign * root) / slope, ratio = candidate / tau0;
         const bool allowed = rule == RECTANGLE ? ratio > 0 : ratio > 0.3 && ratio < 3;
-        const double away = fabs(log(candidate / near));
+        const double away = fabs(gm_log(candidate / near));
         if (allowed && away < best) {
             best = away;
             *tau = candidate;

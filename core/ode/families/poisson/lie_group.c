@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/poisson/turns.h"
 #include "core/ode/kernel/members.h"
@@ -34,10 +35,10 @@ struct crouch_grossman {
 static void drag(const double *axis, double *a)
 {
     const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2], angle = sqrt(square);
-    const double half = angle > 0 ? sin(angle / 2) / (angle / 2) : 1;
+    const double half = angle > 0 ? gm_sin(angle / 2) / (angle / 2) : 1;
     double once[3], twice[3], along = 0;
     if (angle > 0.5) {
-        along = (angle - sin(angle)) / (square * angle);
+        along = (angle - gm_sin(angle)) / (square * angle);
     } else { /* 1/6 - x^2/120 + ..., if the difference would cancel */
         for (int k = 7; k >= 0; k--) {
             along = (1 - square * along) / ((2 * k + 2) * (2 * k + 3));

@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -42,7 +43,7 @@ static void shear(const struct gm_problem *problem, double h, double *first, dou
 static void turn(size_t n, double angle, double *first, double *second)
 {
     const size_t half = n / 2;
-    const double cosine = cos(angle), sine = sin(angle);
+    const double cosine = gm_cos(angle), sine = gm_sin(angle);
     for (size_t c = 0; c < half; c++) {
         const double q_sum = first[c] + second[c], q_apart = first[c] - second[c];
         const double p_sum = first[half + c] + second[half + c], p_apart = first[half + c] - second[half + c];

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
@@ -37,9 +38,9 @@ static void stumpff(double alpha, double s, double G[4])
         c2 /= 2;
         c3 /= 6;
     } else {
-        const double root = sqrt(fabs(z)), sine = z > 0 ? sin(root / 2) : sinh(root / 2);
+        const double root = sqrt(fabs(z)), sine = z > 0 ? gm_sin(root / 2) : gm_sinh(root / 2);
         c2 = 2 * sine * sine / fabs(z);
-        c3 = (z > 0 ? root - sin(root) : sinh(root) - root) / (fabs(z) * root);
+        c3 = (z > 0 ? root - gm_sin(root) : gm_sinh(root) - root) / (fabs(z) * root);
     }
     G[0] = 1 - z * c2;
     G[1] = s * (1 - z * c3);
@@ -79,7 +80,7 @@ static bool solve_universal(double h, double r0, double slope, double alpha, dou
 
 bool gm_kepler_flow(double h, double y[4])
 {
-    const double r0 = hypot(y[0], y[1]), slope = y[0] * y[2] + y[1] * y[3];
+    const double r0 = gm_hypot(y[0], y[1]), slope = y[0] * y[2] + y[1] * y[3];
     const double alpha = 2 / r0 - (y[2] * y[2] + y[3] * y[3]);
     if (!(r0 > 0) || !isfinite(alpha)) {
         return false;

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode_scheme_texts.h"
@@ -29,8 +30,8 @@ static void rotate(size_t half, double h, bool exact, const double *w, double *v
     }
     double a = 1 / (1 + square / 4), b = a / 2;
     if (exact && square > 0) {
-        const double angle = sqrt(square), sinc = sin(angle / 2) / (angle / 2);
-        a = sin(angle) / angle;
+        const double angle = sqrt(square), sinc = gm_sin(angle / 2) / (angle / 2);
+        a = gm_sin(angle) / angle;
         b = sinc * sinc / 2;
     }
     for (size_t i = 0; i < half; i++) {

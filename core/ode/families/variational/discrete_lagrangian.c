@@ -27,6 +27,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
@@ -309,7 +310,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     step.task = task;
     step.progress = progress;
     step.friction = rule->damped ? gm_ode_of(problem)->action->friction(problem) : 0;
-    const double fades = exp(-step.friction * task->dt / 2);
+    const double fades = gm_exp(-step.friction * task->dt / 2);
     if (rule->late) {
         memset(step.manifold.at + half, 0, half * sizeof *y);
         if (!gm_manifold_settle(&step.manifold, y)) {
