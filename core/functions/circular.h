@@ -148,7 +148,9 @@ GM_INLINE real K(cos)(real x)
 GM_FUNCTION_OF_PASS real K(tan)(real x)
 {
     const struct K(turned) t = K(turned)(x);
-    const struct K(pair) c = K(cosine_of)(t), cosine = K(sum)(c.hi, c.lo), sine = K(sum)(t.r, -K(below_r)(t));
+    const struct K(pair) c = K(cosine_of)(t),
+                         cosine = K(sum)(c.hi, c.lo - 0.5 * K(product)(t.r, t.r).lo), /* r^2 was rounded */
+        sine = K(sum)(t.r, -K(below_r)(t));
     const pattern odd = -(t.quarter & 1);
     const struct K(pair) over = {K(blend)(odd, -cosine.hi, sine.hi), K(blend)(odd, -cosine.lo, sine.lo)},
                          under = {K(blend)(odd, sine.hi, cosine.hi), K(blend)(odd, sine.lo, cosine.lo)},
