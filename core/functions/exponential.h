@@ -86,7 +86,7 @@ GM_INLINE real K(exp_of)(real x, real lo)
         return number_scalar(bits_scalar(value) + ((bits_scalar(shifted) - row_of) << 47));
     }
 #endif
-    /* the power of two in two steps: it may be that of no number */
+    /* the power of two in two steps: alone it may overflow */
     const real power = (K(number)(K(bits)(shifted) - row_of) - 0x1.8p52) * 0x1p-5,
                half = (power * 0.5 + 0x1.8p52) - 0x1.8p52;
     return value * K(power_of_two)(half) * K(power_of_two)(power - half);
