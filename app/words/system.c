@@ -265,7 +265,7 @@ static bool open_system(struct making *making)
     const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
     made->close = gm_system_scene_close;
     if (form) {
-        made->scene = gm_user_form_open(&making->system, made->name, words, &fault, making->message);
+        made->scene = gm_form_scene_open(&making->system, made->name, words, &fault, making->message);
     } else {
         made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere,
                                                  &fault, making->message)

@@ -249,7 +249,7 @@ bool gm_declared_parameters(struct gm_reading *reading)
     return !reading->fault.failed;
 }
 
-/* Returns the line of a triangulation; NULL: there is none, or mesh: X = F moves the nodes of a line. */
+/* Returns the line of a triangulation; NULL without one, and for mesh: X = F, which moves nodes. */
 static const struct gm_system_line *mesh_of(const struct gm_reading *reading)
 {
     const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_MESH);

@@ -175,11 +175,12 @@ static bool find_kind(struct reading *reading, struct gm_span name)
     char copy[41];
     snprintf(copy, sizeof copy, "%.*s", brief(name), text);
     const char *near = gm_nearest(copy, GM_WRITTEN_KINDS, kind_name, NULL);
-    return gm_fail_first(&reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
-                         near ? "; did you mean "
-                              : "; there are runge-kutta, explicit, partitioned, nystrom, "
-                                "composition, splitting, processed, adjoint, projected, relaxed, lie, strang, split",
-                         near ? near : "");
+    return gm_fail_first(
+        &reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
+        near ? "; did you mean "
+             : "; there are runge-kutta, explicit, partitioned, nystrom, "
+               "composition, splitting, processed, adjoint, projected, relaxed, lie, strang, split",
+        near ? near : "");
 }
 
 static bool read_file(struct reading *reading, struct gm_span span)

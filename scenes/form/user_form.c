@@ -336,7 +336,7 @@ static struct gm_system_scene *open_other(struct gm_user_system *system, const s
     return open_one(system, first->scene.name, first->scene.words, &fault, sentence);
 }
 
-const struct gm_scene *gm_user_form_open(struct gm_user_system *system, const char *name,
+const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, const char *name,
                                          const char *const *words, struct gm_fault *fault, char *sentence)
 {
     const bool choices = system->choices.count > 0;

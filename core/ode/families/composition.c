@@ -169,9 +169,9 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
 
 #define COMPOSITION(passive)                                                                                 \
     {                                                                                                        \
-        .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums,                     \
-        .loop = loop, .carries_passive = passive, .workspace_open = workspace_open,                          \
-        .workspace_close = workspace_close, .workspace_reset = workspace_reset, .lacks = lacks,              \
+        .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums, .loop = loop,       \
+        .carries_passive = passive, .workspace_open = workspace_open, .workspace_close = workspace_close,    \
+        .workspace_reset = workspace_reset, .lacks = lacks,                                                  \
     }
 const struct gm_family gm_family_composition = COMPOSITION(false);
 const struct gm_family gm_family_composition_carrying = COMPOSITION(true);

@@ -102,5 +102,7 @@ double gm_ring_action_error(const struct gm_view *view)
 
 const char *gm_ring_error_why(const struct gm_view *view)
 {
-    return isnan(friction_of(view->problem)) ? "forces other than a friction -c p may change the action of the loop" : gm_ring_why(view);
+    return isnan(friction_of(view->problem))
+               ? "forces other than a friction -c p may change the action of the loop"
+               : gm_ring_why(view);
 }
