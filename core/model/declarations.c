@@ -253,8 +253,7 @@ bool gm_declared_parameters(struct gm_reading *reading)
 static const struct gm_system_line *mesh_of(const struct gm_reading *reading)
 {
     const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_MESH);
-    const char *text = line ? reading->text + line->value.begin : "";
-    return text[0] == 'X' && text[1 + strspn(text + 1, " \t")] == '=' ? NULL : line;
+    return line && gm_span_until(reading->text, line->value, "=") < line->value.end ? NULL : line;
 }
 
 bool gm_declared_kind(struct gm_reading *reading)

@@ -156,8 +156,12 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         const char *file = glyphs->files[i];
         const bool missing = !file && !short_of_memory;
-        const FT_Error error =
+        errno = 0;
+        FT_Error error =
             file ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
+        if (error != 0 && errno == ENOMEM) { /* a file without space to be read is one of an unknown format */
+            error = FT_Err_Out_Of_Memory;
+        }
         if (missing) {
             snprintf(message, size, "No font was found for \"%s\"; install the package fonts-dejavu-core.",
                      wanted[i].family);

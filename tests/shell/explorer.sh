@@ -560,7 +560,7 @@ start 24x16
 open_scene soliton
 wait_for 'Mesh points'
 keys Down Down Down Down Down Down Down Down
-wait_for 'a mix of both, or…'
+wait_for 'a mix of both,'
 screen | grep '….*…' && fail 'a cut text ends with two ellipses'
 keys q
 clean 0

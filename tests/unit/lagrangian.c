@@ -108,7 +108,7 @@ static void states_agree(void **unused)
             }
         }
         /* what is asked of H is the same */
-        const unsigned of_rates = GM_NEEDS_VOLUME | GM_NEEDS_QUADRATIC | GM_NEEDS_MAGNETIC,
+        const unsigned of_rates = GM_NEEDS_VOLUME | GM_NEEDS_QUADRATIC | GM_NEEDS_MAGNETIC | GM_NEEDS_PARTS,
                        of_action = GM_NEEDS_ACTION | GM_NEEDS_FRICTION;
         assert_int_equal(gm_kind_ode.facets(&l.problem) & ~of_action,
                          gm_kind_ode.facets(&h.problem) & ~of_rates & ~of_action);

@@ -763,7 +763,6 @@ static void make(struct gm_arena *arena, void *data)
         assemble(own, arena);
     }
     own->loops = (struct gm_loops){.field = field};
-    own->facets = (struct gm_ode){.written = true};
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
         own->loops.force = force;
