@@ -48,6 +48,10 @@ bool gm_residue_of(double value, gm_residue *residue)
 {
     const double largest = 0x1p36, size = fabs(value);
     bool found = true;
+    if (!isfinite(value)) {
+        *residue = 0;
+        return false;
+    }
     gm_residue result = 0;
     double rest = size, p[2] = {1, floor(size)}, q[2] = {0, 1}; /* the last two continued fractions */
     while (p[1] * q[1] < largest && fabs(p[1] / q[1] - size) > 0x1p-52 * size) {
