@@ -374,9 +374,9 @@ static void assemble(struct own *own, struct gm_arena *arena)
                 gm_arena_refuse(arena, "the equation of %s holds no unknown", system->variables[i].name);
             }
             double *weight = own->weight + own->offset[i];
+            const double *cell = found.dual ? complex->area : complex->star0; /* of a 0-form */
             for (size_t k = 0; k < rows[i].rows; k++) {
-                const double cell = found.dual == (found.degree == 0) ? complex->area[k] : complex->star0[k];
-                weight[k] = found.degree == 0 ? cell : 1;
+                weight[k] = found.degree == 0 ? cell[k] : 1;
             }
             gm_matrix_scale(&rows[i], weight);
             entries += (size_t)rows[i].start[rows[i].rows];
