@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -136,6 +137,15 @@ static void find_fonts(const struct font_wanted wanted[GM_FONT_COUNT], char *fil
     }
 }
 
+/* Returns false if there is no memory for a file: FreeType calls one that it cannot read one of an unknown format. */
+static bool has_space(const char *file)
+{
+    struct stat about;
+    void *block = stat(file, &about) == 0 ? malloc((size_t)about.st_size + 1) : NULL;
+    free(block);
+    return block != NULL || errno != ENOMEM;
+}
+
 struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
 {
     static const struct font_wanted wanted[GM_FONT_COUNT] = {
@@ -156,10 +166,9 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         const char *file = glyphs->files[i];
         const bool missing = !file && !short_of_memory;
-        errno = 0;
         FT_Error error =
             file ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
-        if (error != 0 && errno == ENOMEM) { /* a file without space to be read is one of an unknown format */
+        if (error != 0 && file && !has_space(file)) {
             error = FT_Err_Out_Of_Memory;
         }
         if (missing) {
