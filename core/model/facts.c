@@ -760,6 +760,9 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
     }
     system->facets = nodes;
+    if (gm_system_is_form(system)) { /* its rates are forms, and no formulas of numbers */
+        return true;
+    }
     const size_t mark = gm_arena_mark(system->arena);
     bool *marks = gm_arena_take(system->arena, 5 * count, sizeof *marks);
     if (!marks || !nodes) {

@@ -337,7 +337,7 @@ static struct gm_system_scene *open_other(struct gm_user_system *system, const s
 }
 
 const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, const char *name,
-                                         const char *const *words, struct gm_fault *fault, char *sentence)
+                                          const char *const *words, struct gm_fault *fault, char *sentence)
 {
     const bool choices = system->choices.count > 0;
     *fault = (struct gm_fault){0};
