@@ -242,6 +242,9 @@ int64_t gm_growth_steps(const struct gm_growth *growth)
 
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
 {
+    if (growth->frame) { /* a volume has no records */
+        return (struct gm_growth_values){.log_volume = growth->log_volume, .divergence = growth->divergence};
+    }
     const struct sums *now = &growth->sums;
     const struct sums *half = &growth->records[growth->run->steps / 2 / growth->every];
     const double exponent = now->growth / now->time, megno = now->average / now->time;
@@ -250,7 +253,5 @@ struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
         .megno = megno,
         .exponent_change = exponent - half->growth / half->time,
         .megno_change = megno - half->average / half->time,
-        .log_volume = growth->log_volume,
-        .divergence = growth->divergence,
     };
 }
