@@ -502,10 +502,5 @@ const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const c
     const bool choices = system->choices.count > 0;
     struct gm_system_scene *first = open_one(system, name, words, elsewhere, sentence);
     *fault = (struct gm_fault){0};
-    if (first && choices &&
-        !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {
-        gm_system_scene_close(&first->scene);
-        return NULL;
-    }
-    return first ? &first->scene : NULL;
+    return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
 }

@@ -332,7 +332,7 @@ static struct gm_system_scene *open_one(struct gm_user_system *system, const cha
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
                                           char *sentence)
 {
-    struct gm_fault fault;
+    struct gm_fault fault = {0};
     return open_one(system, first->scene.name, first->scene.words, &fault, sentence);
 }
 
@@ -342,10 +342,5 @@ const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, const c
     const bool choices = system->choices.count > 0;
     *fault = (struct gm_fault){0};
     struct gm_system_scene *first = open_one(system, name, words, fault, sentence);
-    if (first && choices &&
-        !gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence})) {
-        gm_system_scene_close(&first->scene);
-        return NULL;
-    }
-    return first ? &first->scene : NULL;
+    return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
 }

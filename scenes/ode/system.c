@@ -729,12 +729,6 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const
                                             char *sentence)
 {
     struct gm_system_scene *first = open_one(system, name, words, typed, sentence);
-    const unsigned long refusals = gm_memory_refusals();
     *fault = (struct gm_fault){0};
-    if (first && (!gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence}) ||
-                  gm_memory_refusals() != refusals)) {
-        gm_system_scene_close(&first->scene);
-        return NULL;
-    }
-    return first ? &first->scene : NULL;
+    return gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence});
 }

@@ -88,7 +88,7 @@ static const char *names_of(struct gm_arena *arena, const struct gm_user_system 
     return names;
 }
 
-static void name(struct gm_arena *arena, void *data)
+static void resolve(struct gm_arena *arena, void *data)
 {
     struct naming *naming = data;
     const struct gm_user_system *system = naming->model->system;
@@ -155,7 +155,7 @@ gm_node_id gm_user_conserved(const struct gm_user_model *model, const double *va
     struct naming naming = {model, values, named, graph, GM_NO_NODE, lacks};
     struct gm_arena *arena = gm_arena_open();
     lacks[0] = '\0';
-    const bool good = gm_arena_run(arena, name, &naming);
+    const bool good = gm_arena_run(arena, resolve, &naming);
     gm_arena_close(arena);
     return good ? naming.node : GM_NO_NODE;
 }

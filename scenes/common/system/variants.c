@@ -336,10 +336,23 @@ static void unite(struct gm_arena *arena, void *data)
     }
 }
 
-bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
+const struct gm_scene *gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
 {
-    return gm_arena_run(first->arena, unite, &(struct uniting){.first = first, .opening = opening}) ||
-           gm_refuse(opening->sentence, "%s", gm_arena_reason(first->arena));
+    const unsigned long refusals = gm_memory_refusals();
+    if (!first) {
+        return NULL;
+    }
+    const bool united = !opening->open || gm_arena_run(first->arena, unite,
+                                                       &(struct uniting){.first = first, .opening = opening});
+    if (!united) {
+        gm_refuse(opening->sentence, "%s", gm_arena_reason(first->arena));
+    } else if (gm_memory_refusals() != refusals) {
+        gm_refuse(opening->sentence, "not enough memory");
+    } else {
+        return &first->scene;
+    }
+    gm_system_scene_close(&first->scene);
+    return NULL;
 }
 
 /* Returns true if a system has a lane's values. */

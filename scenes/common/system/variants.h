@@ -17,9 +17,11 @@ struct gm_system_opening {
     char *sentence;
 };
 
-/* Opens the systems of all words of the choices, and gives all of them, and the first, the same rows. False
-   with a fault, or only a sentence. */
-bool gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening);
+/* Opens the systems of all words of the choices, and gives all of them, and the first, the same rows; without an opener the
+   first one is alone. Returns the scene of the first; NULL if that is NULL, or with a fault, or only a sentence, and then
+   closes it. */
+const struct gm_scene *gm_system_unite(struct gm_system_scene *first,
+                                       const struct gm_system_opening *opening);
 /* Gives a lane the system of its values. False with a sentence on failure. */
 bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence);
 
