@@ -731,7 +731,7 @@ static void make(struct gm_arena *arena, void *data)
     own->piece = gm_arena_take(arena, own->unknowns + 1, sizeof *own->piece);
     own->start = gm_arena_take(arena, opening->n, sizeof(double));
     own->seen = gm_arena_take(arena, opening->n, sizeof(double));
-    own->scratch = gm_arena_take(arena, 2 * (own->space.complex->edges + 1), sizeof(double));
+    own->scratch = gm_arena_take(arena, 3 * (own->space.complex->edges + 1), sizeof(double));
     own->held = gm_arena_take(arena, opening->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
     own->given = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
@@ -874,7 +874,7 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     const double *exact = gm_form_values_root(&own->exacts, number), *found = own->forms[form];
     const double *cell = type.dual ? own->space.complex->area : own->space.complex->star0;
     double *difference = own->scratch, mean = 0;
-    double *known = difference + n;
+    double *known = difference + n, *weighted = known + n;
     if (system->forms[form].unknown && own->piece[own->offset[form]] >= 0) {
         for (size_t i = 0; i < n; i++) {
             mean += cell[i] * exact[i] / own->space.complex->total_area;
@@ -884,14 +884,10 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
         known[i] = exact[i] - mean;
         difference[i] = found[i] - known[i];
     }
-    double *room = malloc(n * sizeof *room), error = NAN;
-    if (room) {
-        const double size = sqrt(gm_form_square(&own->space, type, known, room));
-        error = sqrt(gm_form_square(&own->space, type, difference, room)) / (size > 0 ? size : 1);
-    }
-    free(room);
+    const double size = sqrt(gm_form_square(&own->space, type, known, weighted)),
+                 error = sqrt(gm_form_square(&own->space, type, difference, weighted));
     pthread_mutex_unlock(&own->turn);
-    return error;
+    return error / (size > 0 ? size : 1);
 }
 
 double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form)
