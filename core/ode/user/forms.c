@@ -782,11 +782,14 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
         star = strcmp(stars[i], written) == 0 ? (enum gm_star)i : star;
     }
     *fault = (struct gm_fault){0};
-    if (gm_cholesky_missing()) {
-        return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
-    }
     struct opening opening = {.model = model, .variables = variables};
     opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
+    const bool solves = opening.complex &&
+                        (model->equations.root_count > 0 || opening.complex->star != GM_STAR_CIRCUMCENTRIC);
+    if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */
+        gm_complex_close(opening.complex);
+        return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
+    }
     struct gm_arena *arena = opening.complex ? gm_arena_open() : NULL;
     if (!arena || !gm_arena_run(arena, make, &opening)) {
         if (arena && !fault->sentence[0]) {
