@@ -5,10 +5,12 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/expression/choices.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
@@ -86,9 +88,12 @@ struct formula {
     bool read;
 };
 
+/* The body of the scheme's arena, which a fault leaves; the sentence is empty when out of memory. */
 struct reading {
     struct gm_written_scheme *scheme;
+    struct gm_arena *arena; /* the scheme's */
     const char *text;
+    struct gm_span span;
     struct gm_formula graph;
     struct gm_written_number *decimals; /* the graph's variables */
     size_t decimal_count;
@@ -97,8 +102,19 @@ struct reading {
     struct formula lets[GM_MOST_LETS];
     char let_names[GM_MOST_LETS][64];
     gm_node_id *nodes[GM_SCHEME_WORDS]; /* of each line's numbers */
-    struct gm_first_fault fault;
+    struct gm_fault *fault;
 };
+
+_Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct reading *reading, size_t place,
+                                                                 const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
+    va_end(arguments);
+    reading->fault->offset = place;
+    gm_arena_leave(reading->arena);
+}
 
 static int brief(struct gm_span span)
 {
@@ -142,7 +158,7 @@ static const char *kind_name(size_t i, const void *data)
     return (void)data, kinds[i].name;
 }
 
-static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t place, struct gm_span value)
+static void take_line(struct reading *reading, enum gm_scheme_word word, size_t place, struct gm_span value)
 {
     struct gm_written_scheme *scheme = reading->scheme;
     const char *comment =
@@ -153,55 +169,47 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
     }
     if (word == GM_SCHEME_WORD_LET) {
         if (scheme->let_count == GM_MOST_LETS) {
-            return gm_fail_first(&reading->fault, place, "a scheme has at most %d lets", GM_MOST_LETS);
+            fail(reading, place, "a scheme has at most %d lets", GM_MOST_LETS);
         }
         scheme->lets[scheme->let_count++] = value;
-        return true;
+        return;
     }
     if (scheme->lines[word].said) {
-        return gm_fail_first(&reading->fault, place, "%s: is given twice", words[word].word);
+        fail(reading, place, "%s: is given twice", words[word].word);
     }
     scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
-    return true;
 }
 
-static bool find_kind(struct reading *reading, struct gm_span name)
+static void find_kind(struct reading *reading, struct gm_span name)
 {
     const char *text = reading->text + name.begin;
     reading->scheme->kind = kind_of(text, name.end - name.begin);
     if (reading->scheme->kind < GM_WRITTEN_KINDS) {
-        return true;
+        return;
     }
     char copy[41];
     snprintf(copy, sizeof copy, "%.*s", brief(name), text);
     const char *near = gm_nearest(copy, GM_WRITTEN_KINDS, kind_name, NULL);
-    return gm_fail_first(
-        &reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
-        near ? "; did you mean "
-             : "; there are runge-kutta, explicit, partitioned, nystrom, "
-               "composition, splitting, processed, adjoint, projected, relaxed, lie, strang, split",
-        near ? near : "");
+    fail(reading, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
+         near ? "; did you mean "
+              : "; there are runge-kutta, explicit, partitioned, nystrom, "
+                "composition, splitting, processed, adjoint, projected, relaxed, lie, strang, split",
+         near ? near : "");
 }
 
-static bool read_file(struct reading *reading, struct gm_span span)
+static void read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_fault fault;
     struct gm_read_lines lines = {.words = &lines_of_schemes, .text = reading->text, .span = span};
-    if (!gm_lines_read(&lines, &fault)) {
-        return fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                                 : gm_fail_memory(&reading->fault);
-    }
-    for (size_t i = 0; i < lines.count && !reading->fault.failed; i++) {
+    gm_arena_need(reading->arena, gm_lines_read(&lines, reading->fault));
+    gm_arena_keep(reading->arena, lines.list, free);
+    for (size_t i = 0; i < lines.count; i++) {
         take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
     }
-    free(lines.list);
-    if (reading->fault.failed) {
-        return false;
-    }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
-    return kind->said ? find_kind(reading, kind->value)
-                      : gm_fail_first(&reading->fault, span.begin,
-                                      "what kind of scheme is it? It needs a line kind:");
+    if (!kind->said) {
+        fail(reading, span.begin, "what kind of scheme is it? It needs a line kind:");
+    }
+    find_kind(reading, kind->value);
 }
 
 /* Returns the position of the parenthesis that closes the one at span.begin, or the end. */
@@ -216,85 +224,77 @@ static size_t closing(const char *text, struct gm_span span)
     return depth == 0 ? at - 1 : span.end;
 }
 
-static bool read_word(struct reading *reading, struct gm_span span)
+static void read_word(struct reading *reading, struct gm_span span)
 {
     const char *text = reading->text;
     const size_t open = span.begin + gm_written_word_name(text + span.begin, span.end - span.begin);
     const size_t close = closing(text, (struct gm_span){open, span.end});
     if (close == span.end) {
-        return gm_fail_first(&reading->fault, open, "this parenthesis is not closed");
+        fail(reading, open, "this parenthesis is not closed");
     }
     if (close + 1 < span.end) {
-        return gm_fail_first(&reading->fault, close + 1, "the scheme ends before this");
+        fail(reading, close + 1, "the scheme ends before this");
     }
     struct gm_span rest = {open + 1, close}, segment;
-    struct gm_fault fault;
     int positional = 0;
     reading->scheme->kind = kind_of(text + span.begin, open - span.begin);
     if (reading->scheme->kind == GM_WRITTEN_KINDS) {
         reading->scheme->kind = GM_WRITTEN_CALLED;
         take_line(reading, GM_SCHEME_WORD_BASE, span.begin, (struct gm_span){span.begin, open});
     }
-    while (!reading->fault.failed && gm_span_take(text, &rest, ";", &segment)) {
+    while (gm_span_take(text, &rest, ";", &segment)) {
         const size_t name = gm_name_length(text + segment.begin, segment.end - segment.begin);
         const size_t colon = segment.begin + name;
         if (name > 0 && colon < segment.end && text[colon] == ':') {
             const struct gm_text_line line = {
                 {segment.begin, colon}, gm_span_trimmed(text, (struct gm_span){colon + 1, segment.end})};
             size_t word;
-            if (gm_line_find(&lines_of_schemes, text, &line, &word, &fault)) {
-                take_line(reading, (enum gm_scheme_word)word, segment.begin, line.value);
-            } else {
-                gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
-            }
+            gm_arena_need(reading->arena,
+                          gm_line_find(&lines_of_schemes, text, &line, &word, reading->fault));
+            take_line(reading, (enum gm_scheme_word)word, segment.begin, line.value);
         } else if (positional < kinds[reading->scheme->kind].count) {
             take_line(reading, kinds[reading->scheme->kind].positional[positional++], segment.begin, segment);
         } else {
-            gm_fail_first(&reading->fault, segment.begin, "there is more between the parentheses than %s has",
-                          kinds[reading->scheme->kind].name);
+            fail(reading, segment.begin, "there is more between the parentheses than %s has",
+                 kinds[reading->scheme->kind].name);
         }
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
-    if (!reading->fault.failed && kind->said &&
+    if (kind->said &&
         kind_of(text + kind->value.begin, kind->value.end - kind->value.begin) != reading->scheme->kind) {
-        return gm_fail_first(&reading->fault, kind->value.begin, "the word says that it is of the kind %s",
-                             kinds[reading->scheme->kind].name);
+        fail(reading, kind->value.begin, "the word says that it is of the kind %s",
+             kinds[reading->scheme->kind].name);
     }
-    return !reading->fault.failed;
 }
 
 /* Checks that every given line belongs to the kind, and that the lines it needs are given. */
-static bool check_lines(struct reading *reading, struct gm_span span)
+static void check_lines(const struct reading *reading)
 {
     const struct gm_written_scheme *scheme = reading->scheme;
     const char *name = kinds[scheme->kind].name;
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         if (scheme->lines[word].said && !(words[word].kinds >> scheme->kind & 1)) {
-            return gm_fail_first(&reading->fault, scheme->lines[word].value.begin,
-                                 "a scheme of the kind %s has no %s:", name, words[word].word);
+            fail(reading, scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
+                 words[word].word);
         }
     }
     for (int i = 0; i < kinds[scheme->kind].required; i++) {
         const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
         if (!scheme->lines[word].said) {
-            return gm_fail_first(&reading->fault, span.begin, "a scheme of the kind %s needs %s:", name,
-                                 words[word].word);
+            fail(reading, reading->span.begin, "a scheme of the kind %s needs %s:", name, words[word].word);
         }
     }
-    return true;
 }
 
 /* ---- numbers ---- */
 
-/* Puts it behind the others, of which there are *count; false: out of memory. */
-static bool gather(struct gm_decimal **all, size_t *count, struct gm_decimal decimal)
+/* Puts it behind the others, of which there are *count and which are the caller's. */
+static void gather(struct reading *reading, struct gm_decimal **all, size_t *count, struct gm_decimal decimal)
 {
     struct gm_decimal *more = realloc(*all, (*count + 1) * sizeof *more);
-    if (more) {
-        *all = more;
-        more[(*count)++] = decimal;
-    }
-    return more != NULL;
+    gm_arena_need(reading->arena, more);
+    *all = more;
+    more[(*count)++] = decimal;
 }
 
 /* The decimal of the whole text, or the value that replaces it. */
@@ -315,9 +315,7 @@ static struct gm_written_number known_decimal(struct reading *reading, const cha
         number.ball = gathered->instead[i];
         number.value = gm_ball_midpoint(number.ball);
     } else if (i == gathered->count) {
-        reading->graph.failed =
-            !gather(&gathered->at, &gathered->count, (struct gm_decimal){place, length, number.ball}) ||
-            reading->graph.failed;
+        gather(reading, &gathered->at, &gathered->count, (struct gm_decimal){place, length, number.ball});
     }
     return number;
 }
@@ -330,18 +328,12 @@ static gm_node_id decimal(void *data, const char *text, size_t length, double va
         return gm_formula_constant(&reading->graph, value);
     }
     if (whole && length > GM_BALL_DIGITS) {
-        gm_fail_first(&reading->fault, (size_t)(text - reading->text), "a whole number has at most %d digits",
-                      GM_BALL_DIGITS);
+        fail(reading, (size_t)(text - reading->text), "a whole number has at most %d digits", GM_BALL_DIGITS);
     }
     const size_t count = reading->decimal_count;
     if ((count & (count - 1)) == 0) {
-        struct gm_written_number *more =
-            realloc(reading->decimals, (count ? 2 * count : 1) * sizeof *reading->decimals);
-        if (!more) {
-            reading->graph.failed = true;
-            return 0;
-        }
-        reading->decimals = more;
+        reading->decimals = gm_arena_resize(reading->arena, reading->decimals, count ? 2 * count : 1,
+                                            sizeof *reading->decimals);
     }
     reading->decimals[count] = known_decimal(reading, text, length, value);
     reading->decimal_count++;
@@ -372,21 +364,18 @@ static const char *known(size_t i, const void *data)
     return i < (size_t)reading->scheme->let_count ? reading->let_names[i] : NULL;
 }
 
-/* False, and nothing has failed: a let has to be read before. */
+/* Returns false if a let has to be read before. */
 static bool read_formula(struct reading *reading, struct gm_span span, gm_node_id *node)
 {
     const struct gm_scope scope = {
         .find = find, .known = known, .decimal = decimal, .data = reading, .lines = true};
-    struct gm_fault fault;
-    if (gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
-        return !reading->fault.failed;
-    }
-    return reading->graph.failed ? gm_fail_memory(&reading->fault)
-           : fault.sentence[0]   ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                                 : false;
+    const bool good =
+        gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, node, reading->fault);
+    gm_arena_need(reading->arena, good || (!reading->graph.failed && !reading->fault->sentence[0]));
+    return good;
 }
 
-static bool name_let(struct reading *reading, int i)
+static void name_let(struct reading *reading, int i)
 {
     const struct gm_span span = reading->scheme->lets[i];
     const char *text = reading->text;
@@ -395,36 +384,31 @@ static bool name_let(struct reading *reading, int i)
     let->name = (struct gm_span){span.begin, span.begin + length};
     const struct gm_span rest = gm_span_trimmed(text, (struct gm_span){let->name.end, span.end});
     if (length == 0 || rest.begin == rest.end || text[rest.begin] != '=') {
-        return gm_fail_first(&reading->fault, length ? rest.begin : span.begin,
-                             "a let is a name, = and a formula");
+        fail(reading, length ? rest.begin : span.begin, "a let is a name, = and a formula");
     }
     if (length >= sizeof reading->let_names[0] || gm_formula_reserves(text + span.begin, length)) {
-        return gm_fail_first(&reading->fault, span.begin, "the name %.*s is %s", brief(let->name),
-                             text + span.begin,
-                             length >= sizeof reading->let_names[0] ? "too long" : "reserved");
+        fail(reading, span.begin, "the name %.*s is %s", brief(let->name), text + span.begin,
+             length >= sizeof reading->let_names[0] ? "too long" : "reserved");
     }
     memcpy(reading->let_names[i], text + span.begin, length);
     for (int k = 0; k < i; k++) {
         if (strcmp(reading->let_names[k], reading->let_names[i]) == 0) {
-            return gm_fail_first(&reading->fault, span.begin, "%s is defined twice", reading->let_names[i]);
+            fail(reading, span.begin, "%s is defined twice", reading->let_names[i]);
         }
     }
     let->value = gm_span_trimmed(text, (struct gm_span){rest.begin + 1, rest.end});
-    return true;
 }
 
 /* Reads the lines `let:`, which are in any order: first those that need no other one. */
-static bool read_lets(struct reading *reading)
+static void read_lets(struct reading *reading)
 {
     const int count = reading->scheme->let_count;
     for (int i = 0; i < count; i++) {
-        if (!name_let(reading, i)) {
-            return false;
-        }
+        name_let(reading, i);
     }
     for (bool again = true; again;) {
         again = false;
-        for (int i = 0; i < count && !reading->fault.failed; i++) {
+        for (int i = 0; i < count; i++) {
             struct formula *let = &reading->lets[i];
             if (!let->read) {
                 let->read = read_formula(reading, let->value, &let->node);
@@ -434,43 +418,36 @@ static bool read_lets(struct reading *reading)
     }
     for (int i = 0; i < count; i++) {
         if (!reading->lets[i].read) {
-            return gm_fail_first(&reading->fault, reading->lets[i].name.begin,
-                                 "%s is defined by itself, through other lets", reading->let_names[i]);
+            fail(reading, reading->lets[i].name.begin, "%s is defined by itself, through other lets",
+                 reading->let_names[i]);
         }
     }
-    return !reading->fault.failed;
 }
 
-/* Takes the piece before the next separator, which another piece must follow. Returns false at the end, and with a
-   fault. */
-static bool take_piece(struct reading *reading, struct gm_span *rest, const char *separator,
+/* Takes the piece before the next separator, which another piece must follow. Returns false at the end. */
+static bool take_piece(const struct reading *reading, struct gm_span *rest, const char *separator,
                        struct gm_span *piece)
 {
     const size_t end = gm_span_until(reading->text, *rest, separator);
     if (end < rest->end && end + 1 == rest->end) {
-        return gm_fail_first(&reading->fault, end, "nothing follows this %s", separator);
+        fail(reading, end, "nothing follows this %s", separator);
     }
     return gm_span_take(reading->text, rest, separator, piece);
 }
 
 /* Counts the schemes that each line names. Only those of a composition take turns. */
-static bool count_schemes(struct reading *reading)
+static void count_schemes(struct reading *reading)
 {
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         struct gm_written_line *line = &reading->scheme->lines[word];
         struct gm_span rest = line->value, piece;
         for (bool more = line->said && holds[word] == SCHEME; more; more = rest.begin < rest.end) {
             take_piece(reading, &rest, ",", &piece);
-            if (!reading->fault.failed && ++line->columns > 1 &&
-                reading->scheme->kind != GM_WRITTEN_COMPOSITION) {
-                gm_fail_first(&reading->fault, piece.begin, "%s: names one scheme", words[word].word);
-            }
-            if (reading->fault.failed) {
-                return false;
+            if (++line->columns > 1 && reading->scheme->kind != GM_WRITTEN_COMPOSITION) {
+                fail(reading, piece.begin, "%s: names one scheme", words[word].word);
             }
         }
     }
-    return true;
 }
 
 /* The length up to the last character that is neither blank nor part of a comment. */
@@ -484,49 +461,42 @@ static size_t length_of(const char *text, struct gm_span span)
 }
 
 /* Rows between |, entries between commas. */
-static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
+static void read_numbers(struct reading *reading, enum gm_scheme_word word)
 {
     struct gm_written_line *line = &reading->scheme->lines[word];
     const bool stages = words[word].kinds & TABLEAUS;
     const int most = stages ? GM_MOST_STAGES : GM_MOST_SUBSTEPS;
     const size_t capacity = (size_t)most * (holds[word] == MATRIX ? (size_t)most : 1);
-    line->numbers = calloc(capacity, sizeof *line->numbers);
-    reading->nodes[word] = calloc(capacity, sizeof *reading->nodes[word]);
-    if (!line->numbers || !reading->nodes[word]) {
-        return gm_fail_memory(&reading->fault);
-    }
+    line->numbers = gm_arena_take(reading->arena, capacity, sizeof *line->numbers);
+    reading->nodes[word] = gm_arena_take(reading->arena, capacity, sizeof *reading->nodes[word]);
     struct gm_span rows = line->value, row, entry;
     for (int count = 0; take_piece(reading, &rows, "|", &row); line->rows++) {
         const size_t begin = row.begin;
         int columns = 0;
-        if (line->rows == (holds[word] == MATRIX ? most : 1)) {
-            return holds[word] == MATRIX
-                       ? gm_fail_first(&reading->fault, begin, "a scheme has at most %d stages", most)
-                       : gm_fail_first(&reading->fault, begin, "%s is one row", words[word].word);
+        if (holds[word] != MATRIX && line->rows == 1) {
+            fail(reading, begin, "%s is one row", words[word].word);
+        }
+        if (line->rows == most) {
+            fail(reading, begin, "a scheme has at most %d stages", most);
         }
         for (; take_piece(reading, &row, ",", &entry); columns++, count++) {
             if (columns == most) {
-                return gm_fail_first(&reading->fault, entry.begin, "a scheme has at most %d %s", most,
-                                     stages ? "stages" : "steps");
+                fail(reading, entry.begin, "a scheme has at most %d %s", most, stages ? "stages" : "steps");
             }
             line->numbers[count].place = entry.begin;
             line->numbers[count].length = length_of(reading->text, entry);
-            if (!read_formula(reading, entry, &reading->nodes[word][count])) {
-                return false;
-            }
+            gm_arena_need(reading->arena, read_formula(reading, entry, &reading->nodes[word][count]));
         }
-        if (!reading->fault.failed && line->rows > 0 && columns != line->columns) {
-            return gm_fail_first(&reading->fault, begin, "row %d of %s has %d entries, the first has %d",
-                                 line->rows + 1, words[word].word, columns, line->columns);
+        if (line->rows > 0 && columns != line->columns) {
+            fail(reading, begin, "row %d of %s has %d entries, the first has %d", line->rows + 1,
+                 words[word].word, columns, line->columns);
         }
         line->columns = columns;
     }
-    return !reading->fault.failed;
 }
 
 /* Returns the value of a node, from the values of earlier nodes. */
-static struct gm_ball ball_of(const struct reading *reading, const struct gm_ball *balls, gm_node_id id,
-                              bool *known_here)
+static struct gm_ball ball_of(const struct reading *reading, const struct gm_ball *balls, gm_node_id id)
 {
     const struct gm_node *node = &reading->graph.nodes[id];
     const struct gm_ball a = node->operation > GM_VARIABLE ? balls[node->a] : gm_ball_of(0);
@@ -566,52 +536,40 @@ static struct gm_ball ball_of(const struct reading *reading, const struct gm_bal
         return gm_ball_sin(a);
     case GM_OPERATION_COS:
         return gm_ball_cos(a);
-    default:
-        *known_here = false;
-        return gm_ball_of(0);
+    default: {
+        const uint32_t place = reading->graph.places[id];
+        fail(reading, place == GM_NO_PLACE ? 0 : place,
+             "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
+    }
     }
 }
 
-static bool compute(struct reading *reading)
+static void compute(struct reading *reading)
 {
     const gm_node_id count = reading->graph.count;
-    struct gm_ball *balls = malloc((count + (size_t)1) * sizeof *balls);
-    double *values = malloc((count + (size_t)1) * sizeof *values);
-    double *variables = malloc((reading->decimal_count + 1) * sizeof *variables);
-    bool good = (balls && values && variables) || gm_fail_memory(&reading->fault);
-    for (size_t i = 0; good && i < reading->decimal_count; i++) {
+    struct gm_ball *balls = gm_arena_take(reading->arena, count, sizeof *balls);
+    double *values = gm_arena_take(reading->arena, count, sizeof *values);
+    double *variables = gm_arena_take(reading->arena, reading->decimal_count, sizeof *variables);
+    for (size_t i = 0; i < reading->decimal_count; i++) {
         variables[i] = reading->decimals[i].value;
     }
-    if (good) {
-        gm_formula_evaluate(&reading->graph, count, variables, values);
+    gm_formula_evaluate(&reading->graph, count, variables, values);
+    for (gm_node_id id = 0; id < count; id++) {
+        balls[id] = ball_of(reading, balls, id);
     }
-    for (gm_node_id id = 0; good && id < count; id++) {
-        bool exact = true;
-        balls[id] = ball_of(reading, balls, id, &exact);
-        if (!exact) {
-            const uint32_t place = reading->graph.places[id];
-            good = gm_fail_first(
-                &reading->fault, place == GM_NO_PLACE ? 0 : place,
-                "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
-        }
-    }
-    for (enum gm_scheme_word word = 0; good && word < GM_SCHEME_WORDS; word++) {
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         struct gm_written_line *line = &reading->scheme->lines[word];
-        for (int i = 0; good && i < line->rows * line->columns; i++) {
+        for (int i = 0; i < line->rows * line->columns; i++) {
             struct gm_written_number *number = &line->numbers[i];
             const gm_node_id node = reading->nodes[word][i];
             number->value = values[node];
             number->ball = balls[node];
-            good = (isfinite(number->value) && isfinite(number->ball.radius) && fabs(number->value) < 1e6) ||
-                   gm_fail_first(&reading->fault, number->place,
-                                 "this coefficient is %g: no finite number below a million", number->value);
+            if (!(isfinite(number->ball.radius) && fabs(number->value) < 1e6)) {
+                fail(reading, number->place, "this coefficient is %g: no finite number below a million",
+                     number->value);
+            }
         }
     }
-    free(balls);
-    free(values);
-    free(variables);
-    gm_ball_forget();
-    return good;
 }
 
 /* ---- what has to fit ---- */
@@ -622,7 +580,7 @@ static const struct gm_written_number *entry_of(const struct gm_written_line *a,
 }
 
 /* Checks that c: repeats the sums of the rows. If other numbers replace the typed ones, differences are gathered. */
-static bool check_sums(struct reading *reading, const struct gm_written_line *a,
+static void check_sums(struct reading *reading, const struct gm_written_line *a,
                        const struct gm_written_line *c)
 {
     const double rounding = 1e-60;
@@ -636,18 +594,16 @@ static bool check_sums(struct reading *reading, const struct gm_written_line *a,
         }
         const bool same = gm_ball_may_vanish(gm_ball_subtract(sum, said->ball));
         if (!same && !tried) {
-            return gm_fail_first(&reading->fault, said->place, "row %d of a sums to %.15g, c says %.15g",
-                                 i + 1, gm_ball_midpoint(sum), said->value);
+            fail(reading, said->place, "row %d of a sums to %.15g, c says %.15g", i + 1,
+                 gm_ball_midpoint(sum), said->value);
         }
-        if (sums && (!same || said->ball.radius > rounding) &&
-            !gather(&sums->at, &sums->count, (struct gm_decimal){said->place, said->length, sum})) {
-            return gm_fail_memory(&reading->fault);
+        if (sums && (!same || said->ball.radius > rounding)) {
+            gather(reading, &sums->at, &sums->count, (struct gm_decimal){said->place, said->length, sum});
         }
     }
-    return true;
 }
 
-static bool check_tableau(struct reading *reading)
+static void check_tableau(struct reading *reading)
 {
     const struct gm_written_scheme *scheme = reading->scheme;
     const struct gm_written_line *a = &scheme->lines[GM_SCHEME_WORD_A], *c = &scheme->lines[GM_SCHEME_WORD_C];
@@ -655,44 +611,44 @@ static bool check_tableau(struct reading *reading)
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         const struct gm_written_line *line = &scheme->lines[word];
         if (holds[word] == MATRIX && line->said && line->rows != line->columns) {
-            return gm_fail_first(&reading->fault, line->value.begin,
-                                 "%s has %d rows of %d entries: it is not square", words[word].word,
-                                 line->rows, line->columns);
+            fail(reading, line->value.begin, "%s has %d rows of %d entries: it is not square",
+                 words[word].word, line->rows, line->columns);
         }
         if (line->rows > 0 && line->columns != stages) {
-            return gm_fail_first(&reading->fault, line->value.begin,
-                                 "%s has %d entries%s; the rows of a make %d stages", words[word].word,
-                                 line->columns, line->rows > 1 ? " in a row" : "", stages);
+            fail(reading, line->value.begin, "%s has %d entries%s; the rows of a make %d stages",
+                 words[word].word, line->columns, line->rows > 1 ? " in a row" : "", stages);
         }
     }
     for (int i = 0; scheme->kind == GM_WRITTEN_EXPLICIT && i < stages; i++) {
         for (int j = i; j < stages; j++) {
             if (entry_of(a, i, j)->value != 0) {
-                return gm_fail_first(&reading->fault, entry_of(a, i, j)->place,
-                                     "entry %d, %d is %s the diagonal and not 0: the scheme is not explicit",
-                                     i + 1, j + 1, i == j ? "on" : "above");
+                fail(reading, entry_of(a, i, j)->place,
+                     "entry %d, %d is %s the diagonal and not 0: the scheme is not explicit", i + 1, j + 1,
+                     i == j ? "on" : "above");
             }
         }
     }
-    return scheme->kind == GM_WRITTEN_NYSTROM || !c->said || check_sums(reading, a, c);
+    if (scheme->kind != GM_WRITTEN_NYSTROM && c->said) {
+        check_sums(reading, a, c);
+    }
 }
 
-static bool check_steps(struct reading *reading)
+static void check_steps(struct reading *reading)
 {
     const struct gm_written_line *steps = &reading->scheme->lines[GM_SCHEME_WORD_STEPS];
     const int bases = reading->scheme->lines[GM_SCHEME_WORD_BASE].columns;
     double sum = 0;
     if (steps->columns % bases != 0) {
-        return gm_fail_first(&reading->fault, steps->value.begin,
-                             "%d step%s cannot be shared by %d bases in turns", steps->columns,
-                             gm_plural(steps->columns), bases);
+        fail(reading, steps->value.begin, "%d step%s cannot be shared by %d bases in turns", steps->columns,
+             gm_plural(steps->columns), bases);
     }
     for (int i = 0; i < steps->columns; i++) {
         sum += steps->numbers[i].value;
     }
     const bool tried = reading->gathered && reading->gathered->instead;
-    return tried || fabs(sum - 1) <= 1e-3 ||
-           gm_fail_first(&reading->fault, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
+    if (!tried && !(fabs(sum - 1) <= 1e-3)) {
+        fail(reading, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
+    }
 }
 
 static bool is_text(const struct reading *reading, const struct gm_written_line *line, const char *word)
@@ -700,7 +656,7 @@ static bool is_text(const struct reading *reading, const struct gm_written_line 
     return gm_span_is(reading->text, line->value, word);
 }
 
-static bool check_pieces(struct reading *reading)
+static void check_pieces(struct reading *reading)
 {
     struct gm_written_scheme *scheme = reading->scheme;
     const struct gm_written_line *first = &scheme->lines[GM_SCHEME_WORD_FIRST];
@@ -708,28 +664,24 @@ static bool check_pieces(struct reading *reading)
     const int drifts = scheme->lines[GM_SCHEME_WORD_DRIFTS].columns;
     const int kicks = scheme->lines[GM_SCHEME_WORD_KICKS].columns;
     if (abs(drifts - kicks) > 1) {
-        return gm_fail_first(&reading->fault, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
-                             "%d drifts and %d kicks cannot take turns", drifts, kicks);
+        fail(reading, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
+             "%d drifts and %d kicks cannot take turns", drifts, kicks);
     }
     scheme->kick_first = kicks > drifts || (first->said && is_text(reading, first, "kick"));
     if (first->said && !is_text(reading, first, "kick") && !is_text(reading, first, "drift")) {
-        return gm_fail_first(&reading->fault, first->value.begin, "first: is kick or drift");
+        fail(reading, first->value.begin, "first: is kick or drift");
     }
-    if (first->said && drifts != kicks && scheme->kick_first != (kicks > drifts)) {
-        return gm_fail_first(&reading->fault, first->value.begin,
-                             "there is one more drift than kicks: a drift is first");
-    }
-    if (first->said && kicks > drifts && is_text(reading, first, "drift")) {
-        return gm_fail_first(&reading->fault, first->value.begin,
-                             "there is one more kick than drifts: a kick is first");
+    if (first->said && drifts != kicks && is_text(reading, first, kicks > drifts ? "drift" : "kick")) {
+        fail(reading, first->value.begin, "there is one more %s: a %s is first",
+             kicks > drifts ? "kick than drifts" : "drift than kicks", kicks > drifts ? "kick" : "drift");
     }
     scheme->nystrom = purpose->said && is_text(reading, purpose, "nystrom");
-    return !purpose->said || scheme->nystrom ||
-           gm_fail_first(&reading->fault, purpose->value.begin,
-                         "for: is nystrom, where T is quadratic, or is left out");
+    if (purpose->said && !scheme->nystrom) {
+        fail(reading, purpose->value.begin, "for: is nystrom, where T is quadratic, or is left out");
+    }
 }
 
-static bool read_order(struct reading *reading)
+static void read_order(struct reading *reading)
 {
     enum { MOST = 20 };
     const struct gm_written_line *order = &reading->scheme->lines[GM_SCHEME_WORD_ORDER];
@@ -738,12 +690,13 @@ static bool read_order(struct reading *reading)
         const bool good = digit >= '0' && digit <= '9' && reading->scheme->order <= MOST;
         reading->scheme->order = good ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
     }
-    return !order->said || (reading->scheme->order > 0 && reading->scheme->order <= MOST) ||
-           gm_fail_first(&reading->fault, order->value.begin, "order: is a whole number from 1 to %d", MOST);
+    if (order->said && (reading->scheme->order == 0 || reading->scheme->order > MOST)) {
+        fail(reading, order->value.begin, "order: is a whole number from 1 to %d", MOST);
+    }
 }
 
 /* A title is a part of the word: its parentheses must match, and it has no semicolon outside of them. */
-static bool check_title(struct reading *reading)
+static void check_title(const struct reading *reading)
 {
     const struct gm_written_line *title = &reading->scheme->lines[GM_SCHEME_WORD_TITLE];
     int depth = 0;
@@ -752,78 +705,79 @@ static bool check_title(struct reading *reading)
         const int opens = (here == '(' || here == '['), closes = (here == ')' || here == ']');
         depth = here == ';' ? -1 : depth + opens - closes;
     }
-    return depth == 0 || gm_fail_first(&reading->fault, title->value.begin,
-                                       "a title has no semicolon, and closes its parentheses and brackets");
+    if (depth != 0) {
+        fail(reading, title->value.begin,
+             "a title has no semicolon, and closes its parentheses and brackets");
+    }
 }
 
-static bool read(struct reading *reading, struct gm_span span)
+static void close_graph(void *graph)
 {
+    gm_formula_close(graph);
+}
+
+static void read(struct gm_arena *arena, void *data)
+{
+    struct reading *reading = data;
     struct gm_written_scheme *scheme = reading->scheme;
-    struct gm_fault fault;
-    if (span.end - span.begin > GM_LARGEST_SCHEME) {
-        return gm_fail_first(&reading->fault, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
+    const struct gm_span span = reading->span;
+    const size_t length = span.end - span.begin;
+    gm_formula_open(&reading->graph);
+    reading->graph.keeps = true;
+    gm_arena_keep(arena, &reading->graph, close_graph);
+    if (length > GM_LARGEST_SCHEME) {
+        fail(reading, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
     }
-    if (!gm_lines_are_text(reading->text + span.begin, span.end - span.begin, &fault)) {
-        return gm_fail_first(&reading->fault, span.begin + fault.offset, "%s", fault.sentence);
+    if (!gm_lines_are_text(reading->text + span.begin, length, reading->fault)) {
+        reading->fault->offset += span.begin;
+        gm_arena_leave(arena);
     }
-    const bool is_word = gm_written_word_name(reading->text + span.begin, span.end - span.begin) > 0;
-    if (!(is_word ? read_word(reading, span) : read_file(reading, span)) || !check_lines(reading, span)) {
-        return false;
-    }
+    (gm_written_word_name(reading->text + span.begin, length) > 0 ? read_word : read_file)(reading, span);
+    check_lines(reading);
     const struct gm_written_line *format = &scheme->lines[GM_SCHEME_WORD_GEOMINT];
     if (format->said && !is_text(reading, format, "1")) {
-        return gm_fail_first(&reading->fault, format->value.begin,
-                             "this is of a later format; this geomint reads 1");
+        fail(reading, format->value.begin, "this is of a later format; this geomint reads 1");
     }
-    if (!read_order(reading) || !check_title(reading) || !count_schemes(reading) || !read_lets(reading)) {
-        return false;
-    }
+    read_order(reading);
+    check_title(reading);
+    count_schemes(reading);
+    read_lets(reading);
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        const bool numbers = holds[word] == ROW || holds[word] == MATRIX;
         reading->sums = word == GM_SCHEME_WORD_C && scheme->kind != GM_WRITTEN_NYSTROM;
-        if (numbers && scheme->lines[word].said && !read_numbers(reading, word)) {
-            return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
+        if (scheme->lines[word].said && (holds[word] == ROW || holds[word] == MATRIX)) {
+            read_numbers(reading, word);
         }
     }
-    if (!compute(reading)) {
-        return false;
+    compute(reading);
+    if (TABLEAUS >> scheme->kind & 1) {
+        check_tableau(reading);
+    } else if (scheme->kind == GM_WRITTEN_COMPOSITION) {
+        check_steps(reading);
+    } else if (scheme->kind == GM_WRITTEN_SPLITTING) {
+        check_pieces(reading);
     }
-    return TABLEAUS >> scheme->kind & 1             ? check_tableau(reading)
-           : scheme->kind == GM_WRITTEN_COMPOSITION ? check_steps(reading)
-           : scheme->kind == GM_WRITTEN_SPLITTING   ? check_pieces(reading)
-                                                    : true;
+    gm_arena_drop(arena, &reading->graph);
 }
 
 bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t begin, size_t end,
                      struct gm_decimals *decimals, struct gm_fault *fault)
 {
-    *scheme = (struct gm_written_scheme){.text = text};
+    *scheme = (struct gm_written_scheme){.text = text, .arena = gm_arena_open()};
     *fault = (struct gm_fault){0};
-    struct reading *reading = calloc(1, sizeof *reading);
-    if (!reading) {
-        return false;
-    }
-    reading->scheme = scheme;
-    reading->text = text;
-    reading->fault.fault = fault;
-    reading->gathered = decimals;
-    gm_formula_open(&reading->graph);
-    reading->graph.keeps = true;
-    const bool good = read(reading, gm_span_trimmed(text, (struct gm_span){begin, end}));
-    gm_formula_close(&reading->graph);
-    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        free(reading->nodes[word]);
-    }
-    free(reading->decimals);
-    free(reading);
+    struct reading reading = {.scheme = scheme,
+                              .arena = scheme->arena,
+                              .text = text,
+                              .span = gm_span_trimmed(text, (struct gm_span){begin, end}),
+                              .gathered = decimals,
+                              .fault = fault};
+    const bool good = gm_arena_run(scheme->arena, read, &reading);
+    gm_ball_forget();
     return good;
 }
 
 void gm_written_close(struct gm_written_scheme *scheme)
 {
-    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        free(scheme->lines[word].numbers);
-    }
+    gm_arena_close(scheme->arena);
     *scheme = (struct gm_written_scheme){0};
 }
 

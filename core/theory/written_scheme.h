@@ -71,7 +71,8 @@ struct gm_written_line {
 };
 
 struct gm_written_scheme {
-    const char *text; /* that it was read from */
+    struct gm_arena *arena; /* owns the numbers */
+    const char *text;       /* that it was read from */
     enum gm_written_kind kind;
     struct gm_written_line lines[GM_SCHEME_WORDS]; /* but for LET */
     struct gm_span lets[GM_MOST_LETS];

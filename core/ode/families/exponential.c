@@ -12,15 +12,10 @@
    J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; S.M. Cox & P.C. Matthews, J. Comput. Phys. 176 (2002) 430;
    M. Hochbruck & A. Ostermann, Acta Numerica 19 (2010) 209. */
 #include <complex.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
 #include "core/linear/complex_matrix.h"
 #include "core/linear/modes.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
 
@@ -230,10 +225,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_exponential = {
-    .kind = &gm_kind_ode,
     .title = "exponential Runge-Kutta",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .loop = gm_members_loop,
     .members = &(const struct gm_member_family){.step = step},
     .workspace_open = workspace_open,

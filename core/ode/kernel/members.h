@@ -56,9 +56,20 @@ void *gm_members_workspace(const struct gm_problem *problem, const struct gm_sch
     {                                                                                                        \
         __VA_ARGS__                                                                                          \
     }
-#define GM_MEMBERS(...)                                                                                      \
-    .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
+/* The kind, and the rows of a list `schemes`. */
+#define GM_ROWS .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
+#define GM_MEMBERS(...) GM_ROWS, GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
 #define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
+
+/* Adds a step to the time that a scheme with its own steps has reached, by a compensated sum. Returns
+   GM_STEP_COLLAPSE if it changes nothing. */
+static inline enum gm_status gm_members_pass(struct gm_progress *progress, double h, double *carry)
+{
+    const double before = progress->t, whole = *carry + h;
+    progress->t += whole;
+    *carry = whole + (before - progress->t);
+    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+}
 
 /* Writes the Jacobian of f at y, n * n by rows; false if the problem has none, or it would be too large a
    matrix. */

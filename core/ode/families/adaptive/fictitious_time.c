@@ -12,14 +12,8 @@
    momentum and the Laplace-Runge-Lenz vector. T. Levi-Civita, Acta Math. 42 (1920) 99; Y. Minesaki &
    Y. Nakamura, Phys. Lett. A 306 (2002) 127. */
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 /* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,

@@ -6,13 +6,9 @@
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/kind.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/variational/action.h"
 #include "core/schemes.h"
 
@@ -25,27 +21,6 @@ const struct gm_scheme *gm_holding_base(const struct gm_scheme *scheme)
 {
     const struct gm_holding *holding = scheme->coefficients;
     return holding->base ? gm_scheme_find(holding->base) : scheme->base;
-}
-
-enum gm_status gm_held_step(const struct gm_held *held, const struct gm_task *task, double h, const double *y,
-                            double *out, struct gm_progress *progress)
-{
-    const struct gm_task step = {.problem = &held->one,
-                                 .scheme = held->base,
-                                 .dt = h,
-                                 .steps = 1,
-                                 .limit = task->limit,
-                                 .y = y,
-                                 .out = out,
-                                 .until = INFINITY,
-                                 .workspace = held->workspace,
-                                 .settings = task->settings};
-    const struct gm_progress made = gm_scheme_loop(held->base, &held->one)(&step);
-    progress->evaluations += made.evaluations;
-    progress->solves += made.solves;
-    progress->iterations += made.iterations;
-    progress->unsolved = made.unsolved;
-    return made.done == 1 ? GM_OK : made.status;
 }
 
 static double dot(const double *a, const double *b, size_t n)
@@ -156,9 +131,7 @@ void gm_held_close(void *data)
     struct gm_members *members = data;
     struct gm_held *held = members ? members->family : NULL;
     if (held) {
-        if (held->workspace) {
-            held->base->family->workspace_close(held->workspace);
-        }
+        gm_base_close(&held->base);
         gm_conserved_close(&held->conserved);
     }
     free(held);
@@ -178,9 +151,6 @@ void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *sch
     }
     members->family = held;
     held->holding = holding;
-    held->base = gm_holding_base(scheme);
-    held->one = *problem;
-    held->one.m = 1;
     held->n = n;
     held->count = count;
     double **const arrays[] = {&held->z, &held->next, &held->move};
@@ -189,8 +159,9 @@ void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *sch
         *arrays[i] = held->storage + i * n;
         *rows[i] = held->storage + (3 + i * count) * n;
     }
-    if (!gm_scheme_workspace_open(held->base, &held->one, &held->workspace) ||
-        (count > 0 && !gm_conserved_open(&held->conserved, &held->one, holding->names, count, lacks))) {
+    if (!gm_base_open(&held->base, gm_holding_base(scheme), problem) ||
+        (count > 0 &&
+         !gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks))) {
         gm_held_close(members);
         return NULL;
     }
@@ -199,10 +170,7 @@ void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *sch
 
 void gm_held_reset(void *data)
 {
-    const struct gm_held *held = ((struct gm_members *)data)->family;
-    if (held->workspace && held->base->family->workspace_reset) {
-        held->base->family->workspace_reset(held->workspace);
-    }
+    gm_base_reset(&((const struct gm_held *)((struct gm_members *)data)->family)->base);
 }
 
 size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)

@@ -3,6 +3,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 #define GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 
+#include "core/ode/families/base_scheme.h"
 #include "core/ode/kernel/conserved.h"
 #include "core/ode/kernel/members.h"
 
@@ -25,9 +26,7 @@ enum { GM_HELD_IS_SET, GM_HELD_CORRECTION, GM_HELD_TIME_CARRY, GM_HELD_VALUES };
 /* The family's data of a struct gm_members, whose y is one member's state. */
 struct gm_held {
     const struct gm_holding *holding;
-    const struct gm_scheme *base;
-    struct gm_problem one; /* the problem with one member */
-    void *workspace;       /* the base's */
+    struct gm_base_scheme base;
     struct gm_conserved conserved;
     size_t n, count;
     double *z, *next, *move;                /* n */
@@ -37,9 +36,6 @@ struct gm_held {
     double storage[];
 };
 
-/* out := a step h of the base from y. */
-enum gm_status gm_held_step(const struct gm_held *held, const struct gm_task *task, double h, const double *y,
-                            double *out, struct gm_progress *progress);
 /* Fills slopes and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
 void gm_held_turn(struct gm_held *held, const double *y);
 /* Returns the largest distance of the invariants at y from `values`, relative to their scale, after writing these

@@ -14,15 +14,8 @@
    spherical-midpoint2:  y_1 = y_0 + h omega(z) x z,   z = |y_0| (y_0 + y_1) / |y_0 + y_1|,
    for each of several vectors, which turn one another. R.I. McLachlan, K. Modin & O. Verdier, Phys. Rev. E 89 (2014)
    061301; Math. Comp. 86 (2017) 2325. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/poisson/turns.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
 
 typedef enum gm_status one_step(const struct gm_problem *problem, double h, struct gm_members *members,
                                 struct gm_progress *progress);

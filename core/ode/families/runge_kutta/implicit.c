@@ -8,16 +8,8 @@
    Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/runge_kutta/implicit.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/linear/settled.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/runge_kutta/modes.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
 #include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
@@ -469,12 +461,10 @@ bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coef
 }
 
 const struct gm_family gm_family_implicit = {
-    .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .carries_passive = true,

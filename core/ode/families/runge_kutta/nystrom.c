@@ -10,12 +10,7 @@
    E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
 #include "core/ode/families/runge_kutta/nystrom.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
 
 /* The scratch: the forces at the stages, the velocity at p0, a state and its slope, and the next forces. */
 struct scratch {

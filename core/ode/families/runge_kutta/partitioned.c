@@ -7,13 +7,8 @@
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
 #include "core/ode/families/runge_kutta/partitioned.h"
 
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
 #include "core/ode/kernel/stage_solver.h"
-#include "core/ode_scheme_texts.h"
 #include "core/theory/coefficients.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,

@@ -9,11 +9,7 @@
    II.5. */
 #include "core/ode/families/splitting/splitting.h"
 
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
+#include "core/ode/families/family.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
@@ -114,12 +110,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 }
 
 const struct gm_family gm_family_splitting = {
-    .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_SPLITTING,
     .coefficients_open = coefficients_open,
     .title = "splitting",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,

@@ -22,16 +22,9 @@
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
 #include "core/ode/families/variational/discrete_lagrangian.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
-#include "core/ode_scheme_texts.h"
 
 /* The scratch: the basis at the points, unknowns, and their equations. */
 struct step {
@@ -404,10 +397,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_discrete_lagrangian = {
-    .kind = &gm_kind_ode,
     .title = "variational, with fixed step",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = gm_members_loop,
     .members = &gm_variational_members,
