@@ -104,41 +104,26 @@ struct work {
     double complex *state, *rest, *stage;
 };
 
-static void workspace_close(void *workspace)
+static void close_modes(void *modes)
 {
-    struct gm_members *members = workspace;
-    struct work *work = members->family;
-    if (work) {
-        gm_modes_close(&work->modes);
-        free(work->matrices);
-        free(work->state);
-    }
-    free(work);
-    free(members);
+    gm_modes_close(modes);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void *open_work(struct gm_members *members, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme)
 {
     const struct exponential *row = scheme->coefficients;
     const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields, points = n / fields;
-    struct gm_members *members = gm_members_open(problem, 0, n);
-    struct work *work = calloc(1, sizeof *work);
-    if (!members || !work) {
-        free(members);
-        free(work);
-        return NULL;
-    }
-    members->family = work;
+    struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
+    gm_arena_keep(members->arena, &work->modes, close_modes);
+    gm_arena_need(members->arena, gm_modes_open(&work->modes, points, fields));
     work->matrices =
-        malloc(gm_modes_half(points) * row->stages * PER_STAGE * fields * fields * sizeof *work->matrices);
-    work->state = malloc((2 + row->stages) * n * sizeof *work->state);
-    if (!gm_modes_open(&work->modes, points, fields) || !work->matrices || !work->state) {
-        workspace_close(members);
-        return NULL;
-    }
+        gm_arena_take(members->arena, gm_modes_half(points) * row->stages * PER_STAGE * fields * fields,
+                      sizeof *work->matrices);
+    work->state = gm_arena_take(members->arena, (2 + row->stages) * n, sizeof *work->state);
     work->stage = work->state + n;
     work->rest = work->stage + n;
-    return members;
+    return work;
 }
 
 static void make_matrices(const struct gm_task *task, struct work *work)
@@ -226,9 +211,5 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_exponential = {
     .title = "exponential Runge-Kutta",
-    GM_ROWS,
-    .loop = gm_members_loop,
-    .members = &(const struct gm_member_family){.step = step},
-    .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    GM_MEMBERS(.step = step, .open = open_work, .vectors = 1),
 };

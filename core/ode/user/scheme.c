@@ -258,7 +258,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
     struct own *self = open_user(making, sizeof(struct gm_parts_row));
     struct gm_parts_row *row = self->coefficients;
     *row = parts ? *parts : (struct gm_parts_row){.parts = 0};
-    struct gm_splitting *splitting = &row->row.splitting;
+    struct gm_splitting *splitting = &row->splitting;
     bool exact = pieces->count <= MOST_STAGES && row->corrector == 0 && (!parts || parts->parts == 2);
     self->row.family = parts ? &gm_family_parts : &gm_family_splitting;
     self->row.needs = (parts ? GM_NEEDS_PARTS : GM_NEEDS_SPLIT) | needs;
@@ -298,8 +298,7 @@ static bool has_coefficients(const struct gm_scheme *scheme)
 static bool add_pieces(const struct making *making, struct pieces *pieces, const struct gm_scheme *scheme,
                        const struct gm_written_number *fraction, bool backwards)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
+    const struct gm_splitting *table = scheme->coefficients;
     struct gm_coefficients *exact = has_coefficients(scheme) ? take_coefficients(making, 1) : NULL;
     bool good = true;
     gm_arena_need(making->arena, !exact || gm_scheme_coefficients_open(scheme, exact));
@@ -1049,7 +1048,7 @@ static struct gm_theory theory_of_parts(const struct making *making, const struc
 {
     const unsigned claims = base->count > 0 ? base->at[0]->claims : 0;
     struct gm_theory theory = {.symmetric = true, .symplectic = true};
-    const struct gm_splitting *list = &row->row.splitting;
+    const struct gm_splitting *list = &row->splitting;
     for (int i = 0, last = list->count - 1; i <= last; i++) {
         const struct gm_named_part *here = &row->list[list->pieces[i].piece],
                                    *there = &row->list[list->pieces[last - i].piece];

@@ -34,37 +34,25 @@ struct work {
     double density;             /* Q at `after`; 0: not known */
     double *after, *carry;      /* n each: after a step */
     double *field, *gradient;   /* n */
-    double storage[];
 };
 
-static void workspace_close(void *data)
+static void close_base(void *base)
 {
-    struct gm_members *members = data;
-    if (members && members->family) {
-        gm_base_close(&((struct work *)members->family)->base);
-        free(members->family);
-    }
-    free(members);
+    gm_base_close(base);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void *open_work(struct gm_members *members, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme)
 {
     const struct row *row = scheme->coefficients;
-    const size_t n = problem->n;
-    struct gm_members *members = gm_members_open(problem, REMEMBERED, 0);
-    struct work *work = members ? calloc(1, sizeof *work + 4 * n * sizeof(double)) : NULL;
-    if (work) {
-        members->family = work;
-        work->after = work->storage;
-        work->carry = work->after + n;
-        work->field = work->carry + n;
-        work->gradient = work->field + n;
-    }
-    if (!work || !gm_base_open(&work->base, gm_scheme_find(row->base), problem)) {
-        workspace_close(members);
-        return NULL;
-    }
-    return members;
+    struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
+    gm_arena_keep(members->arena, &work->base, close_base);
+    gm_arena_need(members->arena, gm_base_open(&work->base, gm_scheme_find(row->base), problem));
+    work->after = members->scratch;
+    work->carry = work->after + members->n;
+    work->field = work->carry + members->n;
+    work->gradient = work->field + members->n;
+    return work;
 }
 
 static void workspace_reset(void *data)
@@ -211,14 +199,9 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_controlled_steps = {
     .title = "controlled steps",
-    GM_ROWS,
+    GM_MEMBERS_WITH_MEMORY(.step = step, .open = open_work, .remembered = REMEMBERED, .vectors = 4),
     .parameters = gm_settings_of_sums,
-    .loop = gm_members_loop,
-    .members = &(const struct gm_member_family){.step = step, .remembered = REMEMBERED},
-    .memory = gm_members_memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
     .workspace_reset = workspace_reset,
     .adaptive = true,
 };

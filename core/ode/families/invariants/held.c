@@ -126,46 +126,40 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
 
 /* ---- the hooks ---- */
 
-void gm_held_close(void *data)
+static void close_base(void *base)
 {
-    struct gm_members *members = data;
-    struct gm_held *held = members ? members->family : NULL;
-    if (held) {
-        gm_base_close(&held->base);
-        gm_conserved_close(&held->conserved);
-    }
-    free(held);
-    free(members);
+    gm_base_close(base);
 }
 
-void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void close_conserved(void *conserved)
+{
+    gm_conserved_close(conserved);
+}
+
+void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
+                   const struct gm_scheme *scheme)
 {
     const struct gm_holding *holding = scheme->coefficients;
     const size_t n = problem->n, count = holding->count;
     char lacks[GM_FAULT_SENTENCE];
-    struct gm_members *members = gm_members_open(problem, gm_held_memory(problem, scheme) / problem->m, 0);
-    struct gm_held *held = members ? calloc(1, sizeof *held + (3 + 3 * count) * n * sizeof(double)) : NULL;
-    if (!held) {
-        free(members);
-        return NULL;
-    }
-    members->family = held;
+    struct gm_held *held = gm_arena_take(members->arena, 1, sizeof *held);
     held->holding = holding;
     held->n = n;
     held->count = count;
     double **const arrays[] = {&held->z, &held->next, &held->move};
     double **const rows[] = {&held->start_slopes, &held->slopes, &held->turned};
     for (size_t i = 0; i < 3; i++) {
-        *arrays[i] = held->storage + i * n;
-        *rows[i] = held->storage + (3 + i * count) * n;
+        *arrays[i] = gm_arena_take(members->arena, n, sizeof(double));
+        *rows[i] = gm_arena_take(members->arena, count * n, sizeof(double));
     }
-    if (!gm_base_open(&held->base, gm_holding_base(scheme), problem) ||
-        (count > 0 &&
-         !gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks))) {
-        gm_held_close(members);
-        return NULL;
+    gm_arena_keep(members->arena, &held->base, close_base);
+    gm_arena_need(members->arena, gm_base_open(&held->base, gm_holding_base(scheme), problem));
+    if (count > 0) {
+        gm_arena_need(members->arena,
+                      gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks));
+        gm_arena_keep(members->arena, &held->conserved, close_conserved);
     }
-    return members;
+    return held;
 }
 
 void gm_held_reset(void *data)

@@ -33,7 +33,6 @@ struct gm_held {
     double *start_slopes, *slopes, *turned; /* count * n, by rows */
     double values[GM_MOST_CONSERVED], scale[GM_MOST_CONSERVED], length[GM_MOST_CONSERVED];
     double turn[GM_MOST_CONSERVED][GM_MOST_CONSERVED];
-    double storage[];
 };
 
 /* Fills slopes and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
@@ -48,20 +47,17 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
                     size_t n, double *y);
 
 /* The hooks of these families. */
-void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
-void gm_held_close(void *members);
+void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
+                   const struct gm_scheme *scheme);
 void gm_held_reset(void *members);
 size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_held_start(const struct gm_task *task);
 const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
 #define GM_HELD_FAMILY(make)                                                                                 \
-    .kind = &gm_kind_ode, .loop = gm_members_loop, .workspace_open = gm_held_open,                           \
-    .workspace_close = gm_held_close, .workspace_reset = gm_held_reset, .memory = gm_held_memory,            \
-    .start = gm_held_start, .lacks = gm_held_lacks, .members = &(const struct gm_member_family)              \
-    {                                                                                                        \
-        .step = make                                                                                         \
-    }
+    .kind = &gm_kind_ode, GM_MEMBERS_OF_NO_ROWS(.step = make, .open = gm_held_open),                         \
+    .workspace_reset = gm_held_reset, .memory = gm_held_memory, .start = gm_held_start,                      \
+    .lacks = gm_held_lacks
 
 /* An invariant is met at this part of its scale, an iteration ends after this number of corrections. */
 #define GM_HELD_MET 1e-12

@@ -97,17 +97,8 @@ static struct gm_progress advance(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-#define GM_EXPLICIT(identifier, order_, claims_, tableau_, name_, title_, formula_, reference_)              \
-    {                                                                                                        \
-        .name = name_,                                                                                       \
-        .title = title_,                                                                                     \
-        .formula = formula_,                                                                                 \
-        .reference = reference_,                                                                             \
-        .family = &gm_family_explicit,                                                                       \
-        .coefficients = &gm_explicit_##identifier,                                                           \
-        .order = order_,                                                                                     \
-        .claims = claims_,                                                                                   \
-    },
+#define GM_EXPLICIT(identifier, ...)                                                                         \
+    {GM_TEXTS_##identifier, .family = &gm_family_explicit, .coefficients = &gm_explicit_##identifier},
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 };

@@ -9,7 +9,6 @@
 #include "core/ode/families/runge_kutta/implicit.h"
 
 #include "core/ode/families/family.h"
-#include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
@@ -66,7 +65,9 @@ struct work {
 static void workspace_close(void *workspace)
 {
     struct work *work = workspace;
-    gm_implicit_modes_close(work->modes);
+    if (work->modes) {
+        gm_members_close(work->modes);
+    }
     free(work->tiles);
     free(work);
 }
@@ -80,7 +81,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         return NULL;
     }
     if (gm_ode_of(problem)->semilinear && problem->m == 1) {
-        work->modes = gm_implicit_modes_open(problem, row);
+        work->modes = gm_members_workspace(problem, scheme);
     } else {
         work->tiles =
             gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
@@ -420,7 +421,7 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_task part = *task;
     if (work->modes) {
         part.workspace = work->modes;
-        return gm_implicit_modes_advance(&part);
+        return gm_members_loop(&part);
     }
     part.workspace = work->tiles;
     return gm_tiles_advance(&part, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
@@ -467,6 +468,7 @@ const struct gm_family gm_family_implicit = {
     GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
+    .members = &gm_implicit_modes,
     .carries_passive = true,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

@@ -332,8 +332,8 @@ static void list_parts(struct work *work)
     if (timed > 1 || (timed > 0 && work->carrier == row->parts)) {
         gm_arena_refuse(work->arena, "the time in one part, and another part that moves it");
     }
-    for (int i = 0; i < row->row.splitting.count; i++) {
-        add_flow(work, (size_t)row->row.splitting.pieces[i].piece, row->row.splitting.pieces[i].fraction);
+    for (int i = 0; i < row->splitting.count; i++) {
+        add_flow(work, (size_t)row->splitting.pieces[i].piece, row->splitting.pieces[i].fraction);
     }
     if (row->corrector != 0) {
         open_corrector(work, row->parts);
@@ -629,10 +629,10 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
 #include "core/corrected_schemes.def"
 #undef GM_SCHEME_ROW
 #undef GM_SCHEME_TEXTS
-static const struct gm_parts_row interaction_kepler = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
                                                        .list = {{"interaction", NULL}, {"kepler", NULL}}},
-                                 rest_linear = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+                                 rest_linear = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                 .parts = 2,
                                                 .list = {{"rest", NULL}, {"linear", NULL}}},
                                  once = {.parts = 0}, twice = {.of_pieces = &gm_composition_none},

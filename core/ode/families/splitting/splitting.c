@@ -14,7 +14,7 @@
 #include "core/theory/coefficients.h"
 
 /* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) static const struct gm_splitting_row identifier = {__VA_ARGS__};
+#define GM_SCHEME_ROW(identifier, ...) static const struct gm_splitting identifier = {__VA_ARGS__};
 #define GM_SCHEME_TEXTS(...)
 #include "core/splitting_schemes.def"
 #undef GM_SCHEME_ROW
@@ -33,8 +33,7 @@ static const struct gm_scheme schemes[] = {
    before. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
+    const struct gm_splitting *splitting = scheme->coefficients;
     const int stages = splitting->count;
     if (!gm_coefficients_open(
             coefficients, scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
@@ -98,9 +97,7 @@ GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
-    return gm_tiles_advance(task, table, task->problem->m == 1 ? step_one : step_many);
+    return gm_tiles_advance(task, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)

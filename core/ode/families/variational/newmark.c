@@ -39,6 +39,6 @@ const struct gm_family gm_family_newmark = {
     .parameters = gm_settings_of_newmark,
     .loop = gm_members_loop,
     .members = &gm_variational_members,
-    .workspace_open = gm_variational_workspace,
-    .workspace_close = free,
+    .workspace_open = gm_members_workspace,
+    .workspace_close = gm_members_close,
 };
