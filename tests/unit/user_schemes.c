@@ -18,7 +18,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/families/runge_kutta/partitioned.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/families/splitting/splitting.h"
 #include "core/ode/user/polish.h"
 #include "core/run.h"

@@ -24,8 +24,6 @@
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/families/runge_kutta/nystrom.h"
-#include "core/ode/families/runge_kutta/partitioned.h"
 #include "core/ode/families/splitting/parts.h"
 #include "core/schemes.h"
 #include "core/theory/theory.h"

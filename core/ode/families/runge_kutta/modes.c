@@ -8,7 +8,7 @@
 #include <complex.h>
 
 #include "core/linear/complex_matrix.h"
-#include "core/linear/modes.h"
+#include "core/linear/fourier.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
 

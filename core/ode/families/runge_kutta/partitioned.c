@@ -5,9 +5,8 @@
    symplectic if b = d and b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler
    methods. Solved to round-off by fixed-point iteration, and if that does not contract by Newton's method.
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
-#include "core/ode/families/runge_kutta/partitioned.h"
-
 #include "core/ode/families/family.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/kernel/stage_solver.h"
 #include "core/theory/coefficients.h"
 

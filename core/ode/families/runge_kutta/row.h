@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of a Runge-Kutta method, which the loops of explicit and of implicit ones share. */
+/* The rows of Runge-Kutta methods. */
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_ROW_H
 
@@ -16,6 +16,20 @@ struct gm_tableau {
     double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
     double b[GM_TABLEAU_STAGES];
     const struct gm_composition *composition; /* implicit; NULL: explicit */
+};
+
+/* A partitioned method: a and b for q', c and d for p'. */
+struct gm_partitioned_row {
+    size_t stages;
+    double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES], c[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
+    double b[GM_TABLEAU_STAGES], d[GM_TABLEAU_STAGES];
+};
+
+/* A Nystrom method: a and b for positions, bv for velocities, c the times of the stages. */
+struct gm_nystrom_row {
+    int stages;
+    double a[GM_TABLEAU_STAGES][GM_TABLEAU_STAGES];
+    double b[GM_TABLEAU_STAGES], bv[GM_TABLEAU_STAGES], c[GM_TABLEAU_STAGES];
 };
 
 #endif
