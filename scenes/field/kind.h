@@ -34,8 +34,7 @@ struct gm_field_kind {
     bool (*admits)(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence);
     void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
-    int frame_shown; /* the choice that shows the moving frame, and its picture; NULL: the kind has none */
-    void (*draw_frame)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    int frame_shown; /* the choice that shows the moving frame; 0: the kind has none */
     bool by_matrices, complex_valued;
     double (*shift)(const struct gm_view *view); /* how far the nodes have moved; NULL: not at all */
     /* Draws the field; NULL: as a surface over space and time, and profiles. With it the line has two ends. */

@@ -47,7 +47,7 @@ static void record_shown(const struct gm_view *view, double *entry)
 {
     const struct gm_field_kind *kind = gm_viewed_field(view)->kind;
     const int show = ((const struct gm_system_lane *)view->parameters)->grid.show;
-    const bool of_frame = kind->draw_frame && show == kind->frame_shown;
+    const bool of_frame = kind->frame_shown && show == kind->frame_shown;
     gm_surface_record_shown(view, of_frame ? GM_SHOW_FIELD : show, kind->value, entry);
 }
 

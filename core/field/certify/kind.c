@@ -10,10 +10,7 @@
 #include "core/basics.h"
 #include "core/certify.h"
 #include "core/field/certify/runs.h"
-#include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
-#include "core/field/families/heat.h"
-#include "core/field/families/kdv_moving_frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/problems/dispersive.h"
@@ -116,13 +113,11 @@ static void exact_in_frame(const struct gm_problem *problem, double x, double t,
     values[0] = gm_frame_exact(gm_framed_of(problem), gm_framed_of(problem)->lambda, x, t);
 }
 
-/* Frames of reference: the same solution from a moving one, the value at node i that the original frame
-   sees of a run, and the defect of one step under a symmetry, NaN without one. */
+/* Frames of reference: the same solution from a moving one, and the value at node i that the original frame sees of a
+   run. */
 struct frames {
     const void *parameters; /* of an equation without a file */
     double (*seen)(const struct gm_run *run, size_t i);
-    double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const double *y);
 };
 
 /* Nodes that rest in the frame have travelled over whole nodes of the original one. */
@@ -135,43 +130,15 @@ static double seen_kdv(const struct gm_run *run, size_t i)
     return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->framed.lambda / kdv->eta;
 }
 
-static double defect_kdv(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                         const double *y)
-{
-    static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
-    return gm_kdv_defect(problem, scheme, dt, &symmetry, y);
-}
-
 static double seen_burgers(const struct gm_run *run, size_t i)
 {
     return gm_run_state(run)[i] - gm_framed_of(run->problem)->lambda;
 }
 
-/* Three nodes do not determine an implicit step: its claim is of boosts alone. */
-static double defect_burgers(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                             const double *y)
-{
-    (void)problem;
-    (void)dt;
-    (void)y;
-    static const double u[3] = {0.4, 0.3, 0.15};
-    static const struct gm_burgers burgers = {.viscosity = 0.005, .a = -0.3, .d = 0.2};
-    static const struct gm_burgers_symmetry symmetry = {.a4 = 0.5, .a5 = 0.4, .scale = 1.3};
-    return gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &symmetry, 0.3, u);
-}
-
 static double seen_heat(const struct gm_run *run, size_t i)
 {
     const double x = gm_grid1_node(&run->problem->line, i);
-    return gm_run_state(run)[i] / gm_heat_factor(gm_heat_of(run->problem), false, x, run->t);
-}
-
-static double defect_heat(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                          const double *y)
-{
-    const double projection = gm_heat_keeps(scheme) & GM_HEAT_PROJECTIONS ? 0.5 : 0;
-    const struct gm_heat_symmetry symmetry = {.boost = 0.5, .projection = projection, .scale = 1.3};
-    return gm_heat_defect(problem, scheme, dt, &symmetry, y);
+    return gm_run_state(run)[i] / gm_heat_factor(gm_framed_of(run->problem), false, x, run->t);
 }
 
 static bool is_above_second_order(const struct gm_scheme *scheme)
@@ -186,7 +153,7 @@ static bool is_pseudospectral(const struct gm_scheme *scheme)
 
 static bool is_explicit_for_kdv(const struct gm_scheme *scheme)
 {
-    return scheme->needs & GM_NEEDS_KDV && !gm_kdv_solves(scheme);
+    return scheme->needs & GM_NEEDS_KDV && !gm_frames_of_kdv.are_special(scheme);
 }
 
 static bool is_explicit_for_nls(const struct gm_scheme *scheme)
@@ -224,7 +191,7 @@ struct equation {
     .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
     .kept = kdv_mass, .frames = &(const struct frames)                                                       \
     {                                                                                                        \
-        &(const struct gm_kdv){KDV_SOLITON, .framed.lambda = 2}, seen_kdv, defect_kdv                        \
+        &(const struct gm_kdv){KDV_SOLITON, .framed.lambda = 2}, seen_kdv                                    \
     }
 
 #define NLS                                                                                                  \
@@ -259,14 +226,14 @@ static const struct equation equations[] = {
      .line = {.points = 81, .dx = 0.05, .first = -2},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_burgers, .defect = defect_burgers}},
+     .frames = &(const struct frames){.seen = seen_burgers}},
     {.file = "heat",
      .exact = exact_in_frame,
      .numbers = 1,
      .line = {.points = 81, .dx = 0.1, .first = -4},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_heat, .defect = defect_heat}},
+     .frames = &(const struct frames){.seen = seen_heat}},
 };
 
 /* The problem of an equation with these parameters, on a grid that is twice as fine `finer` times. */
@@ -331,6 +298,9 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
 static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
                            const double *y)
 {
+    const struct gm_field *field = gm_field_of(&subject->problem);
+    const bool projects = field->equation != GM_NEEDS_HEAT || field->frames->are_special(subject->scheme);
+    const struct gm_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
     struct gm_field_subject rest = *subject, moving = *subject;
     moving.problem = problem_of(equation, equation->frames->parameters, 0);
     double *start = start_of(equation, &moving.problem, subject->dt), largest = INFINITY;
@@ -344,8 +314,8 @@ static double frame_defect(const struct equation *equation, const struct gm_fiel
                     fabs(equation->frames->seen(moving.run, i) - equation->frames->seen(rest.run, i));
                 largest = gm_larger(apart, largest);
             }
-            largest =
-                fmax(largest, equation->frames->defect(&subject->problem, subject->scheme, subject->dt, y));
+            largest = fmax(largest, field->frames->defect(&subject->problem, subject->scheme, subject->dt,
+                                                          &symmetry, y));
         }
         gm_run_close(moving.run);
     }

@@ -9,9 +9,7 @@
 /* Returns the velocity of nodes that move with their frame of reference; 0 if they do not. */
 static double speed_of(const struct gm_run *run)
 {
-    const unsigned framed = GM_NEEDS_HEAT | GM_NEEDS_KDV | GM_NEEDS_BURGERS;
-    const bool has_frames = (gm_field_of(run->problem)->equation & framed) != 0;
-    return has_frames && !gm_frame_rests(gm_framed_of(run->problem), run->scheme)
+    return gm_field_of(run->problem)->frames && !gm_frame_rests(gm_framed_of(run->problem), run->scheme)
                ? gm_framed_of(run->problem)->lambda
                : 0;
 }

@@ -23,7 +23,7 @@
    There D0 u + a4 = (a + 1/2) h D2 u: what is left of the convection diffuses by (u - sigma/k)(a + 1/2) h,
    which only a = -1/2, the frame above, turns into second order in h; d then has no effect.
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
-#include "core/field/families/burgers.h"
+#include "core/field/problems/moving_frames.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,11 +33,28 @@
 #include "core/field/families/families.h"
 #include "core/linear/settled.h"
 
-GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progress *progress)
+/* One step of length k on nodes h apart, each displaced by sigma. u and out have `points` entries; out[0] and
+   out[points - 1] hold the boundary values of the new level already. */
+struct step {
+    const struct gm_burgers *burgers;
+    size_t points;
+    double h, k, sigma;
+    const double *u;
+    double *out;
+    double *scratch; /* [3 * points], for implicit schemes */
+};
+
+struct method {
+    enum gm_status (*make)(const struct step *step, struct gm_progress *progress);
+    bool implicit;
+    bool family; /* the frame depends on a and d */
+};
+
+GM_CLONES static enum gm_status ftcs(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, h = step->h, viscosity = step->burgers->viscosity;
+    const double k = step->k, h = step->h, viscosity = step->burgers->framed.viscosity;
     const double convection = k / (2 * h), diffusion = viscosity * k / (h * h);
     progress->evaluations++;
     if (step->burgers->printed) {
@@ -55,12 +72,12 @@ GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct 
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double ratio = step->k / step->h;
-    const double diffusion = step->burgers->viscosity * step->k / (step->h * step->h);
+    const double diffusion = step->burgers->framed.viscosity * step->k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
         const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
@@ -71,13 +88,12 @@ GM_CLONES static enum gm_status lax_wendroff(const struct gm_burgers_step *step,
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_invariant(const struct gm_burgers_step *step,
-                                               struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_invariant(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double k = step->k, sigma = step->sigma, over_2h = 1 / (2 * step->h);
-    const double diffusion = step->burgers->viscosity * k / (step->h * step->h);
+    const double diffusion = step->burgers->framed.viscosity * k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
         v[j] = (u[j] + sigma * slope + diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]) / m) / m;
@@ -86,11 +102,11 @@ GM_CLONES static enum gm_status ftcs_invariant(const struct gm_burgers_step *ste
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_family(const struct gm_burgers_step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_family(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->viscosity;
+    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->framed.viscosity;
     const double a = step->burgers->a, d = step->burgers->d;
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double bend = u[j + 1] - 2 * u[j] + u[j - 1];
@@ -102,12 +118,12 @@ GM_CLONES static enum gm_status ftcs_family(const struct gm_burgers_step *step, 
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff_invariant(const struct gm_burgers_step *step,
-                                                       struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff_invariant(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, a5 = -sigma / k, viscosity = step->burgers->viscosity;
+    const double k = step->k, sigma = step->sigma, a5 = -sigma / k,
+                 viscosity = step->burgers->framed.viscosity;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), over_m = 1 / (1 + k * slope);
@@ -125,10 +141,10 @@ struct row {
 };
 
 /* Crank-Nicolson; the constant `old` is its part at the old level. */
-static struct row row_standard(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+static struct row row_standard(const struct step *step, const double *v, size_t j, double old)
 {
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->viscosity / 2;
+    const double nu = step->burgers->framed.viscosity / 2;
     const double second = over_square * (v[j + 1] - 2 * v[j] + v[j - 1]);
     struct row row = {-nu * over_square, 1 / step->k + 2 * nu * over_square, -nu * over_square, 0};
     if (step->burgers->printed) {
@@ -146,7 +162,7 @@ static struct row row_standard(const struct gm_burgers_step *step, const double 
     return row;
 }
 
-static double old_standard(const struct gm_burgers_step *step, size_t j)
+static double old_standard(const struct step *step, size_t j)
 {
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
@@ -154,15 +170,15 @@ static double old_standard(const struct gm_burgers_step *step, size_t j)
                                   ? u[j] * over_2h * (u[j + 1] - u[j - 1])
                                   : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
     return -u[j] / step->k + convection / 2 -
-           step->burgers->viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
+           step->burgers->framed.viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
 }
 
-static struct row row_invariant(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+static struct row row_invariant(const struct step *step, const double *v, size_t j, double old)
 {
     (void)old;
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->viscosity / 2;
+    const double nu = step->burgers->framed.viscosity / 2;
     const double a4 = -over_2h * (u[j + 1] - u[j - 1]), m = 1 - a4 * step->k;
     const double shift = step->sigma * a4, a5 = -step->sigma / step->k;
     const double value = m * v[j] + shift + a5, slope = m * (m * over_2h * (v[j + 1] - v[j - 1]) + a4);
@@ -177,16 +193,15 @@ static struct row row_invariant(const struct gm_burgers_step *step, const double
     };
 }
 
-static double nothing(const struct gm_burgers_step *step, size_t j)
+static double nothing(const struct step *step, size_t j)
 {
     return (void)step, (void)j, 0;
 }
 
 /* Newton's method; the tridiagonal systems by elimination. */
-static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progress *progress,
-                            double (*old)(const struct gm_burgers_step *, size_t),
-                            struct row (*row_at)(const struct gm_burgers_step *, const double *, size_t,
-                                                 double))
+static enum gm_status solve(const struct step *step, struct gm_progress *progress,
+                            double (*old)(const struct step *, size_t),
+                            struct row (*row_at)(const struct step *, const double *, size_t, double))
 {
     enum { MOST = 60 };
     const size_t points = step->points;
@@ -224,13 +239,12 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
     return GM_NO_CONVERGENCE;
 }
 
-static enum gm_status crank_nicolson(const struct gm_burgers_step *step, struct gm_progress *progress)
+static enum gm_status crank_nicolson(const struct step *step, struct gm_progress *progress)
 {
     return solve(step, progress, old_standard, row_standard);
 }
 
-static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *step,
-                                               struct gm_progress *progress)
+static enum gm_status crank_nicolson_invariant(const struct step *step, struct gm_progress *progress)
 {
     return solve(step, progress, nothing, row_invariant);
 }
@@ -278,10 +292,10 @@ struct run {
 static enum gm_status make_step(const struct gm_task *task, struct run *run, size_t made, size_t some,
                                 struct gm_progress *progress)
 {
-    const struct gm_burgers_row *row = task->scheme->coefficients;
+    const struct method *method = task->scheme->coefficients;
     const struct gm_grid1 *grid = &task->problem->line;
     double **level = run->level;
-    const struct gm_burgers_step step = {
+    const struct step step = {
         .burgers = gm_burgers_of(task->problem),
         .points = grid->points,
         .h = grid->dx,
@@ -293,7 +307,7 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
     };
     level[1][0] = run->ends[made] - run->shift;
     level[1][grid->points - 1] = run->ends[some + made] - run->shift;
-    enum gm_status status = row->method(&step, progress);
+    enum gm_status status = method->make(&step, progress);
     if (status == GM_OK && !within(level[1], grid->points, run->lambda, task->limit)) {
         status = GM_BLOW_UP;
     }
@@ -346,54 +360,72 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, struct gm_event event)
+/* (t, x, u) -> (t/m, (x + b t)/m, m u + p x + b),   m = 1 - p t (eq. 98: a4 = p, a5 = b)
+   (t, x, u) -> (s^2 t, s x, u/s) */
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_symmetry *symmetry,
+                             struct gm_event event)
 {
-    const double s = symmetry->scale, m = 1 - symmetry->a4 * event.t;
+    (void)framed;
+    const double s = symmetry->scale, m = 1 - symmetry->projection * event.t;
     return (struct gm_event){
         .t = s * s * event.t / m,
-        .x = s * (event.x + symmetry->a5 * event.t) / m,
-        .u = (m * event.u + symmetry->a4 * event.x + symmetry->a5) / s,
+        .x = s * (event.x + symmetry->boost * event.t) / m,
+        .u = (m * event.u + symmetry->projection * event.x + symmetry->boost) / s,
     };
 }
 
-struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
-                                            double h, const double u[3])
+static bool is_of_family(const struct gm_scheme *scheme)
 {
-    const struct gm_burgers_row *row = scheme->coefficients;
-    const double a = row->family ? burgers->a : -0.5, d = row->family ? burgers->d : 0;
-    return (struct gm_burgers_symmetry){
-        .a4 = (a * u[2] - (1 + 2 * a) * u[1] + (1 + a) * u[0]) / h,
-        .a5 = d * (u[2] - 2 * u[1] + u[0]) - u[1],
+    return ((const struct method *)scheme->coefficients)->family;
+}
+
+/* Of schemes without frames too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
+static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
+                 size_t j, struct gm_symmetry *frame)
+{
+    const struct gm_burgers *burgers = gm_burgers_of(problem);
+    const bool family = is_of_family(scheme);
+    const double a = family ? burgers->a : -0.5, d = family ? burgers->d : 0;
+    *frame = (struct gm_symmetry){
+        .boost = d * (u[j + 1] - 2 * u[j] + u[j - 1]) - u[j],
+        .projection = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / problem->line.dx,
         .scale = 1,
     };
+    return frame->projection * k < 1;
 }
 
-double gm_burgers_defect(const struct gm_scheme *scheme, const struct gm_burgers *burgers, double h, double k,
-                         const struct gm_burgers_symmetry *symmetry, double x, const double u[3])
+/* On three nodes about x = 0.3 with the values 0.4, 0.3, 0.15, which do not determine an implicit step. */
+static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                     const struct gm_symmetry *symmetry, const double *unused)
 {
-    const struct gm_burgers_row *row = scheme->coefficients;
-    if (row->implicit) {
-        return NAN;
-    }
+    (void)unused;
+    static const double u[3] = {0.4, 0.3, 0.15};
+    const struct method *method = scheme->coefficients;
+    const double x = 0.3, h = problem->line.dx;
+    const struct gm_framed *framed = gm_framed_of(problem);
     struct gm_progress progress = {.status = GM_OK};
     double before[3], plain[3] = {0}, carried[3] = {0};
-    for (int j = 0; j < 3; j++) {
-        before[j] = gm_burgers_carried(symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
+    if (method->implicit) {
+        return NAN;
     }
-    struct gm_burgers_step step = {.burgers = burgers, .points = 3, .h = h, .k = k, .u = u, .out = plain};
-    row->method(&step, &progress);
-    const struct gm_event arrival =
-        gm_burgers_carried(symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
+    for (int j = 0; j < 3; j++) {
+        before[j] = carry(framed, symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
+    }
+    struct step step = {.burgers = gm_burgers_of(problem), .points = 3, .h = h, .k = k, .u = u, .out = plain};
+    method->make(&step, &progress);
+    const struct gm_event arrival = carry(framed, symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
     step.h = symmetry->scale * h;
     step.k = arrival.t;
     step.sigma = arrival.x - symmetry->scale * x;
     step.u = before;
     step.out = carried;
-    row->method(&step, &progress);
+    method->make(&step, &progress);
     return fabs(carried[1] - arrival.u);
 }
 
-static const struct gm_burgers_row rows[] = {
+const struct gm_frames gm_frames_of_burgers = {carry, find, defect, is_of_family};
+
+static const struct method rows[] = {
     {ftcs, false, false},
     {lax_wendroff, false, false},
     {crank_nicolson, true, false},
