@@ -192,49 +192,26 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-static const struct row rows[] = {
-    {ordinary, false},
-    {by_boosts, false},
-    {by_projections, true},
-};
-
-#define HEAT .family = &gm_family_heat, .order = 1, .needs = GM_NEEDS_HEAT
+#define OF_HEAT .family = &gm_family_heat, .needs = GM_NEEDS_HEAT
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "heat-ftcs",
-        .title = "FTCS",
-        .formula = "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
-        .reference = "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83",
-        .coefficients = &rows[0],
-        HEAT,
-    },
-    {
-        .name = "heat-boosts",
-        .title = "FTCS, boosts",
-        .formula = "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
-        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
-        .coefficients = &rows[1],
-        .claims = GM_EQUIVARIANT,
-        HEAT,
-    },
-    {
-        .name = "heat-projections",
-        .title = "FTCS, projections",
-        .formula = "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
-                   "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
-        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
-        .coefficients = &rows[2],
-        .claims = GM_EQUIVARIANT,
-        HEAT,
-    },
+    GM_FIELD_SCHEME("heat-ftcs", "FTCS", 1, 0, "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
+                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83", OF_HEAT,
+                    .coefficients = &(const struct row){.make = ordinary}),
+    GM_FIELD_SCHEME("heat-boosts", "FTCS, boosts", 1, GM_EQUIVARIANT,
+                    "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
+                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
+                    .coefficients = &(const struct row){.make = by_boosts}),
+    GM_FIELD_SCHEME("heat-projections", "FTCS, projections", 1, GM_EQUIVARIANT,
+                    "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
+                    "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
+                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
+                    .coefficients = &(const struct row){.make = by_projections, .projects = true}),
 };
 
 const struct gm_family gm_family_heat = {
-    .kind = &gm_kind_field,
     .title = "Heat equation, standard and invariantised",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = free,

@@ -363,40 +363,27 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
 
 const struct gm_frames gm_frames_of_kdv = {carry, find, defect, solves};
 
-static const struct row leapfrog_row = {leapfrog, false}, projection_row = {evolve_and_project, true};
-
-#define KDV_FRAMES .family = &gm_family_kdv_moving_frames, .order = 2, .needs = GM_NEEDS_KDV
+#define OF_KDV_MOVING_FRAMES .family = &gm_family_kdv_moving_frames, .needs = GM_NEEDS_KDV
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "zabusky-kruskal-invariant",
-        .title = "Zabusky-Kruskal, invariant",
-        .formula = "v = uⁿ⁻¹ + 2k [(σ/k − η Au) D₀u − μ D₃u],  Au = (uⱼ₋₁ + uⱼ + uⱼ₊₁)/3",
-        .reference = "Zabusky & Kruskal (1965) in the frame of Razafindralandy et al. (2018), eq. 91; "
-                     "A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201",
-        .coefficients = &leapfrog_row,
-        .claims = GM_EQUIVARIANT | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-        KDV_FRAMES,
-    },
-    {
-        .name = "evolution-projection",
-        .title = "Evolution-projection",
-        .formula = "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
-                   "P: the polynomial through six nodes",
-        .reference =
-            "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
-            "is explicit",
-        .coefficients = &projection_row,
-        .claims = GM_EQUIVARIANT,
-        KDV_FRAMES,
-    },
+    GM_FIELD_SCHEME("zabusky-kruskal-invariant", "Zabusky-Kruskal, invariant", 2,
+                    GM_EQUIVARIANT | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+                    "v = uⁿ⁻¹ + 2k [(σ/k − η Au) D₀u − μ D₃u],  Au = (uⱼ₋₁ + uⱼ + uⱼ₊₁)/3",
+                    "Zabusky & Kruskal (1965) in the frame of Razafindralandy et al. (2018), eq. 91; "
+                    "A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201",
+                    OF_KDV_MOVING_FRAMES, .coefficients = &(const struct row){.make = leapfrog}),
+    GM_FIELD_SCHEME("evolution-projection", "Evolution-projection", 2, GM_EQUIVARIANT,
+                    "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
+                    "P: the polynomial through six nodes",
+                    "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
+                    "is explicit",
+                    OF_KDV_MOVING_FRAMES,
+                    .coefficients = &(const struct row){.make = evolve_and_project, .solves = true}),
 };
 
 const struct gm_family gm_family_kdv_moving_frames = {
-    .kind = &gm_kind_field,
     .title = "Korteweg-de Vries, invariantised",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .memory = memory,
     .start = start,

@@ -141,56 +141,31 @@ static double longest_explicit(const struct gm_problem *problem, const double *y
 
 static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
 
+#define OF_LEAPFROG .family = &gm_family_leapfrog, .needs = GM_NEEDS_WAVE
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "leapfrog",
-        .title = "leapfrog",
-        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
-        .reference =
-            "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
-            "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[0],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        .limit = &explicit_limit,
-    },
-    {
-        .name = "energy-conserving",
-        .title = "energy-conserving",
-        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
-        .reference = "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[1],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_KEEPS_ENERGY | GM_SYMMETRIC,
-    },
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula =
-            "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[2],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        .limit = &explicit_limit,
-    },
+    GM_FIELD_SCHEME(
+        "leapfrog", "leapfrog", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
+        "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
+        "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
+        OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]),
+    GM_FIELD_SCHEME("energy-conserving", "energy-conserving", 2, GM_KEEPS_ENERGY | GM_SYMMETRIC,
+                    "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
+                    "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271", OF_LEAPFROG,
+                    .coefficients = &rows[1]),
+    GM_FIELD_SCHEME(
+        "euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
+        "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_LEAPFROG, .limit = &explicit_limit,
+        .coefficients = &rows[2]),
 };
 
 const struct gm_family gm_family_leapfrog = {
-    .kind = &gm_kind_field,
     .title = "two-step wave schemes",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_two_step_advance,
+    GM_FIELD_FAMILY,
+    GM_TWO_STEP_LOOP,
     .memory = memory,
     .start = start,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
     .form = gm_wave_form,
 };
