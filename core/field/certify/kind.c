@@ -14,9 +14,9 @@
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
 #include "core/field/user/equation.h"
 #include "core/field/user/form.h"
+#include "core/field/user/potential.h"
 #include "core/files/files.h"
 #include "core/model/equations.h"
 #include "core/quantity.h"
@@ -55,30 +55,6 @@ static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
 
 /* ---- on the program's own equations ---- */
 
-static void exact_breather(const struct gm_problem *problem, double x, double t, double *values)
-{
-    const double w = 0.6, g = sqrt((1 - w) * (1 + w));
-    (void)problem;
-    values[0] = 4 * atan(g * sin(w * t) / (w * cosh(g * x)));
-}
-
-/* A soliton of velocity 1. */
-static void exact_kdv(const struct gm_problem *problem, double x, double t, double *values)
-{
-    const double lambda = gm_kdv_of(problem)->framed.lambda,
-                 period = problem->line.dx * (double)problem->line.points;
-    const double along = x - (1 + lambda) * t, away = along - period * floor(along / period + 0.5);
-    values[0] = 3 / (cosh(away / 2) * cosh(away / 2)) + lambda;
-}
-
-static void exact_nls(const struct gm_problem *problem, double x, double t, double *values)
-{
-    (void)problem;
-    const double size = sqrt(2) / cosh(x - t), phase = (x - t) / 2 + 1.25 * t;
-    values[0] = size * cos(phase);
-    values[1] = size * sin(phase);
-}
-
 /* dx sum of u in the original frame */
 static double kdv_mass(const struct gm_problem *problem, const double *y)
 {
@@ -100,27 +76,8 @@ static double nls_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static void exact_of_file(const struct gm_problem *problem, double x, double t, double *values)
-{
-    for (size_t c = 0; c < gm_field_of(problem)->form->dimension; c++) {
-        values[c] = gm_user_line_exact(problem->parameters, c, x, t);
-    }
-}
-
-/* On nodes that move with their frame. */
-static void exact_in_frame(const struct gm_problem *problem, double x, double t, double *values)
-{
-    values[0] = gm_frame_exact(gm_framed_of(problem), gm_framed_of(problem)->lambda, x, t);
-}
-
-/* Frames of reference: the same solution from a moving one, and the value at node i that the original frame sees of a
-   run. */
-struct frames {
-    const void *parameters; /* of an equation without a file */
-    double (*seen)(const struct gm_run *run, size_t i);
-};
-
-/* Nodes that rest in the frame have travelled over whole nodes of the original one. */
+/* The values at node i that the original frame sees of a run. Nodes that rest in the frame have travelled over whole nodes
+   of the original one. */
 static double seen_kdv(const struct gm_run *run, size_t i)
 {
     const struct gm_kdv *kdv = gm_kdv_of(run->problem);
@@ -164,13 +121,9 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
 /* An equation with an exact solution to start from, the runs that the order is measured by, and what else is
    measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
-    const struct gm_problem *problem;
-    const char
-        *file; /* instead of `problem`: of share/subjects with a multisymplectic form, or of share/systems */
-    struct gm_system_value given[3]; /* of its values; its frame moves with the velocity lambda = 2 */
-    const void *parameters;
-    void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
-    size_t numbers; /* numbers of the exact solution at a node; 0: one, with two levels in the state */
+    const char *file;                /* of share/systems, or of share/subjects with a multisymplectic form */
+    const char *name;                /* in certificates; NULL: that of the problem */
+    struct gm_system_value given[3]; /* of the file's values */
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;
     double dt, until;
@@ -178,26 +131,20 @@ struct equation {
                   alone */
     enum gm_claim claim;
     double (*kept)(const struct gm_problem *problem, const double *y);
-    const struct frames *frames;
+    double (*seen)(const struct gm_run *run, size_t i); /* NULL: there are no frames of reference */
 };
 
 #define SINE_GORDON                                                                                          \
-    .problem = &gm_problem_sine_gordon, .exact = exact_breather, .until = 4, .power = 1,                     \
+    .file = "sine-gordon", .name = "sine-Gordon", .given = {{"frequency", "0.6"}}, .until = 4, .power = 1,   \
     .claim = GM_KEEPS_ENERGY, .kept = gm_wave_energy
-
-#define KDV_SOLITON .eta = 1, .mu = 1
 #define KDV                                                                                                  \
-    .problem = &gm_problem_kdv, .parameters = &(const struct gm_kdv){KDV_SOLITON}, .exact = exact_kdv,       \
+    .file = "kdv", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
     .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
-    .kept = kdv_mass, .frames = &(const struct frames)                                                       \
-    {                                                                                                        \
-        &(const struct gm_kdv){KDV_SOLITON, .framed.lambda = 2}, seen_kdv                                    \
-    }
-
+    .kept = kdv_mass, .seen = seen_kdv
 #define NLS                                                                                                  \
-    .problem = &gm_problem_nls, .parameters = &(const struct gm_nls){.k = 1}, .exact = exact_nls,            \
-    .numbers = 2, .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1,                       \
-    .claim = GM_KEEPS_QUADRATIC, .kept = nls_charge
+    .file = "nls", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
+    .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1, .claim = GM_KEEPS_QUADRATIC,        \
+    .kept = nls_charge
 
 /* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring
    that the breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by
@@ -213,80 +160,115 @@ static const struct equation equations[] = {
     {NLS, .meant = is_explicit_for_nls, .dt = 0.005},
     {NLS, .dt = 0.02, .power = 1},
     {.file = "dirac",
-     .exact = exact_of_file,
-     .numbers = 4,
+     .name = "nonlinear Dirac",
      .line = {.points = 361, .dx = 60.0 / 361, .first = -30},
      .dt = 0.05,
      .until = 4,
      .power = 1},
     {.file = "burgers",
      .given = {{"viscosity", "0.1"}, {"a", "-0.3"}, {"d", "0.2"}},
-     .exact = exact_in_frame,
-     .numbers = 1,
      .line = {.points = 81, .dx = 0.05, .first = -2},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_burgers}},
+     .seen = seen_burgers},
     {.file = "heat",
-     .exact = exact_in_frame,
-     .numbers = 1,
      .line = {.points = 81, .dx = 0.1, .first = -4},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_heat}},
+     .seen = seen_heat},
 };
 
-/* The problem of an equation with these parameters, on a grid that is twice as fine `finer` times. */
-static struct gm_problem problem_of(const struct equation *equation, const void *parameters, int finer)
+/* The problem of a file and its start. */
+struct opened {
+    struct gm_user_system system;
+    struct gm_user_wave wave; /* only the member of the system's kind is used */
+    struct gm_user_form form;
+    struct gm_user_equation equation;
+    struct gm_problem problem;
+    double *start;
+};
+
+static void close_equation(struct opened *opened)
 {
-    struct gm_problem problem = *equation->problem;
-    problem.parameters = parameters;
-    problem.line = equation->line;
-    problem.line.points <<= finer;
-    problem.line.dx = ldexp(problem.line.dx, -finer);
-    const size_t points = problem.line.points;
-    if (equation->numbers == 0) {
-        problem.n = gm_wave_size(points);
-    } else if (gm_field_of(&problem)->equation == GM_NEEDS_BURGERS) {
-        problem.n = gm_burgers_size(parameters, points);
-    } else {
-        problem.n = equation->numbers * points;
+    const enum gm_system_kind kind = opened->system.kind;
+    if (opened->problem.kind) {
+        (kind == GM_FIELD      ? gm_user_wave_close
+         : kind == GM_MATRICES ? gm_user_form_close
+                               : gm_user_equation_close)(&opened->problem);
     }
-    return problem;
+    gm_system_close(&opened->system);
+    free(opened->start);
 }
 
-/* The exact state at 0, or the levels 0 and dt, which the caller frees; NULL when out of memory. */
-static double *start_of(const struct equation *equation, const struct gm_problem *problem, double dt)
+static bool open_problem(struct opened *opened, const struct gm_grid1 *line, const double *values)
 {
-    const size_t points = problem->line.points;
-    double *y = calloc(problem->n, sizeof *y), values[4];
-    for (size_t i = 0; y && i < points; i++) {
-        const double x = gm_grid1_node(&problem->line, i);
-        equation->exact(problem, x, 0, values);
-        y[i] = values[0];
-        for (size_t c = 1; c < equation->numbers; c++) {
-            y[c * points + i] = values[c];
-        }
-        if (equation->numbers == 0) {
-            equation->exact(problem, x, dt, &y[points + i]);
-        }
+    struct gm_user_system *system = &opened->system;
+    switch (system->kind) {
+    case GM_FIELD:
+        return gm_user_wave_derive(&opened->wave, system) &&
+               gm_user_wave_open(&opened->problem, &opened->wave, values, line);
+    case GM_MATRICES:
+        return gm_user_form_derive(&opened->form, system) &&
+               gm_user_form_open(&opened->problem, &opened->form, values, line);
+    default:
+        return gm_user_equation_derive(&opened->equation, system) &&
+               gm_user_equation_open(&opened->problem, &opened->equation, values, line);
     }
-    if (y && equation->numbers == 0) {
-        y[2 * points] = dt;
+}
+
+/* Opens an equation on a grid that is twice as fine `finer` times, in a frame with the velocity lambda if it has such
+   frames, with the exact state at 0, or at 0 and dt. Returns false when out of memory; the caller closes it in both cases. */
+static bool open_equation(struct opened *opened, const struct equation *equation, const char *lambda,
+                          int finer)
+{
+    struct gm_system_value values[GM_COUNT(equation->given) + 1];
+    struct gm_grid1 line = equation->line;
+    size_t count = 0;
+    for (; count < GM_COUNT(equation->given) && equation->given[count].name; count++) {
+        values[count] = equation->given[count];
     }
-    return y;
+    values[count] = (struct gm_system_value){"lambda", lambda};
+    line.points <<= finer;
+    line.dx = ldexp(line.dx, -finer);
+    *opened = (struct opened){.start = NULL};
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, equation->file);
+    file = file ? file : gm_built_in_find(GM_FILE_SUBJECT, equation->file);
+    struct gm_fault fault;
+    struct gm_problem *problem = &opened->problem;
+    if (!gm_equations_open(&opened->system, file->text, file->length, values, count + (lambda != NULL),
+                           &fault)) {
+        return false;
+    }
+    double *numbers = gm_equations_start(&opened->system, NULL);
+    const bool good = numbers && open_problem(opened, &line, numbers);
+    free(numbers);
+    opened->start = good ? calloc(problem->n, sizeof *opened->start) : NULL;
+    if (!opened->start) {
+        return false;
+    }
+    problem->name = equation->name ? equation->name : problem->name;
+    if (gm_field_of(problem)->wave || gm_field_of(problem)->equation == GM_NEEDS_KDV) {
+        gm_user_line_levels(problem->parameters, &line, ldexp(equation->dt, -finer * equation->power),
+                            opened->start);
+    } else {
+        gm_user_line_start(problem->parameters, &line, opened->start);
+    }
+    if (equation->seen && gm_field_of(problem)->equation != GM_NEEDS_KDV) {
+        ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
+    }
+    return true;
 }
 
 /* The largest difference of the field from the exact solution; INFINITY for a failure. */
 static double error_of(const struct equation *equation, struct gm_field_subject *subject, const double *y)
 {
-    double largest = INFINITY, values[4];
+    double largest = INFINITY;
     if (gm_field_begin(subject, y)) {
         largest = gm_run_until(subject->run, equation->until) == GM_OK ? 0 : INFINITY;
         for (size_t i = 0; i < subject->problem.line.points; i++) {
-            equation->exact(&subject->problem, gm_grid1_node(&subject->problem.line, i), equation->until,
-                            values);
-            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - values[0]));
+            const double x = gm_grid1_node(&subject->problem.line, i),
+                         exact = gm_user_line_exact(subject->problem.parameters, 0, x, equation->until);
+            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - exact));
         }
         gm_run_close(subject->run);
     }
@@ -301,18 +283,19 @@ static double frame_defect(const struct equation *equation, const struct gm_fiel
     const struct gm_field *field = gm_field_of(&subject->problem);
     const bool projects = field->equation != GM_NEEDS_HEAT || field->frames->are_special(subject->scheme);
     const struct gm_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
+    struct opened boosted;
+    const bool opened = open_equation(&boosted, equation, "2", 0);
     struct gm_field_subject rest = *subject, moving = *subject;
-    moving.problem = problem_of(equation, equation->frames->parameters, 0);
-    double *start = start_of(equation, &moving.problem, subject->dt), largest = INFINITY;
+    moving.problem = boosted.problem;
+    double largest = INFINITY;
     const bool begun = gm_field_begin(&rest, y);
-    if (start && begun && gm_field_begin(&moving, start)) {
+    if (opened && begun && gm_field_begin(&moving, boosted.start)) {
         if (gm_run_until(rest.run, equation->until) == GM_OK &&
             gm_run_until(moving.run, equation->until) == GM_OK) {
             largest = 0;
             for (size_t i = 0; i < subject->problem.line.points; i++) {
-                const double apart =
-                    fabs(equation->frames->seen(moving.run, i) - equation->frames->seen(rest.run, i));
-                largest = gm_larger(apart, largest);
+                largest =
+                    gm_larger(fabs(equation->seen(moving.run, i) - equation->seen(rest.run, i)), largest);
             }
             largest = fmax(largest, field->frames->defect(&subject->problem, subject->scheme, subject->dt,
                                                           &symmetry, y));
@@ -320,7 +303,7 @@ static double frame_defect(const struct equation *equation, const struct gm_fiel
         gm_run_close(moving.run);
     }
     gm_run_close(rest.run);
-    free(start);
+    close_equation(&boosted);
     return largest;
 }
 
@@ -336,126 +319,60 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
-static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
+static void measure_claims(struct gm_certificate *certificate, const struct equation *equation,
+                           struct gm_field_subject *subject, const double *y)
 {
-    const struct gm_scheme *scheme = certificate->scheme;
-    const char *const name = equation->problem->name;
-    double error[2] = {NAN, NAN}, order = NAN;
-    for (int k = 0; k < (equation->power > 0 ? 2 : 1); k++) {
-        struct gm_field_subject subject = {.problem = problem_of(equation, equation->parameters, k),
-                                           .scheme = scheme,
-                                           .dt = ldexp(equation->dt, -k * equation->power)};
-        double *y = start_of(equation, &subject.problem, subject.dt);
-        if (!y) {
-            return;
-        }
-        if (k == 0 && equation->kept) {
-            note_kept(certificate, equation->claim, &subject, y, equation->kept);
-        }
-        if (k == 0 && gm_field_of(&subject.problem)->form) {
-            gm_field_note_form(certificate, &subject, y, 1);
-        }
-        if (k == 0) {
-            gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
-        }
-        if (k == 0 && equation->frames) {
-            gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
-        }
-        if (equation->power > 0) {
-            error[k] = error_of(equation, &subject, y);
-        } else {
-            order = gm_field_order_in_time(&subject, y, equation->until);
-        }
-        free(y);
+    if (equation->kept) {
+        note_kept(certificate, equation->claim, subject, y, equation->kept);
     }
-    note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
+    if (gm_field_of(&subject->problem)->form) {
+        gm_field_note_form(certificate, subject, y, 1);
+    }
+    gm_certificate_note_same(certificate, &subject->problem, &no_settings, subject->dt, y);
+    if (equation->seen) {
+        gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, subject, y),
+                            subject->problem.name);
+    }
 }
 
-/* The equation of a file, and the same from a moving frame. */
-struct read {
-    struct gm_user_system system;
-    struct gm_user_form form;
-    struct gm_user_equation equation;
-    struct gm_problem problem, moving;
-    struct frames frames;
-};
-
-/* Opens an equation with frames, at rest or moving. */
-static bool open_framed(const struct read *read, const struct equation *equation, const char *lambda,
-                        struct gm_problem *problem)
+static void measure(struct gm_certificate *certificate, const struct equation *equation,
+                    const struct opened *opened, double *farthest)
 {
-    const struct gm_user_system *system = &read->system;
-    double *given = malloc(system->variable_count * sizeof *given);
-    for (size_t i = 0; given && i < system->variable_count; i++) {
-        const struct gm_system_value set[] = {
-            equation->given[0], equation->given[1], equation->given[2], {"lambda", lambda}};
-        given[i] = NAN;
-        for (size_t k = 0; k < GM_COUNT(set); k++) {
-            const bool is = set[k].name && strcmp(set[k].name, system->variables[i].name) == 0;
-            given[i] = is ? strtod(set[k].text, NULL) : given[i];
+    struct gm_field_subject subject = {
+        .problem = opened->problem, .scheme = certificate->scheme, .dt = equation->dt};
+    measure_claims(certificate, equation, &subject, opened->start);
+    double order = NAN;
+    if (equation->power > 0) {
+        const double coarse = error_of(equation, &subject, opened->start);
+        struct opened finer;
+        if (open_equation(&finer, equation, "0", 1)) {
+            subject.problem = finer.problem;
+            subject.dt = ldexp(equation->dt, -equation->power);
+            order = log2(coarse / error_of(equation, &subject, finer.start));
         }
-    }
-    double *values = given ? gm_equations_start(system, given) : NULL;
-    const bool good = values && gm_user_equation_open(problem, &read->equation, values, &equation->line);
-    if (good) {
-        ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
-    }
-    free(given);
-    free(values);
-    return good;
-}
-
-/* Returns false when out of memory; the caller closes it in both cases. */
-static bool open_file(struct read *read, struct equation *equation)
-{
-    const bool framed = equation->frames != NULL;
-    const struct gm_built_in *file =
-        gm_built_in_find(framed ? GM_FILE_SYSTEM : GM_FILE_SUBJECT, equation->file);
-    struct gm_fault fault;
-    double *values = NULL;
-    bool good = gm_equations_open(&read->system, file->text, file->length, NULL, 0, &fault);
-    if (framed) {
-        good = good && gm_user_equation_derive(&read->equation, &read->system) &&
-               open_framed(read, equation, "0", &read->problem) &&
-               open_framed(read, equation, "2", &read->moving);
-        read->frames = *equation->frames;
-        read->frames.parameters = read->moving.parameters;
-        equation->frames = &read->frames;
+        close_equation(&finer);
     } else {
-        good = good && gm_user_form_derive(&read->form, &read->system) &&
-               (values = gm_equations_start(&read->system, NULL)) != NULL &&
-               gm_user_form_open(&read->problem, &read->form, values, &equation->line);
-        read->problem.name = file->title;
+        order = gm_field_order_in_time(&subject, opened->start, equation->until);
     }
-    free(values);
-    equation->problem = &read->problem;
-    equation->parameters = read->problem.parameters;
-    return good;
+    note_order(certificate, farthest, order, opened->problem.name);
 }
 
 /* Measures the claims of a scheme for fields on a line, on every equation that it fits. */
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
-    const struct gm_problem *measured = NULL;
+    const char *measured = "";
     double farthest = -1;
     for (size_t i = 0; i < GM_COUNT(equations); i++) {
-        struct equation equation = equations[i];
-        struct read read = {0};
-        const bool opened = !equation.file || open_file(&read, &equation);
-        const struct gm_problem problem =
-            opened ? problem_of(&equation, equation.parameters, 0) : (struct gm_problem){0};
-        if (opened && equation.problem != measured && gm_scheme_fits(scheme, &problem) &&
-            (!equation.meant || equation.meant(scheme))) {
-            measured = equation.problem;
-            measure(certificate, &equation, &farthest);
+        const struct equation *equation = &equations[i];
+        struct opened opened;
+        if (strcmp(equation->file, measured) == 0 || (equation->meant && !equation->meant(scheme))) {
+            continue;
         }
-        if (equation.file && equation.frames) {
-            gm_user_equation_close(&read.problem);
-            gm_user_equation_close(&read.moving);
-        } else {
-            gm_user_form_close(&read.problem);
+        if (open_equation(&opened, equation, "0", 0) && gm_scheme_fits(scheme, &opened.problem)) {
+            measured = equation->file;
+            measure(certificate, equation, &opened, &farthest);
         }
-        gm_system_close(&read.system);
+        close_equation(&opened);
     }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }

@@ -26,11 +26,11 @@
 #include "core/field/problems/moving_frames.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and out have `points` entries; out[0] and
@@ -41,7 +41,7 @@ struct step {
     double h, k, sigma;
     const double *u;
     double *out;
-    double *scratch; /* [3 * points], for implicit schemes */
+    double *constant, *above, *right; /* [points], of implicit schemes */
 };
 
 struct method {
@@ -205,7 +205,7 @@ static enum gm_status solve(const struct step *step, struct gm_progress *progres
 {
     enum { MOST = 60 };
     const size_t points = step->points;
-    double *v = step->out, *constant = step->scratch, *above = constant + points, *right = above + points;
+    double *v = step->out, *constant = step->constant, *above = step->above, *right = step->right;
     double last = INFINITY;
     for (size_t j = 1; j + 1 < points; j++) {
         constant[j] = old(step, j);
@@ -249,29 +249,6 @@ static enum gm_status crank_nicolson_invariant(const struct step *step, struct g
     return solve(step, progress, nothing, row_invariant);
 }
 
-struct work {
-    size_t points;
-    double *level[2], *companion[2], *scratch;
-};
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    enum { ARRAYS = 4 + 3 };
-    const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work + ARRAYS * points * sizeof(double));
-    if (work) {
-        double *memory = (double *)(work + 1);
-        work->points = points;
-        for (size_t k = 0; k < 2; k++) {
-            work->level[k] = memory + k * points;
-            work->companion[k] = memory + (2 + k) * points;
-        }
-        work->scratch = memory + 4 * points;
-    }
-    return work;
-}
-
 GM_CLONES static bool within(const double *u, size_t points, double lambda, double limit)
 {
     long outside = 0;
@@ -283,7 +260,7 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
 
 /* A level and its other half, and what its ends hold after the next steps. */
 struct run {
-    double **level, *scratch;
+    double **level;
     double lambda, speed, shift; /* of the frame and of its nodes; what the exact values are larger by */
     double ends[2 * GM_ENDS_BLOCK];
 };
@@ -292,6 +269,7 @@ struct run {
 static enum gm_status make_step(const struct gm_task *task, struct run *run, size_t made, size_t some,
                                 struct gm_progress *progress)
 {
+    const struct gm_two_step_work *work = task->workspace;
     const struct method *method = task->scheme->coefficients;
     const struct gm_grid1 *grid = &task->problem->line;
     double **level = run->level;
@@ -303,7 +281,9 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
         .sigma = run->speed * task->dt,
         .u = level[0],
         .out = level[1],
-        .scratch = run->scratch,
+        .constant = work->right,
+        .above = work->guess,
+        .right = work->cells,
     };
     level[1][0] = run->ends[made] - run->shift;
     level[1][grid->points - 1] = run->ends[some + made] - run->shift;
@@ -321,19 +301,19 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct work *work = task->workspace;
+    struct gm_two_step_work *work = task->workspace;
     const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t points = work->points, size = points * sizeof(double);
     const double lambda = framed->lambda, speed = gm_frame_rests(framed, task->scheme) ? 0 : lambda;
-    struct run run = {.level = work->level, .scratch = work->scratch, .lambda = lambda, .speed = speed};
-    struct run companion = {.level = work->companion, .scratch = work->scratch, .shift = lambda};
+    struct run run = {.level = work->level, .lambda = lambda, .speed = speed};
+    struct run companion = {.level = work->rate, .shift = lambda};
     const bool has_companion = lambda != 0;
     bool accompanied = has_companion && task->y[2 * points] != 0;
     struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
     size_t made = 0, some = 0;
     memcpy(work->level[0], task->y, size);
     if (has_companion) {
-        memcpy(work->companion[0], task->y + points, size);
+        memcpy(companion.level[0], task->y + points, size);
     }
     for (int64_t k = 0; k < task->steps; k++, made++) {
         if (made == some) {
@@ -354,7 +334,7 @@ static struct gm_progress advance(const struct gm_task *task)
     }
     memcpy(task->out, work->level[0], size);
     if (has_companion) {
-        memcpy(task->out + points, work->companion[0], size);
+        memcpy(task->out + points, companion.level[0], size);
         task->out[2 * points] = accompanied;
     }
     return progress;
@@ -463,6 +443,6 @@ const struct gm_family gm_family_burgers = {
     .title = "Burgers, standard and invariantised",
     GM_FIELD_FAMILY,
     .loop = advance,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
 };

@@ -18,11 +18,11 @@
 #include "core/field/problems/moving_frames.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
    and the last of v hold the boundary values of the new level already. */
@@ -136,27 +136,9 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
 
 const struct gm_frames gm_frames_of_heat = {carry, find, defect, projects};
 
-struct work {
-    size_t points;
-    double *level[2];
-};
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    const size_t points = problem->line.points;
-    struct work *work = malloc(sizeof *work + 2 * points * sizeof(double));
-    if (work) {
-        work->points = points;
-        work->level[0] = (double *)(work + 1);
-        work->level[1] = work->level[0] + points;
-    }
-    return work;
-}
-
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct work *work = task->workspace;
+    struct gm_two_step_work *work = task->workspace;
     const struct row *row = task->scheme->coefficients;
     const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t last = work->points - 1;
@@ -213,6 +195,6 @@ const struct gm_family gm_family_heat = {
     .title = "Heat equation, standard and invariantised",
     GM_FIELD_FAMILY,
     .loop = advance,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
 };
