@@ -11,8 +11,7 @@
 
 #include "core/kind.h"
 
-struct gm_faces;  /* core/field/multisymplectic.h */
-struct gm_frames; /* core/field/problems/moving_frames.h */
+struct gm_faces; /* core/field/multisymplectic.h */
 
 /* Counts a step that has led to these values. Returns false if a value is beyond the task's limit, or not
    finite. */
@@ -123,7 +122,7 @@ struct gm_field {
     const struct gm_dispersive *dispersive;
     /* GM_NEEDS_BURGERS, _KDV, _NLS, _HEAT: the problem's parameters are then its constants; or 0. */
     unsigned equation;
-    const struct gm_frames
+    const struct gm_moving_frames
         *frames; /* of the first, second and last; their parameters begin with struct gm_framed */
 };
 

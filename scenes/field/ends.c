@@ -86,7 +86,7 @@ static void heat_failure(const struct gm_view *view, char *text, size_t size)
     const struct gm_grid1 *grid = &view->problem->line;
     text[0] = '\0';
     for (size_t j = 1; view->scheme->claims & GM_EQUIVARIANT && j + 1 < grid->points; j++) {
-        struct gm_symmetry frame;
+        struct gm_point_symmetry frame;
         if (gm_frames_of_heat.find(view->problem, view->scheme, view->dt, view->state, j, &frame)) {
             continue;
         }

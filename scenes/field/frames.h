@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_FIELD_FRAMES_H
 #define GM_SCENES_FIELD_FRAMES_H
 
-#include "core/field/problems/moving_frames.h"
+#include "core/field/families/frames.h"
 #include "scenes/field/kind.h"
 
 /* Equations that are recognised, and frames of reference (struct gm_framed): what the files of such fields share. */

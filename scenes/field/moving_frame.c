@@ -63,7 +63,7 @@ static const char *section_of(const struct look *look, const struct gm_lane *con
 {
     size_t special = 0;
     for (size_t i = 0; i < count; i++) {
-        special += gm_field_of(&lanes[i]->problem)->frames->are_special(lanes[i]->scheme);
+        special += gm_moving_frames_of(&lanes[i]->problem)->are_special(lanes[i]->scheme);
     }
     if (special == 0 || special == count) {
         return special ? look->special : look->usual;
@@ -80,25 +80,25 @@ struct drawn {
 };
 
 /* Returns the defect of a step under a symmetry. */
-static double defect(const struct gm_view *view, struct gm_symmetry symmetry)
+static double defect(const struct gm_view *view, struct gm_point_symmetry symmetry)
 {
-    return gm_field_of(view->problem)
-        ->frames->defect(view->problem, view->scheme, view->dt, &symmetry, view->state);
+    return gm_moving_frames_of(view->problem)
+        ->defect(view->problem, view->scheme, view->dt, &symmetry, view->state);
 }
 
 double gm_boost_defect(const struct gm_view *view)
 {
-    return defect(view, (struct gm_symmetry){.boost = 0.5, .scale = 1});
+    return defect(view, (struct gm_point_symmetry){.boost = 0.5, .scale = 1});
 }
 
 double gm_projection_defect(const struct gm_view *view)
 {
-    return defect(view, (struct gm_symmetry){.projection = 0.5, .scale = 1});
+    return defect(view, (struct gm_point_symmetry){.projection = 0.5, .scale = 1});
 }
 
 double gm_scaling_defect(const struct gm_view *view)
 {
-    return defect(view, (struct gm_symmetry){.scale = 1.3});
+    return defect(view, (struct gm_point_symmetry){.scale = 1.3});
 }
 
 double gm_frame_travel(const struct gm_view *view)
@@ -142,8 +142,8 @@ static struct stencil stencil_of(const struct gm_lane *lane, const struct look *
             .u = view.state[i],
         };
     }
-    const struct gm_frames *frames = gm_field_of(view.problem)->frames;
-    struct gm_symmetry frame;
+    const struct gm_moving_frames *frames = gm_moving_frames_of(view.problem);
+    struct gm_point_symmetry frame;
     made.known = frames->find(view.problem, view.scheme, view.dt, view.state, j, &frame);
     frame.scale = look->scaled ? h / view.problem->line.dx : frame.scale;
     for (size_t e = 0; e < 2 * STENCIL; e++) {

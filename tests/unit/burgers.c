@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/framed.h"
@@ -82,7 +83,7 @@ static void projections_commute_or_not(void **unused)
     } schemes[] = {
         {"ftcs", false}, {"lax-wendroff", false}, {"ftcs-invariant", true}, {"lax-wendroff-invariant", true}};
     for (size_t s = 0; s < 4; s++) {
-        const struct gm_symmetry projection = {.projection = 0.5, .scale = 1}, scaling = {.scale = 1.3};
+        const struct gm_point_symmetry projection = {.projection = 0.5, .scale = 1}, scaling = {.scale = 1.3};
         const struct gm_burgers burgers = {.framed.viscosity = 0.005};
         const struct gm_problem problem = {.parameters = &burgers, .line.dx = 0.01};
         const struct gm_scheme *scheme = gm_scheme_find(schemes[s].name);
@@ -111,7 +112,7 @@ static void every_frame_of_the_family_commutes(void **unused)
     (void)unused;
     static const double u[3] = {0.4, 0.3, 0.15};
     const double h = 0.01, k = 0.01, x = 0.3, a4 = 0.5, a5 = 0.4, m = 1 - a4 * k;
-    const struct gm_symmetry symmetry = {.boost = a5, .projection = a4, .scale = 1.3};
+    const struct gm_point_symmetry symmetry = {.boost = a5, .projection = a4, .scale = 1.3};
     static const struct {
         double a, d, broken;
     } choices[] = {{-0.5, 0, 0}, {-0.5, 0.3, 0}, {0, 0, 0}, {-1, 0.3, 0}, {-0.3, -0.7, 0}, {-0.3, 0.2, 0.1}};

@@ -14,6 +14,7 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/framed.h"
@@ -51,7 +52,7 @@ static void symmetries_are_flows_of_their_generators(void **unused)
 {
     (void)unused;
     const double nu = 0.7;
-    const struct gm_symmetry symmetry = {.boost = 0.8, .projection = -0.6, .scale = 1.5};
+    const struct gm_point_symmetry symmetry = {.boost = 0.8, .projection = -0.6, .scale = 1.5};
     double y[3] = {0.3, -0.4, log(1.7)};
     flow(false, nu, symmetry.boost, y);
     flow(true, nu, symmetry.projection, y);
@@ -226,7 +227,7 @@ static void projections_solve_a_kernel_exactly(void **unused)
 static void groups_are_kept_or_not(void **unused)
 {
     (void)unused;
-    static const struct gm_symmetry symmetries[] = {
+    static const struct gm_point_symmetry symmetries[] = {
         {.scale = 1.3}, {.boost = 0.5, .scale = 1}, {.projection = 0.5, .scale = 1}};
     const struct heat_solution heat = {.start = HEAT_TWO, .diffusivity = 1, .age = 0.25};
     struct framed framed;

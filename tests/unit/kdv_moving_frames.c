@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/kdv_solutions.h"
@@ -53,7 +54,7 @@ static enum gm_status after(const struct gm_problem *problem, const char *scheme
 static void find_boosts(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, double *boosts)
 {
-    struct gm_symmetry frame;
+    struct gm_point_symmetry frame;
     for (size_t j = 0; j < POINTS; j++) {
         assert_true(gm_frames_of_kdv.find(problem, scheme, dt, y, j, &frame));
         boosts[j] = frame.boost;
@@ -89,7 +90,7 @@ static void symmetries_are_those_of_the_equation(void **unused)
     assert_true(fabs(rate / h + kdv.kdv.eta * value[3] * slope / h + kdv.kdv.mu * third / (h * h * h)) <
                 2e-5);
     /* a soliton of velocity c is carried to one of c + b, or of c/s^2 */
-    const struct gm_symmetry symmetry = {.boost = 0.4, .scale = 1.3};
+    const struct gm_point_symmetry symmetry = {.boost = 0.4, .scale = 1.3};
     const struct gm_event event = {.t = t, .x = x, .u = value[3]};
     const struct gm_event carried = gm_frames_of_kdv.carry(&kdv.kdv.framed, &symmetry, event);
     const double s = symmetry.scale;
@@ -128,8 +129,8 @@ static void leapfrog_is_made_in_its_frames(void **unused)
     assert_int_equal(gm_run_advance(run, 1), GM_OK);
     for (size_t j = 0; j < POINTS; j++) {
         double u[5];
-        const struct gm_symmetry frame = {.boost = boosts[j], .scale = 1},
-                                 back = {.boost = -boosts[j], .scale = 1};
+        const struct gm_point_symmetry frame = {.boost = boosts[j], .scale = 1},
+                                       back = {.boost = -boosts[j], .scale = 1};
         for (size_t i = 0; i < 5; i++) {
             const struct gm_event event = {.x = ((double)i - 2) * h, .u = y[(j + i + POINTS - 2) % POINTS]};
             u[i] = gm_frames_of_kdv.carry(&kdv.kdv.framed, &frame, event).u;

@@ -11,6 +11,7 @@
 #include "core/certify.h"
 #include "core/field/certify/runs.h"
 #include "core/field/families/families.h"
+#include "core/field/families/frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/problems/dispersive.h"
@@ -280,9 +281,9 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
 static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
                            const double *y)
 {
-    const struct gm_field *field = gm_field_of(&subject->problem);
-    const bool projects = field->equation != GM_NEEDS_HEAT || field->frames->are_special(subject->scheme);
-    const struct gm_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
+    const struct gm_moving_frames *frames = gm_moving_frames_of(&subject->problem);
+    const bool projects = frames != &gm_frames_of_heat || frames->are_special(subject->scheme);
+    const struct gm_point_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
     struct opened boosted;
     const bool opened = open_equation(&boosted, equation, "2", 0);
     struct gm_field_subject rest = *subject, moving = *subject;
@@ -297,8 +298,8 @@ static double frame_defect(const struct equation *equation, const struct gm_fiel
                 largest =
                     gm_larger(fabs(equation->seen(moving.run, i) - equation->seen(rest.run, i)), largest);
             }
-            largest = fmax(largest, field->frames->defect(&subject->problem, subject->scheme, subject->dt,
-                                                          &symmetry, y));
+            largest =
+                fmax(largest, frames->defect(&subject->problem, subject->scheme, subject->dt, &symmetry, y));
         }
         gm_run_close(moving.run);
     }

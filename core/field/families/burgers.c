@@ -23,7 +23,7 @@
    There D0 u + a4 = (a + 1/2) h D2 u: what is left of the convection diffuses by (u - sigma/k)(a + 1/2) h,
    which only a = -1/2, the frame above, turns into second order in h; d then has no effect.
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
-#include "core/field/problems/moving_frames.h"
+#include "core/field/families/frames.h"
 
 #include <math.h>
 #include <string.h>
@@ -342,7 +342,7 @@ static struct gm_progress advance(const struct gm_task *task)
 
 /* (t, x, u) -> (t/m, (x + b t)/m, m u + p x + b),   m = 1 - p t (eq. 98: a4 = p, a5 = b)
    (t, x, u) -> (s^2 t, s x, u/s) */
-static struct gm_event carry(const struct gm_framed *framed, const struct gm_symmetry *symmetry,
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
                              struct gm_event event)
 {
     (void)framed;
@@ -361,12 +361,12 @@ static bool is_of_family(const struct gm_scheme *scheme)
 
 /* Of schemes without frames too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
-                 size_t j, struct gm_symmetry *frame)
+                 size_t j, struct gm_point_symmetry *frame)
 {
     const struct gm_burgers *burgers = gm_burgers_of(problem);
     const bool family = is_of_family(scheme);
     const double a = family ? burgers->a : -0.5, d = family ? burgers->d : 0;
-    *frame = (struct gm_symmetry){
+    *frame = (struct gm_point_symmetry){
         .boost = d * (u[j + 1] - 2 * u[j] + u[j - 1]) - u[j],
         .projection = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / problem->line.dx,
         .scale = 1,
@@ -376,7 +376,7 @@ static bool find(const struct gm_problem *problem, const struct gm_scheme *schem
 
 /* On three nodes about x = 0.3 with the values 0.4, 0.3, 0.15, which do not determine an implicit step. */
 static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                     const struct gm_symmetry *symmetry, const double *unused)
+                     const struct gm_point_symmetry *symmetry, const double *unused)
 {
     (void)unused;
     static const double u[3] = {0.4, 0.3, 0.15};
@@ -403,7 +403,7 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return fabs(carried[1] - arrival.u);
 }
 
-const struct gm_frames gm_frames_of_burgers = {carry, find, defect, is_of_family};
+const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, is_of_family};
 
 #define OF_BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
 

@@ -15,7 +15,7 @@
 
    Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers'
    equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
-#include "core/field/problems/moving_frames.h"
+#include "core/field/families/frames.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,7 +71,7 @@ static void by_projections(const struct step *step)
 /* (t, x, u) -> (t, x + b t, u exp(-b x/(2 nu) - b^2 t/(4 nu)))
    (t, x, u) -> (t, x, sqrt(1 - p t) u exp(-p x^2/(4 nu (1 - p t)))) / (1 - p t, 1 - p t, 1)
    (t, x, u) -> (s^2 t, s x, u);   u is NaN if the projection does not exist */
-static struct gm_event carry(const struct gm_framed *framed, const struct gm_symmetry *symmetry,
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
                              struct gm_event event)
 {
     const double b = symmetry->boost, p = symmetry->projection, s = symmetry->scale;
@@ -90,11 +90,11 @@ static bool projects(const struct gm_scheme *scheme)
 /* The boost that makes both neighbours equal, of schemes without frames too, and of those that preserve projections the
    one after which all three are. */
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
-                 size_t j, struct gm_symmetry *frame)
+                 size_t j, struct gm_point_symmetry *frame)
 {
     const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
     const double nu = gm_framed_of(problem)->viscosity, h = problem->line.dx;
-    *frame = (struct gm_symmetry){
+    *frame = (struct gm_point_symmetry){
         .boost = nu / h * (right - left),
         .projection = projects(scheme) ? 2 * nu / (h * h) * (right + left) : 0,
         .scale = 1,
@@ -105,7 +105,7 @@ static bool find(const struct gm_problem *problem, const struct gm_scheme *schem
 /* About the middle of the nodes, the largest over all, divided by the value there. The carried nodes move, which only
    invariant schemes take into account. */
 static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                     const struct gm_symmetry *symmetry, const double *u)
+                     const struct gm_point_symmetry *symmetry, const double *u)
 {
     const struct row *row = scheme->coefficients;
     const struct gm_grid1 *grid = &problem->line;
@@ -134,7 +134,7 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-const struct gm_frames gm_frames_of_heat = {carry, find, defect, projects};
+const struct gm_moving_frames gm_frames_of_heat = {carry, find, defect, projects};
 
 static struct gm_progress advance(const struct gm_task *task)
 {

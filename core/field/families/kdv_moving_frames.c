@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes for u_t + eta u u_x + mu u_xxx = 0 that step in a moving frame, and so commute with its boosts and
-   scalings (problems/moving_frames.h). The time step is k, the nodes are h apart and move by sigma per step, which
+   scalings (frames.h). The time step is k, the nodes are h apart and move by sigma per step, which
    the boost of velocity b turns into sigma + b k;
        D0 u = (u_{j+1} - u_{j-1})/(2h),   D3 u = (u_{j+2} - 2 u_{j+1} + 2 u_{j-1} - u_{j-2})/(2 h^3)
 
@@ -27,6 +27,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/frames.h"
 #include "core/field/problems/dispersive.h"
 #include "core/linear/ring/ring.h"
 #include "core/linear/settled.h"
@@ -279,7 +280,7 @@ static struct gm_progress advance(const struct gm_task *task)
 
 /* (t, x, u) -> (t, x + b t, u + b/eta)
    (t, x, u) -> (s^3 t, s x, u/s^2) */
-static struct gm_event carry(const struct gm_framed *framed, const struct gm_symmetry *symmetry,
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
                              struct gm_event event)
 {
     const double b = symmetry->boost, s = symmetry->scale, eta = ((const struct gm_kdv *)framed)->eta;
@@ -297,7 +298,7 @@ static bool solves(const struct gm_scheme *scheme)
    level[2] of the workspace, which the caller closes. Returns NULL if the scheme has no frames or the step fails, or when
    out of memory. */
 static struct work *make_carried(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                                 const struct gm_symmetry *symmetry, const double *y)
+                                 const struct gm_point_symmetry *symmetry, const double *y)
 {
     const bool has_frames = scheme->family == &gm_family_kdv_moving_frames;
     struct work *work = has_frames ? open_work(problem, scheme) : NULL;
@@ -324,10 +325,10 @@ static struct work *make_carried(const struct gm_problem *problem, const struct 
     return work;
 }
 
-static const struct gm_symmetry identity = {.scale = 1};
+static const struct gm_point_symmetry identity = {.scale = 1};
 
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *y,
-                 size_t j, struct gm_symmetry *frame)
+                 size_t j, struct gm_point_symmetry *frame)
 {
     struct work *work = make_carried(problem, scheme, k, &identity, y);
     *frame = identity;
@@ -342,7 +343,7 @@ static bool find(const struct gm_problem *problem, const struct gm_scheme *schem
 
 /* In units of the carried u, the largest over all nodes. */
 static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                     const struct gm_symmetry *symmetry, const double *y)
+                     const struct gm_point_symmetry *symmetry, const double *y)
 {
     struct work *plain = make_carried(problem, scheme, k, &identity, y),
                 *carried = plain ? make_carried(problem, scheme, k, symmetry, y) : NULL;
@@ -361,7 +362,7 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-const struct gm_frames gm_frames_of_kdv = {carry, find, defect, solves};
+const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, solves};
 
 #define OF_KDV_MOVING_FRAMES .family = &gm_family_kdv_moving_frames, .needs = GM_NEEDS_KDV
 

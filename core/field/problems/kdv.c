@@ -141,9 +141,7 @@ static const struct gm_dispersive dispersive = {.power = 3,
 const struct gm_problem gm_problem_kdv = {
     .name = "Korteweg-de Vries",
     .kind = &gm_kind_field,
-    .facets =
-        &(const struct gm_field){
-            .form = &form, .dispersive = &dispersive, .equation = GM_NEEDS_KDV, .frames = &gm_frames_of_kdv},
+    .facets = &(const struct gm_field){.form = &form, .dispersive = &dispersive, .equation = GM_NEEDS_KDV},
     .m = 1,
     .bound = 1e3,
 };

@@ -35,7 +35,7 @@ double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, doub
 const struct gm_problem gm_problem_burgers = {
     .name = "Burgers",
     .kind = &gm_kind_field,
-    .facets = &(const struct gm_field){.equation = GM_NEEDS_BURGERS, .frames = &gm_frames_of_burgers},
+    .facets = &(const struct gm_field){.equation = GM_NEEDS_BURGERS},
     .m = 1,
     .bound = 1e3,
 };
@@ -43,7 +43,7 @@ const struct gm_problem gm_problem_burgers = {
 const struct gm_problem gm_problem_heat = {
     .name = "heat",
     .kind = &gm_kind_field,
-    .facets = &(const struct gm_field){.equation = GM_NEEDS_HEAT, .frames = &gm_frames_of_heat},
+    .facets = &(const struct gm_field){.equation = GM_NEEDS_HEAT},
     .m = 1,
     .bound = 1e200,
 };

@@ -70,33 +70,4 @@ void gm_frame_ends(const struct gm_task *task, double speed, int64_t first, size
    rests there (fixed) or moves, which gives the value in the original frame. */
 double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t);
 
-/* A point of space and time with the value of the field there: what a symmetry moves. */
-struct gm_event {
-    double t, x, u;
-};
-
-/* A symmetry about (t, x) = (0, 0), in families/burgers.c, heat.c and kdv_moving_frames.c: a boost by a velocity and a
-   projection (Korteweg and de Vries' equation has none), then a scaling. */
-struct gm_symmetry {
-    double boost, projection, scale;
-};
-
-/* The symmetries of an equation, and the moving frames of its schemes. */
-struct gm_frames {
-    struct gm_event (*carry)(const struct gm_framed *framed, const struct gm_symmetry *symmetry,
-                             struct gm_event event);
-    /* Finds the frame that carries node j of the state y, and those around it, to where a step dt is made. Returns
-       false if there is none. */
-    bool (*find)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt, const double *y,
-                 size_t j, struct gm_symmetry *frame);
-    /* Returns the defect of a step dt under a symmetry: the step of the carried state against the carried step. NaN if
-       it has no meaning for the scheme, or if a step fails. */
-    double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const struct gm_symmetry *symmetry, const double *y);
-    /* Returns true if a scheme's frames are of another kind than the usual one: of Burgers' equation, those of a and d;
-       of heat, with projections; of Korteweg and de Vries', those of evolution and projection. */
-    bool (*are_special)(const struct gm_scheme *scheme);
-};
-extern const struct gm_frames gm_frames_of_burgers, gm_frames_of_heat, gm_frames_of_kdv;
-
 #endif
