@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/families/families.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"

@@ -3,17 +3,18 @@
    certification. */
 #include "core/field/field.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/certify/runs.h"
 #include "core/field/families/families.h"
 #include "core/field/families/frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
+#include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/user/equation.h"
 #include "core/field/user/form.h"
@@ -22,8 +23,6 @@
 #include "core/model/equations.h"
 #include "core/quantity.h"
 #include "core/run.h"
-
-static const struct gm_settings no_settings;
 
 static unsigned facets(const struct gm_problem *problem)
 {
@@ -45,13 +44,331 @@ static const struct gm_facet_words words[] = {
     {0},
 };
 
-static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
-                      struct gm_field_subject *subject, const double *y,
-                      double (*value)(const struct gm_problem *problem, const double *y))
+/* ---- short runs: forward and back, for conserved quantities, and on finer and finer grids ---- */
+
+static const struct gm_settings no_settings;
+
+enum { RUN_STEPS = 61 }; /* most steps of a run from a system's own start */
+
+/* An equation on which a scheme is certified. */
+struct subject {
+    struct gm_problem problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    struct gm_run *run; /* opened by begin_run; the caller closes it */
+};
+
+/* The number of values of the field in a state: u, or all components, without those that only a two-step
+   scheme holds. */
+static size_t numbers_of(const struct gm_problem *problem)
+{
+    return problem->n == gm_wave_size(problem->line.points) ? problem->line.points : problem->n;
+}
+
+/* The largest magnitude of the field; 1 if it is less. */
+static double field_size(const struct gm_problem *problem, const double *y)
+{
+    double size = 1;
+    for (size_t i = 0; i < numbers_of(problem); i++) {
+        size = fmax(size, fabs(y[i]));
+    }
+    return size;
+}
+
+/* Opens a run from the state y at time 0. Returns false when out of memory. */
+static bool begin_run(struct subject *subject, const double *y)
+{
+    subject->run = gm_run_open(&subject->problem, subject->scheme, &no_settings, 0, subject->dt, y);
+    return subject->run != NULL;
+}
+
+/* Returns true if a component has a rate of its own. The others follow by slopes and sums, with round-off
+   and, if they begin as sums, with the errors of these. */
+static bool moves(const struct gm_problem *problem, size_t component)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    const bool all = form && form->hessians;
+    bool rate = !all;
+    for (size_t row = 0; all && row < form->dimension; row++) {
+        rate = rate || form->m[row * form->dimension + component] != 0;
+    }
+    for (size_t k = 0; all && k < form->potential_count; k++) {
+        rate = rate && form->potentials[k].component != component;
+    }
+    return rate;
+}
+
+/* The largest difference of two states at common nodes: `other` has `finer` nodes for each of the
+   problem's. */
+static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
+{
+    const size_t points = problem->line.points, components = numbers_of(problem) / points;
+    double largest = 0;
+    for (size_t c = 0; c < components; c++) {
+        for (size_t i = 0; i < points && moves(problem, c); i++) {
+            largest = gm_larger(fabs(y[c * points + i] - other[finer * (c * points + i)]), largest);
+        }
+    }
+    return largest;
+}
+
+/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
+   levels. */
+static double return_defect(struct subject *subject, const double *y)
+{
+    const size_t numbers = numbers_of(&subject->problem);
+    double *first = malloc(numbers * sizeof *first), largest = INFINITY;
+    if (first && begin_run(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        memcpy(first, gm_run_state(subject->run), numbers * sizeof *first);
+        gm_run_advance(subject->run, 7);
+        gm_run_set_step(subject->run, -subject->dt);
+        if (gm_run_advance(subject->run, 7) == GM_OK) {
+            largest = apart(&subject->problem, gm_run_state(subject->run), first, 1);
+        }
+        gm_run_close(subject->run);
+    }
+    free(first);
+    return largest;
+}
+
+/* The factor of a number in slopes in space and time. */
+static double slopes_of(const struct subject *subject)
+{
+    return 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
+}
+
+/* A bound of the round-off in slopes in space and time of a state, multiplied by a scheme's equations. */
+static double round_off(const struct subject *subject, const double *y)
+{
+    enum { MULTIPLIED = 100 };
+    return MULTIPLIED * DBL_EPSILON * field_size(&subject->problem, y) * slopes_of(subject);
+}
+
+/* Notes a defect; one below `hidden`, the round-off, refutes no claim. */
+static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, double hidden,
+                 const char *name)
+{
+    if (defect > gm_certificate_claim(certificate, claim)->tolerance && defect < hidden) {
+        gm_certificate_withhold(
+            certificate, claim,
+            "round-off hides it: the numbers are too large for so short a dt or so fine a grid");
+    } else {
+        gm_certificate_note(certificate, claim, defect, name);
+    }
+}
+
+/* Notes the defects of symmetry, after 8 steps forth and 7 back, of numbers of this size, and of the
+   multisymplectic law after 25 steps, where the scheme has one. */
+static void note_form(struct gm_certificate *certificate, struct subject *subject, const double *y,
+                      double size)
+{
+    /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of
+       steps that are long beside dx add as much as ten times that */
+    const double over = 0.05 / 8 / 10;
+    const char *const name = subject->problem.name;
+    note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, round_off(subject, y) / size, name);
+    if (!begin_run(subject, y)) {
+        return;
+    }
+    gm_run_advance(subject->run, 25);
+    const double *const now = gm_run_state(subject->run);
+    const double defect =
+        gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
+    if (!isnan(defect)) {
+        gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
+        note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes_of(subject) / over,
+             name);
+    } else if (subject->scheme->family->form) {
+        gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
+                                "the step could not be differentiated at this state");
+    }
+    gm_run_close(subject->run);
+}
+
+/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY if a step
+   fails, under the name of what is kept. Like the law it is withheld where round-off alone may have made
+   it. */
+static void note_change(struct gm_certificate *certificate, enum gm_claim claim, struct subject *subject,
+                        const double *y, const struct gm_kept *kept, const char *name)
+{
+    double change = INFINITY;
+    if (begin_run(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        const double before =
+            kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
+        if (gm_run_advance(subject->run, RUN_STEPS - 1) == GM_OK) {
+            const double after =
+                kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
+            change = fabs(after - before) / fmax(1, fabs(before));
+        }
+        gm_run_close(subject->run);
+    }
+    note(certificate, claim, change, round_off(subject, y), name);
+}
+
+/* The order in time on one grid from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
+static double order_in_time(const struct subject *subject, const double *y, double until)
+{
+    const size_t n = subject->problem.n;
+    double *end = calloc(3 * n, sizeof *end), change[2] = {0};
+    bool good = end != NULL;
+    for (int k = 0; good && k < 3; k++) {
+        const struct gm_trial trial = {&subject->problem, subject->scheme, &no_settings,
+                                       ldexp(subject->dt, -k), (int64_t)lround(until / subject->dt) << k};
+        good = gm_trial_advance(&trial, y, end + (size_t)k * n);
+    }
+    for (size_t k = 0; good && k < 2; k++) {
+        change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
+    }
+    free(end);
+    return good ? log2(change[0] / change[1]) : NAN;
+}
+
+enum { LEVELS = 4, STEPS = 16 };
+
+/* The errors of runs, and by how much each differs from the next finer one. */
+struct refined {
+    double dt[LEVELS], error[LEVELS], change[LEVELS]; /* error: NaN without an exact solution */
+    size_t count;
+};
+
+/* Adds a level; returns its state, which the caller frees. NULL if a step fails or when out of memory. */
+static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                      struct refined *refined)
+{
+    const size_t k = refined->count;
+    const int64_t steps = (int64_t)STEPS << k;
+    const struct gm_trial trial = {system->problem, scheme, &no_settings, system->dt, steps};
+    double *end = malloc(system->problem->n * sizeof *end);
+    if (!end || !gm_trial_advance(&trial, system->start, end)) {
+        free(end);
+        return NULL;
+    }
+    refined->dt[k] = system->dt;
+    refined->error[k] =
+        system->error ? system->error(system->error_data, (double)steps * system->dt, end) : NAN;
+    refined->count++;
+    return end;
+}
+
+/* An exact solution closes on its ring up to a thousandth of its size. If that hides the remaining error,
+   differences give the order. */
+static double tell(const struct refined *refined, double by_differences, double wanted, double size,
+                   struct gm_ladder *ladder, const char **reason)
+{
+    const size_t last = refined->count - 1;
+    const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
+    const bool exactly =
+        by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
+    ladder->count = exactly ? last + 1 : last;
+    for (size_t k = 0; k < ladder->count; k++) {
+        ladder->dt[k] = refined->dt[k];
+        ladder->error[k] = exactly ? refined->error[k] : refined->change[k];
+    }
+    ladder->settled = true;
+    *reason = exactly && by_errors < wanted && by_differences > by_errors + 0.5
+                  ? "runs agree with one another, but not with the solution of exact:"
+                  : NULL;
+    return exactly ? by_errors : by_differences;
+}
+
+/* The largest difference of this order of the start around the ring. */
+static double largest_difference(const struct gm_certified_system *system, int order)
+{
+    const struct gm_grid1 *grid = &system->problem->line;
+    const size_t points = grid->points;
+    double largest = 0;
+    for (size_t c = 0; c < system->problem->n / points; c++) {
+        for (size_t i = 0; i < points && moves(system->problem, c); i++) {
+            double sum = 0, weight = 1;
+            for (int j = 0; j <= order; j++) {
+                const size_t node = i + (size_t)j;
+                sum += weight *
+                       (system->start[c * points + node % points] + grid->jump * (double)(node / points));
+                weight *= -(double)(order - j) / (j + 1);
+            }
+            largest = fmax(fabs(sum), largest);
+        }
+    }
+    return largest;
+}
+
+/* Returns true if a start has the derivatives that an order needs: if one jumps, differences fall by less
+   from grid to grid. */
+static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_certified_system *fine,
+                      int order)
+{
+    const int differences = order + 2;
+    const double on_coarse = largest_difference(coarse, differences),
+                 on_fine = largest_difference(fine, differences),
+                 round_off = ldexp(8 * DBL_EPSILON, differences) * field_size(fine->problem, fine->start);
+    return on_fine <= round_off || log2(on_coarse / on_fine) > differences - 0.5;
+}
+
+/* The order over 16 steps, from a system and its refinements: the slope of the error if the exact solution
+   closes on the ring, else of the differences between a run and the next finer one. NaN with *reason if it
+   cannot be measured, or is low because the start lacks derivatives. *reason is also set if the exact
+   solution alone refutes it; else NULL. */
+static double order_on_finer_grids(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                                   struct gm_ladder *ladder, const char **reason)
+{
+    const double wanted = scheme->order - 0.15;
+    struct refined refined = {.count = 0};
+    double *before = NULL, size = 1, order = NAN, slope_before = NAN;
+    const struct gm_certified_system *coarse = NULL;
+    bool smooth = true;
+    *reason =
+        "differences between runs on finer and finer grids do not fall by one power: take more points and a "
+        "shorter dt, or a start that closes better on its ring";
+    for (; system && refined.count < LEVELS && isnan(order); system = system->finer) {
+        const size_t k = refined.count;
+        double *state = refine(system, scheme, &refined);
+        if (!state) {
+            *reason = "a run on a finer grid fails";
+            break;
+        }
+        if (k == 0) {
+            size = field_size(system->problem, system->start);
+        } else {
+            const double change = apart(coarse->problem, before, state, 2);
+            const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
+            refined.change[k - 1] = change;
+            if (change < 1e-11 * size) {
+                *reason = "differences between runs on finer grids do not exceed round-off";
+                free(state);
+                break;
+            }
+            /* an order above that which is claimed may be one of grids that are too coarse for it */
+            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
+                              fabs(slope - slope_before) < 0.15 ||
+                              (slope > wanted && (k + 1 == LEVELS || !system->finer));
+            if (told) {
+                order = tell(&refined, slope, wanted, size, ladder, reason);
+                smooth = !(order < wanted) || is_smooth(coarse, system, scheme->order);
+            }
+            slope_before = slope;
+        }
+        coarse = system;
+        free(before);
+        before = state;
+    }
+    free(before);
+    if (!smooth) {
+        *reason = "the start, or the way it closes on its ring, is not as smooth as the order asks for";
+        *ladder = (struct gm_ladder){0};
+        return NAN;
+    }
+    return order;
+}
+
+static void note_kept(struct gm_certificate *certificate, enum gm_claim claim, struct subject *subject,
+                      const double *y, double (*value)(const struct gm_problem *problem, const double *y))
 {
     const struct gm_invariant invariant = {value, &subject->problem};
     const struct gm_kept kept = {.value = gm_invariant_value, .data = &invariant};
-    gm_field_note_kept(certificate, claim, subject, y, &kept, subject->problem.name);
+    note_change(certificate, claim, subject, y, &kept, subject->problem.name);
 }
 
 /* ---- on the program's own equations ---- */
@@ -261,10 +578,10 @@ static bool open_equation(struct opened *opened, const struct equation *equation
 }
 
 /* The largest difference of the field from the exact solution; INFINITY for a failure. */
-static double error_of(const struct equation *equation, struct gm_field_subject *subject, const double *y)
+static double error_of(const struct equation *equation, struct subject *subject, const double *y)
 {
     double largest = INFINITY;
-    if (gm_field_begin(subject, y)) {
+    if (begin_run(subject, y)) {
         largest = gm_run_until(subject->run, equation->until) == GM_OK ? 0 : INFINITY;
         for (size_t i = 0; i < subject->problem.line.points; i++) {
             const double x = gm_grid1_node(&subject->problem.line, i),
@@ -278,19 +595,18 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
 
 /* The difference between a run and one from the moving frame, or the defect of a step under a symmetry if
    it is larger; INFINITY for a failure. */
-static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
-                           const double *y)
+static double frame_defect(const struct equation *equation, const struct subject *subject, const double *y)
 {
     const struct gm_moving_frames *frames = gm_moving_frames_of(&subject->problem);
     const bool projects = frames != &gm_frames_of_heat || frames->are_special(subject->scheme);
     const struct gm_point_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
     struct opened boosted;
     const bool opened = open_equation(&boosted, equation, "2", 0);
-    struct gm_field_subject rest = *subject, moving = *subject;
+    struct subject rest = *subject, moving = *subject;
     moving.problem = boosted.problem;
     double largest = INFINITY;
-    const bool begun = gm_field_begin(&rest, y);
-    if (opened && begun && gm_field_begin(&moving, boosted.start)) {
+    const bool begun = begin_run(&rest, y);
+    if (opened && begun && begin_run(&moving, boosted.start)) {
         if (gm_run_until(rest.run, equation->until) == GM_OK &&
             gm_run_until(moving.run, equation->until) == GM_OK) {
             largest = 0;
@@ -321,13 +637,13 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
 }
 
 static void measure_claims(struct gm_certificate *certificate, const struct equation *equation,
-                           struct gm_field_subject *subject, const double *y)
+                           struct subject *subject, const double *y)
 {
     if (equation->kept) {
         note_kept(certificate, equation->claim, subject, y, equation->kept);
     }
     if (gm_field_of(&subject->problem)->form) {
-        gm_field_note_form(certificate, subject, y, 1);
+        note_form(certificate, subject, y, 1);
     }
     gm_certificate_note_same(certificate, &subject->problem, &no_settings, subject->dt, y);
     if (equation->seen) {
@@ -339,8 +655,7 @@ static void measure_claims(struct gm_certificate *certificate, const struct equa
 static void measure(struct gm_certificate *certificate, const struct equation *equation,
                     const struct opened *opened, double *farthest)
 {
-    struct gm_field_subject subject = {
-        .problem = opened->problem, .scheme = certificate->scheme, .dt = equation->dt};
+    struct subject subject = {.problem = opened->problem, .scheme = certificate->scheme, .dt = equation->dt};
     measure_claims(certificate, equation, &subject, opened->start);
     double order = NAN;
     if (equation->power > 0) {
@@ -353,7 +668,7 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
         }
         close_equation(&finer);
     } else {
-        order = gm_field_order_in_time(&subject, opened->start, equation->until);
+        order = order_in_time(&subject, opened->start, equation->until);
     }
     note_order(certificate, farthest, order, opened->problem.name);
 }
@@ -383,21 +698,21 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
 /* The energy of a form, which is of a scheme's own kind. */
 static double form_energy(const void *subject, const double *y, const double *memory)
 {
-    const struct gm_field_subject *of = subject;
+    const struct subject *of = subject;
     (void)y; /* the memory holds the stages that lead to it */
     return gm_form_energy(&of->problem, of->scheme, memory);
 }
 
 /* The reason why steps of this length cannot test a claim, or NULL. */
-static const char *no_steps(struct gm_field_subject *subject, const double *y)
+static const char *no_steps(struct subject *subject, const double *y)
 {
     const struct gm_step_limit *limit = subject->scheme->limit;
     if (limit && fabs(subject->dt) > limit->longest(&subject->problem, y)) {
         return "dt is beyond the longest step of linear theory (longest_step): take a shorter one";
     }
-    bool good = gm_field_begin(subject, y);
+    bool good = begin_run(subject, y);
     if (good) {
-        good = gm_run_advance(subject->run, GM_FIELD_STEPS) == GM_OK;
+        good = gm_run_advance(subject->run, RUN_STEPS) == GM_OK;
         gm_run_close(subject->run);
     }
     return good ? NULL : "a run of steps of this dt fails: take a shorter one";
@@ -408,9 +723,9 @@ static const char *no_steps(struct gm_field_subject *subject, const double *y)
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
-    struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
+    struct subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
     const struct gm_field *field = gm_field_of(system->problem);
-    const double *const y = system->start, size = gm_field_size(system->problem, y);
+    const double *const y = system->start, size = field_size(system->problem, y);
     const size_t n = system->problem->n,
                  levels = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
     const char *const name = system->problem->name;
@@ -419,22 +734,22 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     certificate->order_problem = name;
     certificate->order_reason = failing;
     if (!failing) {
-        certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
-        gm_field_note_form(certificate, &subject, y, size);
+        certificate->order =
+            order_on_finer_grids(system, scheme, &certificate->ladder, &certificate->order_reason);
+        note_form(certificate, &subject, y, size);
         gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {
             const struct gm_kept energy = {.value = form_energy, .data = &subject};
-            gm_field_note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
+            note_change(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
         }
         for (size_t i = 0; i < system->kept_count; i++) {
             /* along directions that a scheme's own last number takes no part in */
             const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size);
             if (claims & (GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC)) {
-                gm_field_note_kept(certificate,
-                                   claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC, &subject,
-                                   y, &system->kept[i], system->kept[i].name);
+                note_change(certificate, claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC,
+                            &subject, y, &system->kept[i], system->kept[i].name);
             }
         }
     }

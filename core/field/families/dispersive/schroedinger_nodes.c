@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/dispersive.h"

@@ -85,27 +85,6 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
     return GM_OK;
 }
 
-/* M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s) with the upper triangles M+, K+: here
-       v = D_t^- u,   w = D_x^- u,   -D_t^+ v + D_x^+ w = V'(u) */
-static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                struct gm_progress *progress)
-{
-    const double *past = work->level[0], *now = work->level[1];
-    double *next = work->level[2];
-    const double dx = problem->line.dx;
-    double *v = work->right, *w = work->guess;
-    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
-    for (size_t i = 0; i <= work->points; i++) {
-        w[i] = (now[i] - (now + i)[-1]) / dx;
-    }
-    for (size_t i = 0; i < work->points; i++) {
-        v[i] = (now[i] - past[i]) / dt;
-        next[i] = now[i] + dt * (v[i] + dt * ((w[i + 1] - w[i]) / dx - work->force[i]));
-    }
-    progress->evaluations++;
-    return GM_OK;
-}
-
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_two_step_row *row = scheme->coefficients;
@@ -131,7 +110,6 @@ static const struct gm_two_step_row rows[] = {
      .law = GM_LAW_NODES,
      .average = true,
      .keeps_change = true},
-    {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
 };
 
 static double longest_explicit(const struct gm_problem *problem, const double *y)
@@ -158,7 +136,7 @@ static const struct gm_scheme schemes[] = {
         "euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
         "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
         "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_LEAPFROG, .limit = &explicit_limit,
-        .coefficients = &rows[2]),
+        .coefficients = &rows[0]),
 };
 
 const struct gm_family gm_family_leapfrog = {
