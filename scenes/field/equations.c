@@ -12,7 +12,6 @@
 #include "core/field/problems/dispersive.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/frames.h"
-#include "scenes/field/observed.h"
 
 struct gm_grid1 gm_field_between_ends(const struct gm_system_lane *lane)
 {
@@ -188,8 +187,7 @@ const struct gm_field_kind gm_field_korteweg = {
     .failure = failure,
 };
 
-static const struct gm_parameter schroedinger_rows[] = {
-    GM_FIELD_POINTS(3), GM_LAW_ROW(GM_FIELD_LANE, grid.show, shown_of_charge)};
+static const struct gm_parameter schroedinger_rows[] = {GM_FIELD_POINTS(3), GM_LAW_ROW(shown_of_charge)};
 static const struct gm_observable of_schroedinger[] = {
     GM_LOCAL_LAWS,
     GM_LOG_OBSERVABLE("local_charge_residual", gm_view_content_residual, "residual of the local charge law",

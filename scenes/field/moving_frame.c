@@ -13,7 +13,7 @@ struct stencil {
     struct gm_event seen[2 * STENCIL], carried[2 * STENCIL];
 };
 
-/* What differs from equation to equation. */
+/* Texts and properties of one equation. */
 struct look {
     unsigned equation;
     const char *title, *note; /* the picture's title, and the end of its subtitle */

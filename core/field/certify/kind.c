@@ -440,7 +440,7 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
    measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
     const char *file;                /* of share/systems, or of share/subjects with a multisymplectic form */
-    const char *name;                /* in certificates; NULL: that of the problem */
+    const char *name;                /* in certificates; NULL: the problem has it */
     struct gm_system_value given[3]; /* of the file's values */
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;

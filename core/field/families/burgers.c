@@ -359,7 +359,7 @@ static bool is_of_family(const struct gm_scheme *scheme)
     return ((const struct method *)scheme->coefficients)->family;
 }
 
-/* Of schemes without frames too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
+/* Schemes without frames have one too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
                  size_t j, struct gm_point_symmetry *frame)
 {

@@ -20,7 +20,7 @@ struct gm_moving_frames {
     struct gm_event (*carry)(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
                              struct gm_event event);
     /* Finds the frame that carries node j of the state y, and those around it, to where a step dt is made. Returns
-       false if there is none. */
+       false if no such frame exists. */
     bool (*find)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt, const double *y,
                  size_t j, struct gm_point_symmetry *frame);
     /* Returns the defect of a step dt under a symmetry: the step of the carried state against the carried step. NaN if

@@ -341,7 +341,7 @@ static bool find(const struct gm_problem *problem, const struct gm_scheme *schem
     return work != NULL;
 }
 
-/* In units of the carried u, the largest over all nodes. */
+/* The largest over all nodes, in units of the carried u. */
 static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
                      const struct gm_point_symmetry *symmetry, const double *y)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations with frames of reference that move with the velocity lambda: that of Korteweg and de Vries (dispersive.h), and
+/* Equations with frames of reference that move with the velocity lambda: Korteweg and de Vries' (dispersive.h), and
    on nodes between two ends, of which the first and the last hold exact values,
        Burgers   u_t + u u_x = nu u_xx        (t, x, u) -> (t, x + lambda t, u + lambda)
        heat      u_t = nu u_xx for u > 0      (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu)))
@@ -19,7 +19,7 @@ enum gm_frame_nodes {
     GM_FRAME_MOVING,
 };
 
-/* First in the parameters of every equation with frames of reference; those of the heat equation are no more. */
+/* First in the parameters of every equation with frames of reference; the heat equation has no others. */
 struct gm_framed {
     struct gm_user_line line; /* first; of a file, else empty. The exact solution is that in the frame */
     double lambda;
