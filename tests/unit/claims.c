@@ -17,7 +17,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/lobatto.h"
-#include "core/field/problems/burgers.h"
+#include "core/field/problems/moving_frames.h"
 #include "core/flow/families/families.h"
 #include "core/mesh/families/families.h"
 #include "core/ode/families/compositions.h"
@@ -184,7 +184,7 @@ static void properties_that_are_false(void **unused)
 static void equivariance_that_is_false(void **unused)
 {
     (void)unused;
-    static const struct gm_burgers front = {.viscosity = 0.1};
+    static const struct gm_burgers front = {.framed.viscosity = 0.1};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &front;
     static const char *const names[] = {"ftcs", "lax-wendroff", "crank-nicolson"};
