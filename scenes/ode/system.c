@@ -28,7 +28,7 @@
 #include "scenes/common/system/variants.h"
 #include "scenes/common/trails.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/asked.h"
+#include "scenes/ode/optional.h"
 #include "scenes/ode/system/aim.h"
 #include "scenes/ode/system/curves.h"
 #include "scenes/ode/system/draw.h"
