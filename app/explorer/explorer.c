@@ -25,16 +25,9 @@
 
 static void draw(struct gm_explorer *explorer)
 {
-    const struct gm_screen *screen = &explorer->screen;
-    explorer->dirty =
-        gm_explorer_compose(explorer) &&
-        !gm_display_show(&explorer->display,
-                         &(const struct gm_composed){
-                             .cells = &screen->cells,
-                             .room = screen->pixels,
-                             .pixels = explorer->face.pixels,
-                             .theme = explorer->face.theme,
-                             .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
+    explorer->dirty = gm_explorer_compose(explorer) &&
+                      !gm_display_show(&explorer->display, &explorer->screen, &explorer->face,
+                                       explorer->open.shot ? explorer->open.shot->picture : NULL);
 }
 
 /* Returns the time (ms) at which the first of the texts that are shown for some seconds ends, or 0. */

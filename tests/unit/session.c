@@ -581,7 +581,7 @@ static void long_texts_stay_whole(void **unused)
     gm_studies_begin(&studies, GM_STUDY_STABILITY, shot, wake);
     assert_non_null(studies.studies[GM_STUDY_STABILITY]);
     struct gm_arguments arguments = {0};
-    assert_true(gm_arguments_split(&arguments, gm_study_words(studies.studies[GM_STUDY_STABILITY])));
+    assert_true(gm_arguments_split(&arguments, studies.studies[GM_STUDY_STABILITY]->words));
     bool whole = false;
     for (int i = 0; i < arguments.count; i++) {
         whole = whole || strcmp(arguments.words[i], words) == 0;

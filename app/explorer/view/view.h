@@ -90,13 +90,10 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
 /* The background studies, one of each kind, and the shown one. */
 
 struct gm_studies {
-    struct gm_study *studies[GM_STUDY_COUNT];
-    struct gm_study_look *looks[GM_STUDY_COUNT];   /* the last looks taken; NULL before the first */
-    const struct gm_scene *scenes[GM_STUDY_COUNT]; /* scenes open at the studies' start; they may be freed */
-    enum gm_study_kind shown;                      /* GM_STUDY_NONE: the scene is shown */
-    struct gm_painting painting;                   /* the painting of the shown picture */
-    int64_t until[GM_STUDY_COUNT];                 /* time (ms) at which the notice of a finished one ends */
-    char notice[GM_MESSAGE];                       /* the reason of a failure; "" after the next key */
+    struct gm_study *studies[GM_STUDY_COUNT]; /* NULL: none of that kind */
+    enum gm_study_kind shown;                 /* GM_STUDY_NONE: the scene is shown */
+    struct gm_painting painting;              /* the painting of the shown picture */
+    char notice[GM_MESSAGE];                  /* the reason of a failure; "" after the next key */
 };
 
 void gm_studies_close(struct gm_studies *studies);

@@ -39,15 +39,13 @@ static bool undo(struct gm_play *play, char *message)
     const struct gm_order *order = &play->undos[--play->undo_count];
     const size_t lane = order->value == all_lanes ? play->selected : (size_t)order->value;
     const bool scheme = order->kind == GM_ORDER_SWITCH;
-    char sentence[GM_MESSAGE];
     if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
                : !gm_session_set(&play->session, lane, order->row, is_of_scheme(order->row), order->text,
                                  &play->restart, message)) {
         return false;
     }
-    snprintf(sentence, sizeof sentence, "Undone: %s is %.300s again.",
-             scheme ? "the scheme" : order->row->key, scheme ? order->scheme->title : order->text);
-    gm_play_say(play, sentence);
+    gm_play_say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
+                scheme ? order->scheme->title : order->text);
     return true;
 }
 
@@ -78,11 +76,10 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
             return;
         }
     } else if (!gm_slider_next(row, owner, order->amount, order->kind == GM_ORDER_NUDGE, text)) {
-        snprintf(message, sizeof message,
-                 row->type == GM_TEXT ? "%s is a word of your own: enter types it."
-                                      : "%s is at the end of its range.",
-                 row->key);
-        gm_play_say(play, message);
+        gm_play_say(play,
+                    row->type == GM_TEXT ? "%s is a word of your own: enter types it."
+                                         : "%s is at the end of its range.",
+                    row->key);
         return;
     }
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
@@ -96,7 +93,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
                         message)) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     } else if (strcmp(back.text, text) != 0) {
         note_undo(play, back);
     }
@@ -331,7 +328,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     }
     if (!ok) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     if (order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_TURN || order->kind == GM_ORDER_VISIT) {
         gm_agenda_rewind(&play->agenda, gm_session_time(session));

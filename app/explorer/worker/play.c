@@ -3,6 +3,7 @@
 #include "app/explorer/worker/session.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
 #include "app/native/engine.h"
@@ -40,9 +41,12 @@ static void set_speed_for(struct gm_play *play, double span, double seconds)
     gm_play_set_speed(play, (int)round(3 * log10(span / seconds)));
 }
 
-void gm_play_say(struct gm_play *play, const char *sentence)
+void gm_play_say(struct gm_play *play, const char *format, ...)
 {
-    snprintf(play->message, sizeof play->message, "%s", sentence);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(play->message, sizeof play->message, format, values);
+    va_end(values);
     play->message_number++;
     play->changed = true;
 }
@@ -101,7 +105,7 @@ bool gm_play_keep_agenda(struct gm_play *play)
     }
     const bool stop = gm_agenda_keep(&play->agenda, &play->session, message);
     if (message[0]) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     if (stop) {
         play->paused = true;
@@ -260,7 +264,7 @@ void gm_play_restart(struct gm_play *play)
     play->frozen = 0;
     play->ahead = play->homewards = false;
     if (!gm_session_restart(&play->session, message)) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     gm_play_set_clock(play, gm_session_time(&play->session));
     repeat_step(play);
@@ -313,11 +317,9 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_OUT_OF_MEMORY] = "found no memory",
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
         };
-        char sentence[GM_MESSAGE];
-        snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
-                 sentences[latest->run->status], latest->run->t,
-                 frozen < play->session.count ? "; the others continue" : "");
-        gm_play_say(play, sentence);
+        gm_play_say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
+                    sentences[latest->run->status], latest->run->t,
+                    frozen < play->session.count ? "; the others continue" : "");
     }
     play->frozen = frozen;
 }
