@@ -74,12 +74,20 @@ static bool check_words(const struct gm_arguments *words, char *message)
 
 /* ---- playing ---- */
 
+/* Returns true while a thread or a process works on something that the screen shows. */
+static bool is_busy(struct gm_explorer *explorer)
+{
+    struct gm_check *check = &explorer->check;
+    return (check->open && gm_job_is_busy(&check->job)) || gm_studies_are_busy(&explorer->open.studies) ||
+           explorer->measure.fd >= 0;
+}
+
 /* Waits for what has no clock: background diagrams, the check of a typed line, and the measurement of a
    scheme. Returns true if one of them has a result. */
 static bool wait_for_others(struct gm_explorer *explorer)
 {
     bool came = false;
-    while (gm_explorer_is_busy(explorer)) {
+    while (is_busy(explorer)) {
         nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         came = (explorer->measure.fd >= 0 && gm_measure_read(&explorer->measure)) || came;
     }

@@ -63,6 +63,7 @@ enum gm_start_group {
 struct gm_start_entry {
     enum gm_start_group group;
     const char *name, *title;
+    const char *more[2];          /* further texts that a search reads, or NULL */
     const struct gm_scene *scene; /* NULL for a file or a typed system */
     const struct gm_tour *tour;   /* NULL unless the entry is a tour */
 };
