@@ -4,6 +4,7 @@
 #include "app/explorer/events.h"
 
 #include <curses.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -314,7 +315,7 @@ static void press_in_prompt(struct gm_explorer *explorer, int key)
                                  .row = ahead ? NULL : shot->parameters[face->parameter].row};
         snprintf(order.text, sizeof order.text, "%s", face->typed);
         if (!face->typed[0]) {
-            gm_prompt_ahead(shot, order.text, sizeof order.text);
+            snprintf(order.text, sizeof order.text, "%.6g", shot->ahead);
         }
         gm_explorer_order(explorer, order);
     }
@@ -355,17 +356,11 @@ static void press_in_scene(struct gm_explorer *explorer, int key)
     }
 }
 
-/* Returns one code for the keys of one meaning. */
-static int usual(int key)
-{
-    const bool enter = key == '\r' || key == KEY_ENTER, erase = key == 127 || key == 8;
-    return enter ? '\n' : erase ? KEY_BACKSPACE : key;
-}
-
 void gm_explorer_key(struct gm_explorer *explorer, int key)
 {
     struct gm_face *face = &explorer->face;
-    key = usual(key);
+    const bool enter = key == '\r' || key == KEY_ENTER, erase = key == 127 || key == 8;
+    key = enter ? '\n' : erase ? KEY_BACKSPACE : key; /* one code for the keys of one meaning */
     explorer->dirty = true;
     if (face->loss) {
         face->loss = NULL;
@@ -391,19 +386,13 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
 
 /* ---- the mouse: clicks, drags and the wheel ---- */
 
-/* Returns a column's position in a hit, 0 to 1. */
-static double part_of(const struct gm_hit *hit, int column)
-{
-    double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
-    return part < 0 ? 0 : part > 1 ? 1 : part;
-}
-
 /* Moves a slider with the pressed button; `begins`: it was just pressed. */
 static void drag(struct gm_explorer *explorer, int column, bool begins)
 {
     const struct gm_shot *shot = explorer->open.shot;
     const struct gm_hit *held = &explorer->pointer.held;
-    struct gm_order order = {.kind = GM_ORDER_VISIT, .value = part_of(held, column)};
+    const double part = held->width > 1 ? (double)(column - held->column) / (held->width - 1) : 0;
+    struct gm_order order = {.kind = GM_ORDER_VISIT, .value = fmin(fmax(part, 0), 1)};
     if (shot && held->kind == GM_HIT_PAST) {
         order.value *= shot->reach;
     } else if (shot && held->kind == GM_HIT_SLIDER && held->index < shot->parameter_count) {

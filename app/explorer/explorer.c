@@ -24,7 +24,7 @@
 
 /* ---- from the state to the screen ---- */
 
-enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
+enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, LEAST_PAUSE = 5 };
 /* the part of a core up to which frames come at full pace */
 static const double FRAMES_SHARE = 1.0 / 3;
 
@@ -114,14 +114,6 @@ static int period(const struct gm_explorer *explorer, const struct gm_shot *shot
     return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
 }
 
-/* Returns the time of the next shot, at an even pace, with a pause that leaves others time. */
-static int64_t next_time(int64_t last, int period)
-{
-    enum { LEAST_PAUSE = 5 };
-    int64_t now = gm_clock_milliseconds();
-    return last + period > now + LEAST_PAUSE ? last + period : now + LEAST_PAUSE;
-}
-
 void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
 {
     if (shot) {
@@ -129,7 +121,10 @@ void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
         explorer->open.scene = shot->scene; /* the worker has made the scene by now */
         explorer->open.asked = false;
         read_command(explorer);
-        explorer->open.next_shot = next_time(explorer->open.next_shot, period(explorer, shot));
+        /* at an even pace, with a pause that leaves others time */
+        const int64_t next = explorer->open.next_shot + period(explorer, shot);
+        const int64_t earliest = gm_clock_milliseconds() + LEAST_PAUSE;
+        explorer->open.next_shot = next > earliest ? next : earliest;
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {
@@ -145,13 +140,6 @@ void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
 }
 
 /* ---- output ---- */
-
-static void draw(struct gm_explorer *explorer)
-{
-    explorer->dirty = gm_explorer_compose(explorer) &&
-                      !gm_display_show(&explorer->display, &explorer->screen, &explorer->face,
-                                       explorer->open.shot ? explorer->open.shot->picture : NULL);
-}
 
 /* Returns the time (ms) at which the first of the texts that are shown for some seconds ends, or 0. */
 static int64_t first_end(const struct gm_explorer *explorer)
@@ -178,7 +166,9 @@ static int put_out(struct gm_explorer *explorer)
     bool sent = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();
-        draw(explorer);
+        explorer->dirty = gm_explorer_compose(explorer) &&
+                          !gm_display_show(&explorer->display, &explorer->screen, &explorer->face,
+                                           explorer->open.shot ? explorer->open.shot->picture : NULL);
         explorer->end = first_end(explorer);
         explorer->draw_cost = gm_clock_seconds() - begun;
         sent = sent && gm_writer_send(&explorer->display.writer);
@@ -243,21 +233,15 @@ static void read_late_answers(struct gm_explorer *explorer)
     }
 }
 
-/* Returns true if typed keys are for a scene or text that the worker has not yet delivered. A tour accepts
-   keys without its picture. */
-static bool is_early(const struct gm_explorer *explorer)
-{
-    const struct gm_open *open = &explorer->open;
-    return explorer->face.awaited ||
-           (open->worker && !open->shot && !open->said[0] && !open->touring && !explorer->list.shown);
-}
-
-/* Returns the milliseconds for which keys must wait; 0: they are read. */
+/* Returns the milliseconds for which typed keys must wait, for a scene or text that the worker has not yet
+   delivered; 0: they are read. A tour accepts keys without its picture. */
 static int hold_keys(struct gm_explorer *explorer)
 {
     enum { LONGEST = 500 }; /* milliseconds; a long step does not block the keys further */
     const int64_t now = gm_clock_milliseconds();
-    if (!is_early(explorer)) {
+    const struct gm_open *open = &explorer->open;
+    if (!explorer->face.awaited &&
+        (!open->worker || open->shot || open->said[0] || open->touring || explorer->list.shown)) {
         explorer->held_until = 0;
         return 0;
     }
@@ -297,17 +281,6 @@ static bool is_gone(void)
     return poll(&keys, 1, 0) > 0 && (ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0);
 }
 
-static void suspend(struct gm_explorer *explorer)
-{
-    gm_display_rest(&explorer->display);
-    gm_console_stop();
-    if (gm_console_leaving()) {
-        gm_interrupts_seen();
-        gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
-    }
-    gm_explorer_resize(explorer);
-}
-
 static void read_picture(struct gm_explorer *explorer)
 {
     if (!gm_display_read(&explorer->display)) {
@@ -327,14 +300,16 @@ static void read_news(struct gm_explorer *explorer)
     if (read(explorer->wake, &count, sizeof count) < 0 && errno != EAGAIN && errno != EINTR) {
         gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
+    const bool stops = gm_console_stopping();
+    if (stops) {
+        gm_display_rest(&explorer->display);
+        gm_console_stop();
+    }
     if (gm_console_leaving()) {
         gm_interrupts_seen();
         gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
     }
-    if (gm_console_stopping()) {
-        suspend(explorer);
-    }
-    if (gm_console_resized()) {
+    if (gm_console_resized() || stops) {
         gm_explorer_resize(explorer);
     }
     read_picture(explorer);

@@ -226,25 +226,24 @@ void gm_explorer_show_start(struct gm_explorer *explorer)
     look_soon(explorer);
 }
 
-/* Opens a tour; one that was left is resumed at its step. */
-static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
+/* Opens an entry; a tour that was left is resumed at its step. */
+static bool open_entry(struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     struct gm_guide *guide = &explorer->open.guide;
-    if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
-        *guide = gm_guide_at(tour, 0);
+    explorer->face.parameter = 0;
+    if (!entry->tour) {
+        guide->tour = NULL;
+        explorer->face.guide = NULL;
+        return gm_open_named(&explorer->open, entry->name, false, explorer->message);
+    }
+    if (!guide->tour || strcmp(guide->tour->name, entry->tour->name) != 0) {
+        *guide = gm_guide_at(entry->tour, 0);
         explorer->face.guide = guide;
     }
     return gm_open_step(&explorer->open, explorer->message);
 }
 
-static bool enter_named(struct gm_explorer *explorer, const char *name)
-{
-    explorer->open.guide.tour = NULL;
-    explorer->face.guide = NULL;
-    return gm_open_named(&explorer->open, name, false, explorer->message);
-}
-
-/* Opens the chosen scene or tour, or returns to it if it is still open. */
+/* Opens the chosen entry, or returns to it if it is still open. */
 static void enter(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
@@ -256,11 +255,8 @@ static void enter(struct gm_explorer *explorer)
         gm_explorer_ask_system(explorer);
         return;
     }
-    if (!goes_on) {
-        explorer->face.parameter = 0;
-        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_named(explorer, entry->name))) {
-            gm_explorer_leave(explorer, GM_EXIT_USAGE);
-        }
+    if (!goes_on && !open_entry(explorer, entry)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
     explorer->list.shown = false;
     explorer->dirty = explorer->fresh = true;

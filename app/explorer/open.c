@@ -138,15 +138,6 @@ static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char
     return true;
 }
 
-static void close_check(struct gm_check *check)
-{
-    if (check->open) {
-        gm_job_close(&check->job);
-    }
-    free(check->line);
-    *check = (struct gm_check){0};
-}
-
 /* ---- typed lines ---- */
 
 static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
@@ -402,13 +393,6 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
     return true;
 }
 
-/* Returns true if a line has a formula of its own, with or without the name of a file. */
-static bool has_formula(const char *line)
-{
-    return memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") || strstr(line, " L=") ||
-           strstr(line, " rate=");
-}
-
 /* Carries out a correct line. */
 static void take(struct gm_explorer *explorer)
 {
@@ -418,7 +402,9 @@ static void take(struct gm_explorer *explorer)
     bool taken;
     if (prompt->kind == GM_TYPED_SYSTEM) {
         taken = gm_explorer_open_line(explorer, line, &prompt->fault);
-        explorer->open.unsaved = explorer->open.unsaved || (taken && has_formula(line));
+        const bool formula = memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") ||
+                             strstr(line, " L=") || strstr(line, " rate=");
+        explorer->open.unsaved = explorer->open.unsaved || (taken && formula);
     } else if (prompt->kind == GM_TYPED_MAP) {
         taken = take_map(explorer);
     } else {
@@ -476,7 +462,10 @@ void gm_explorer_press_typed(struct gm_explorer *explorer, int key)
 
 void gm_explorer_close_typed(struct gm_explorer *explorer)
 {
-    close_check(&explorer->check);
+    if (explorer->check.open) {
+        gm_job_close(&explorer->check.job);
+    }
+    free(explorer->check.line);
     for (size_t i = 0; i < GM_TYPED_KINDS; i++) {
         free(explorer->typed_prompt.last[i]);
     }

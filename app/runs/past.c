@@ -127,31 +127,22 @@ void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone,
     }
 }
 
-static bool load(const struct gm_moment *moment, struct gm_lane *lane)
-{
-    if (!gm_lane_load(lane, (const char *)moment->memory + snapshot_at(lane))) {
-        return false;
-    }
-    memcpy(lane->parameters, moment->memory, lane->scene->size);
-    return true;
-}
-
-const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps)
+const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps,
+                                       double gone)
 {
     size_t count = past->count;
     while (count > 0 && past->moments[count - 1].steps > steps) {
         count--;
     }
-    return count > 0 && load(&past->moments[count - 1], lane) ? &past->moments[count - 1] : NULL;
-}
-
-const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone)
-{
-    size_t count = past->count;
     while (count > 1 && past->moments[count - 1].gone > gone) {
         count--;
     }
-    return count > 0 && load(&past->moments[count - 1], lane) ? &past->moments[count - 1] : NULL;
+    const struct gm_moment *moment = count > 0 ? &past->moments[count - 1] : NULL;
+    if (!moment || !gm_lane_load(lane, (const char *)moment->memory + snapshot_at(lane))) {
+        return NULL;
+    }
+    memcpy(lane->parameters, moment->memory, lane->scene->size);
+    return moment;
 }
 
 void gm_past_forget(struct gm_past *past, int64_t steps)

@@ -32,10 +32,10 @@ struct gm_past gm_past_copy(const struct gm_past *past);
    stepped back and continued from there. */
 void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone, bool always);
 
-/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it, or
+/* Takes the lane to the last snapshot at or before `steps`, and at or before `gone` or the first one; returns it, or
    NULL. Later ones stay. */
-const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps);
-const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
+const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, int64_t steps,
+                                       double gone);
 
 /* Sets a parameter in all snapshots: one that is the same at all times (struct gm_parameter, looks). */
 void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text);

@@ -273,15 +273,6 @@ static void show_in_order(struct gm_session *session)
 
 /* ---- a session's beginning and end ---- */
 
-/* Opens the log with room for every lane, so that later only parameters are allocated. */
-static bool log_open(struct gm_session *session, const struct gm_request *request)
-{
-    session->log = (struct gm_request){.scene = session->scene};
-    session->log.lanes = calloc(GM_MOST_LANES, sizeof *session->log.lanes);
-    session->log.arguments = request->arguments ? strdup(request->arguments) : NULL;
-    return session->log.lanes && (session->log.arguments || !request->arguments);
-}
-
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message)
 {
     *session = (struct gm_session){.scene = request->scene, .overlaid = request->overlay};
@@ -289,7 +280,11 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
         return gm_refuse(message, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
                          request->count);
     }
-    if (!log_open(session, request)) {
+    /* the log has room for every lane, so that later only parameters are allocated */
+    session->log = (struct gm_request){.scene = session->scene,
+                                       .lanes = calloc(GM_MOST_LANES, sizeof *session->log.lanes),
+                                       .arguments = request->arguments ? strdup(request->arguments) : NULL};
+    if (!session->log.lanes || (request->arguments && !session->log.arguments)) {
         gm_request_close(&session->log);
         return short_of_memory(message);
     }
@@ -390,16 +385,10 @@ static bool apply_change(struct gm_session *session, size_t i, const char *text,
     return true;
 }
 
-/* Another change of the same key at the same step. */
-struct overtaking {
-    size_t lane;
-    int64_t step;
-    const char *text;
-};
-
+/* Returns true for another change of the same key at the same step. */
 static bool is_overtaken(const struct gm_change *change, const void *data)
 {
-    const struct overtaking *by = data;
+    const struct gm_change *by = data;
     return change->lane == by->lane && change->step == by->step &&
            strncmp(change->text, by->text, strcspn(by->text, "=") + 1) == 0;
 }
@@ -412,7 +401,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     }
     /* the last change of a key at a step replaces earlier ones */
     const int64_t step = session->lanes[i]->run->steps;
-    gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
+    gm_changes_drop(&session->log, is_overtaken, &(struct gm_change){i, step, (char *)text});
     if (!gm_change_add(&session->log, i, step, text)) {
         return short_of_memory(message);
     }
@@ -567,7 +556,7 @@ bool gm_session_back(struct gm_session *session, char *message)
         if (direction * lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0) {
             continue;
         }
-        const struct gm_moment *moment = gm_past_return(&session->pasts[i], lane, steps - 1);
+        const struct gm_moment *moment = gm_past_return(&session->pasts[i], lane, steps - 1, INFINITY);
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
@@ -613,7 +602,7 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
     }
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_moment *moment =
-            gm_past_visit(&session->pasts[i], session->lanes[i], gone + 1e-9 * fabs(gone));
+            gm_past_return(&session->pasts[i], session->lanes[i], INT64_MAX, gone + 1e-9 * fabs(gone));
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }

@@ -507,9 +507,11 @@ static bool read_words(struct gm_request *request, const struct gm_arguments *gi
     bool made = gm_words_read(words, request->scene, all->count - 1, all->words + 1, schemes, message);
     if (!made) {
         memcpy(request->refused, words->refused, sizeof request->refused);
-    } else if (all != given && !gm_arguments_have(given, "overlay=") &&
-               !gm_words_count(words, GM_LANE_COLOURS, &lanes, message)) {
-        gm_words_separate(words);
+    }
+    struct gm_word *overlay = made ? (struct gm_word *)gm_words_find(words, "overlay") : NULL;
+    if (overlay && all != given && !gm_arguments_have(given, "overlay=") &&
+        !gm_words_count(words, GM_LANE_COLOURS, &lanes, message)) {
+        overlay->pieces[0].text = "no"; /* there are more lanes than colours */
     }
     made = made && (gm_arena_run(words->arena, make_lanes, &making) ||
                     gm_refuse(message, "%s", gm_arena_reason(words->arena)));

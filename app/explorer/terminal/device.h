@@ -203,7 +203,7 @@ struct gm_writer {
     const char *place, *plain, *strong, *reversed, *set_foreground, *set_background;
     bool corner;           /* the last cell of the screen can be written without a scroll */
     struct gm_cells shown; /* the screen that the terminal shows once all is sent */
-    bool known;            /* `shown` is valid */
+    bool known;            /* `shown` is valid; else the next screen is written in full */
     char *out;
     size_t length, capacity, sent;
     bool failed; /* out of memory, or the terminal is gone */
@@ -255,8 +255,6 @@ void gm_writer_tell(struct gm_writer *writer, const char *text);
 bool gm_writer_send(struct gm_writer *writer);
 /* Drops the unsent bytes and ends a sequence that this cuts. */
 void gm_writer_cut(struct gm_writer *writer);
-/* Invalidates the shown screen: the next one is written in full. */
-void gm_writer_forget(struct gm_writer *writer);
 
 /* Shows composed screens with a picture of pixels. A thread paints the picture, so a screen with a new one
    appears a little later, both together. Nothing waits for the terminal. */

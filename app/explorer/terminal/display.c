@@ -125,7 +125,7 @@ bool gm_display_takes(struct gm_display *display)
 
 void gm_display_forget(struct gm_display *display)
 {
-    gm_writer_forget(&display->writer);
+    display->writer.known = false;
     display->lost = true;
 }
 

@@ -484,11 +484,6 @@ void gm_writer_cut(struct gm_writer *writer)
     }
 }
 
-void gm_writer_forget(struct gm_writer *writer)
-{
-    writer->known = false;
-}
-
 bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)
 {
     *writer = (struct gm_writer){.fd = -1,

@@ -110,7 +110,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
         }
         for (size_t k = 0; k < shot->lane_count; k++) {
             if (shot->lanes[k].scheme == found[i]) {
-                role = gm_schemes_role(&shot->lanes[k]);
+                role = gm_lane_role(shot->lanes[k].shown.colour);
                 gm_sheet_text(sheet, 2, row, "●", role, false);
                 break;
             }

@@ -87,12 +87,6 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
 }
 
-/* Returns true while the status line shows what to watch; a tour has its own text. */
-static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
-{
-    return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
-}
-
 /* Writes the sentences of a text that fit into two rows above the last one, or if not even one fits, its words. */
 static void few_sentences(const struct gm_sheet *whole, const char *all, char *text, size_t size)
 {
@@ -110,28 +104,15 @@ static void few_sentences(const struct gm_sheet *whole, const char *all, char *t
     snprintf(text, size, "%.*s%s", (int)(sentences ? sentences : words), all, sentences ? "" : "…");
 }
 
-void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size)
-{
-    snprintf(text, size, "%.6g", shot->ahead);
-}
-
-/* Returns the end of the typed text, where letters are added, and sets the mark before it; the help needs
-   the rest. */
-static const char *end_of(const char *typed, const char **before)
-{
-    enum { SHOWN = 40 };
-    const size_t length = strlen(typed);
-    *before = length > SHOWN ? "…" : "";
-    return length > SHOWN ? typed + length - SHOWN : typed;
-}
-
+/* Of a long typed text the end is shown, where letters are added; the help needs the rest. */
 static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
 {
-    const char *before, *typed = end_of(face->typed, &before);
+    enum { SHOWN = 40 };
+    const size_t length = strlen(face->typed);
+    const char *before = length > SHOWN ? "…" : "";
+    const char *typed = face->typed + (length > SHOWN ? length - SHOWN : 0);
     if (face->prompt == GM_PROMPT_AHEAD) {
-        char standard[32] = "";
-        gm_prompt_ahead(shot, standard, sizeof standard);
-        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %s)", before, typed, standard);
+        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %.6g)", before, typed, shot->ahead);
     } else {
         const struct gm_parameter *row = shot->parameters[face->parameter].row;
         snprintf(text, size, "%s = %s%s_   (%s)", row->key, before, typed, row->help);
@@ -142,6 +123,8 @@ static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, 
 static void say(const struct gm_sheet *whole, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
     const struct gm_face *face = whole->face;
+    /* a tour has its own text */
+    const bool watched = shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
     text[0] = '\0';
     const char *alias = gm_chooser_alias(face), *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
@@ -162,7 +145,7 @@ static void say(const struct gm_sheet *whole, const struct gm_shot *shot, bool s
         snprintf(text, size, "%s", face->hint);
     } else if (face->explaining && parameter) {
         explain(parameter, !side, text, size);
-    } else if (is_watched(face, shot)) {
+    } else if (watched) {
         few_sentences(whole, shot->scene->watch, text, size);
     } else if (!shot->paused && shot->pace < standstill) {
         snprintf(text, size, "%.1g steps per second: press %s to shorten dt", shot->pace,

@@ -5,22 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* a lane's line as three cells of text, dashed as in the picture */
-static const char *const dash_marks[GM_DASH_COUNT] = {
-    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
-    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
-};
-
-const char *gm_schemes_dash(const struct gm_shot_lane *lane)
-{
-    return dash_marks[gm_lane_dash(lane->shown.dash)];
-}
-
-enum gm_role gm_schemes_role(const struct gm_shot_lane *lane)
-{
-    return gm_lane_role(lane->shown.colour);
-}
-
 /* ---- claims ---- */
 
 unsigned gm_schemes_claims(const struct gm_shot *shot)

@@ -26,10 +26,6 @@ void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide);
 
 /* Schemes in the rows of a list: title, claims and order in columns, the formula below. */
 
-/* Return the colour of a lane, and its line as three cells of text. */
-enum gm_role gm_schemes_role(const struct gm_shot_lane *lane);
-const char *gm_schemes_dash(const struct gm_shot_lane *lane);
-
 /* Returns the claims that the shot's schemes make: only those have a column. */
 unsigned gm_schemes_claims(const struct gm_shot *shot);
 /* Returns true if there is no room for space between the columns. */
@@ -191,9 +187,6 @@ size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
 /* Returns the alias by which the typed words found the chosen scheme; NULL: by its name, or another text. */
 const char *gm_chooser_alias(const struct gm_face *face);
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
-
-/* Writes the time to run ahead to if no time is typed. */
-void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size);
 
 /* Pages on the scene with its keys and claims, a scheme, the command lines, or the list of scenes. */
 

@@ -164,18 +164,13 @@ static void stop_at_home(struct gm_play *play)
     }
 }
 
-/* Limits the time that is due to one second's worth of steps, so that orders are heard. */
-static double due_at_once(const struct gm_play *play)
-{
-    const struct gm_session *session = &play->session;
-    const double a_second = gm_session_time(session) + gm_session_direction(session) * play->rate;
-    return sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(session)));
-}
-
 static bool step_along(struct gm_play *play)
 {
     const double begun = gm_clock_seconds(), from = gm_session_time(&play->session);
-    const double due = due_at_once(play);
+    /* at most one second's worth of steps, so that orders are heard */
+    const double a_second = from + gm_session_direction(&play->session) * play->rate;
+    const double due =
+        sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(&play->session)));
     bool worked = false;
     while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
         worked = true;
@@ -246,16 +241,6 @@ void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t 
     go_to_step(play);
 }
 
-/* Shows the tour's step again after a restart of all lanes. */
-static void repeat_step(struct gm_play *play)
-{
-    if (play->agenda.tour) {
-        play->paused = play->paused && !play->agenda.over;
-        gm_agenda_rewind(&play->agenda, -INFINITY);
-        go_to_step(play);
-    }
-}
-
 void gm_play_restart(struct gm_play *play)
 {
     char message[GM_MESSAGE];
@@ -267,7 +252,11 @@ void gm_play_restart(struct gm_play *play)
         gm_play_say(play, "%s", message);
     }
     gm_play_set_clock(play, gm_session_time(&play->session));
-    repeat_step(play);
+    if (play->agenda.tour) { /* its step is shown again */
+        play->paused = play->paused && !play->agenda.over;
+        gm_agenda_rewind(&play->agenda, -INFINITY);
+        go_to_step(play);
+    }
     play->changed = true;
 }
 
