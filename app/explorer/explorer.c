@@ -68,12 +68,7 @@ bool gm_explorer_compose(struct gm_explorer *explorer)
         return false;
     }
     if (explorer->face.loss) {
-        const struct gm_sheet whole = {.cells = &screen->cells,
-                                       .face = &explorer->face,
-                                       .width = screen->cells.columns,
-                                       .height = screen->cells.rows,
-                                       .hits = &screen->hits};
-        gm_screen_ask(&whole, explorer->face.loss);
+        gm_screen_ask(screen, &explorer->face);
     }
     explorer->fresh = false;
     return true;

@@ -138,16 +138,6 @@ static bool look(struct gm_play *play, const struct gm_order *order, char *messa
     return true;
 }
 
-static void step_forward(struct gm_play *play)
-{
-    double next = gm_session_next(&play->session);
-    if (isfinite(next)) {
-        while (gm_session_advance(&play->session, next)) {
-            ;
-        }
-    }
-}
-
 static bool run_ahead(struct gm_play *play, const char *text, char *message)
 {
     double to;
@@ -204,16 +194,6 @@ static bool start_from(struct gm_play *play, double x, double y, char *message)
     return true;
 }
 
-static void select_lane(struct gm_play *play, const struct gm_order *order)
-{
-    size_t count = play->session.count;
-    if (order->amount == 0) {
-        play->selected = order->value < (double)count ? (size_t)order->value : play->selected;
-    } else {
-        play->selected = (play->selected + (size_t)((int)count + order->amount)) % count;
-    }
-}
-
 static bool add_lane(struct gm_play *play, char *message)
 {
     const struct gm_scheme *scheme = gm_session_unused(&play->session);
@@ -242,10 +222,13 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
     case GM_ORDER_PAUSE:
         play->paused = !play->paused;
         break;
-    case GM_ORDER_FORWARD:
+    case GM_ORDER_FORWARD: {
+        const double next = gm_session_next(session);
         play->paused = true;
-        step_forward(play);
+        while (isfinite(next) && gm_session_advance(session, next)) {
+        }
         break;
+    }
     case GM_ORDER_RESTART:
         play->restart = true;
         break;
@@ -270,7 +253,11 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         play->ahead = false;
         break;
     case GM_ORDER_SELECT:
-        select_lane(play, order);
+        if (order->amount != 0) {
+            play->selected = (play->selected + session->count + (size_t)order->amount) % session->count;
+        } else if (order->value < (double)session->count) {
+            play->selected = (size_t)order->value;
+        }
         break;
     case GM_ORDER_LOOK:
         ok = look(play, order, message);

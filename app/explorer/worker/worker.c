@@ -147,17 +147,6 @@ static bool go_on(struct gm_worker *worker)
     return worked || changed;
 }
 
-/* One round, then a shot or a rest. Called with the lock held. */
-static void go_round(struct gm_worker *worker)
-{
-    const bool worked = go_on(worker);
-    if (worker->wanted && worker->play.changed) {
-        take_shot(worker);
-    } else if (!worked && worker->count == 0 && !worker->leave) {
-        rest(worker);
-    }
-}
-
 /* Opens the scene that has only a name yet. Returns false with a message in play if that fails. */
 static bool begin(struct gm_worker *worker)
 {
@@ -183,11 +172,15 @@ static void *work(void *self)
     if (!ok) {
         announce(worker);
     }
+    while (!ok && !worker->leave) {
+        pthread_cond_wait(&worker->news, &worker->lock);
+    }
     while (!worker->leave) {
-        if (ok) {
-            go_round(worker);
-        } else {
-            pthread_cond_wait(&worker->news, &worker->lock);
+        const bool worked = go_on(worker);
+        if (worker->wanted && worker->play.changed) {
+            take_shot(worker);
+        } else if (!worked && worker->count == 0 && !worker->leave) {
+            rest(worker);
         }
     }
     while (ok && worker->owed > 0) {
