@@ -4,6 +4,7 @@
 #include "app/runs/session.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,163 @@
 #include "core/schemes.h"
 #include "scenes/common/lane_pack.h"
 #include "scenes/common/symbol.h"
+
+/* ---- the way back of a lane: snapshots in bounded memory, thinned when they are full ---- */
+
+enum { MOST_MOMENTS = 4096 };
+
+static void close_past(struct gm_past *past)
+{
+    for (size_t i = 0; i < past->count; i++) {
+        free(past->moments[i].memory);
+    }
+    free(past->moments);
+    *past = (struct gm_past){0};
+}
+
+/* Sets a parameter that is the same at all times (struct gm_parameter, looks). */
+static void set_in_past(struct gm_past *past, const struct gm_parameter *row, const char *text)
+{
+    for (size_t i = 0; i < past->count; i++) {
+        gm_parameter_set(row, past->moments[i].memory, text);
+    }
+}
+
+static void thin(struct gm_past *past)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < past->count; i++) {
+        if (i % 2 == 0) {
+            past->moments[kept++] = past->moments[i];
+        } else {
+            free(past->moments[i].memory);
+        }
+    }
+    past->count = kept;
+    past->every *= 2;
+}
+
+/* Sets the largest number of snapshots. */
+static void limit_past(struct gm_past *past, size_t bound)
+{
+    past->bound = bound < MOST_MOMENTS ? bound : MOST_MOMENTS;
+    while (past->count > past->bound && past->count > 1) {
+        thin(past);
+    }
+}
+
+/* A copy for a fork of the lane; an empty one when out of memory. */
+static struct gm_past copy_past(const struct gm_past *past)
+{
+    struct gm_past copy = {.bound = past->bound, .every = past->every};
+    copy.moments = past->count > 0 ? malloc(MOST_MOMENTS * sizeof *copy.moments) : NULL;
+    for (size_t i = 0; copy.moments && i < past->count; i++) {
+        struct gm_moment *moment = &copy.moments[i];
+        *moment = past->moments[i];
+        moment->memory = malloc(moment->size);
+        if (!moment->memory) {
+            close_past(&copy);
+            return (struct gm_past){.bound = past->bound, .every = past->every};
+        }
+        memcpy(moment->memory, past->moments[i].memory, moment->size);
+        copy.count++;
+    }
+    return copy;
+}
+
+/* Bytes from a moment's start to its snapshot: the parameters, of any size (a system's texts), and the
+   padding for the snapshot's alignment. */
+static size_t snapshot_at(const struct gm_lane *lane)
+{
+    const size_t unit = _Alignof(max_align_t);
+    return (lane->scene->size + unit - 1) / unit * unit;
+}
+
+/* Writes the lane into the moment; its memory stays NULL when out of memory. */
+static void save(const struct gm_lane *lane, double gone, struct gm_moment *moment)
+{
+    size_t size = snapshot_at(lane) + gm_lane_snapshot_size(lane);
+    if (moment->size != size) { /* the size depends on the scheme */
+        free(moment->memory);
+        moment->memory = malloc(size);
+        moment->size = moment->memory ? size : 0;
+    }
+    if (!moment->memory) {
+        return;
+    }
+    memcpy(moment->memory, lane->parameters, lane->scene->size);
+    gm_lane_save(lane, (char *)moment->memory + snapshot_at(lane));
+    moment->steps = lane->run->steps;
+    moment->gone = gone;
+}
+
+/* Drops snapshots later than `steps`. */
+static void forget_after(struct gm_past *past, int64_t steps)
+{
+    while (past->count > 0 && past->moments[past->count - 1].steps > steps) {
+        free(past->moments[--past->count].memory);
+    }
+}
+
+/* Saves the lane's current state, `gone` after its start, if it is far enough from the last snapshot; with `always` in
+   any case, and instead of one at the same step. Drops snapshots of later steps: the lane has stepped back and
+   continued from there. */
+static void note_moment(struct gm_past *past, const struct gm_lane *lane, double gone, bool always)
+{
+    int64_t steps = lane->run->steps;
+    forget_after(past, steps);
+    if (past->count > 0) {
+        struct gm_moment *last = &past->moments[past->count - 1];
+        if (last->steps == steps) {
+            if (always) {
+                save(lane, gone, last);
+            }
+            if (!last->memory) {
+                past->count--;
+            }
+            return;
+        }
+        if (!always && steps - last->steps < past->every) {
+            return;
+        }
+    }
+    if (past->bound < 2) { /* an ensemble so large that its budget holds nothing worth having */
+        return;
+    }
+    if (past->count == past->bound) {
+        thin(past);
+    }
+    if (!past->moments) {
+        past->moments = malloc(MOST_MOMENTS * sizeof *past->moments);
+    }
+    struct gm_moment moment = {0};
+    if (past->moments) {
+        save(lane, gone, &moment);
+    }
+    if (moment.memory) {
+        past->moments[past->count++] = moment;
+    }
+}
+
+/* Takes the lane to the last snapshot at or before `steps`, and at or before `gone` or the first one; returns it, or
+   NULL. Later ones stay. */
+static const struct gm_moment *return_to(const struct gm_past *past, struct gm_lane *lane, int64_t steps,
+                                         double gone)
+{
+    size_t count = past->count;
+    while (count > 0 && past->moments[count - 1].steps > steps) {
+        count--;
+    }
+    while (count > 1 && past->moments[count - 1].gone > gone) {
+        count--;
+    }
+    const struct gm_moment *moment = count > 0 ? &past->moments[count - 1] : NULL;
+    if (!moment || !gm_lane_load(lane, (const char *)moment->memory + snapshot_at(lane))) {
+        return NULL;
+    }
+    memcpy(lane->parameters, moment->memory, lane->scene->size);
+    return moment;
+}
 
 /* Writes a sentence and returns false. */
 static bool short_of_memory(char *message)
@@ -148,14 +306,14 @@ static void share_budget(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         struct gm_past *past = &session->pasts[i];
         size_t size = session->scene->size + gm_lane_snapshot_size(session->lanes[i]);
-        gm_past_limit(past, PAST_BUDGET / session->count / size);
+        limit_past(past, PAST_BUDGET / session->count / size);
     }
 }
 
 /* Saves a snapshot of a lane, if one is due or with `always`. */
 static void note_lane(struct gm_session *session, size_t i, bool always)
 {
-    gm_past_note(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
+    note_moment(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
 }
 
 static void note_lanes(struct gm_session *session)
@@ -188,7 +346,7 @@ static void settle(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         int64_t steps = session->lanes[i]->run->steps;
         cut_log(session, i, steps);
-        gm_past_forget(&session->pasts[i], steps);
+        forget_after(&session->pasts[i], steps);
     }
 }
 
@@ -251,7 +409,7 @@ static void forget_wanted(struct gm_session *session, size_t i)
 /* Empties place i. */
 static void clear_lane(struct gm_session *session, size_t i)
 {
-    gm_past_close(&session->pasts[i]);
+    close_past(&session->pasts[i]);
     gm_lane_close(session->lanes[i]);
     session->lanes[i] = NULL;
     free(session->log.lanes[i].parameters);
@@ -307,7 +465,7 @@ void gm_session_close(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
         forget_wanted(session, i);
-        gm_past_close(&session->pasts[i]);
+        close_past(&session->pasts[i]);
         gm_lane_close(session->lanes[i]);
     }
     gm_request_close(&session->log);
@@ -414,7 +572,7 @@ static void look(struct gm_session *session, size_t i, const struct gm_parameter
 {
     gm_parameter_set(row, session->lanes[i]->parameters, text);
     gm_parameter_set(row, session->log.lanes[i].parameters, text);
-    gm_past_set(&session->pasts[i], row, text);
+    set_in_past(&session->pasts[i], row, text);
     forget_arguments(session);
 }
 
@@ -556,13 +714,13 @@ bool gm_session_back(struct gm_session *session, char *message)
         if (direction * lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0) {
             continue;
         }
-        const struct gm_moment *moment = gm_past_return(&session->pasts[i], lane, steps - 1, INFINITY);
+        const struct gm_moment *moment = return_to(&session->pasts[i], lane, steps - 1, INFINITY);
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
         follow(session, i, moment);
         cut_log(session, i, steps - 1);
-        gm_past_forget(&session->pasts[i], steps - 1);
+        forget_after(&session->pasts[i], steps - 1);
         replay(session, i, steps - 1);
         moved = true;
     }
@@ -602,7 +760,7 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
     }
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_moment *moment =
-            gm_past_return(&session->pasts[i], session->lanes[i], INT64_MAX, gone + 1e-9 * fabs(gone));
+            return_to(&session->pasts[i], session->lanes[i], INT64_MAX, gone + 1e-9 * fabs(gone));
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
@@ -678,7 +836,7 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
     if (!session->lanes[at]) {
         return short_of_memory(message);
     }
-    session->pasts[at] = gm_past_copy(&session->pasts[like]);
+    session->pasts[at] = copy_past(&session->pasts[like]);
     session->courses[at] = session->courses[like];
     bool ok = copy_log(session, like) || short_of_memory(message);
     count_lane(session);

@@ -19,11 +19,6 @@ struct gm_guide {
 /* Returns a guide at the start of a step of the tour. */
 struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step);
 
-/* Returns the rows below the picture for the texts, at most two fifths of the screen. */
-int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide);
-/* Writes the texts into a sheet of that many rows. */
-void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide);
-
 /* Schemes in the rows of a list: title, claims and order in columns, the formula below. */
 
 /* Returns the claims that the shot's schemes make: only those have a column. */
@@ -42,9 +37,7 @@ int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_sche
 void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_shot *shot,
                     const struct gm_scheme *scheme, enum gm_role role, bool bold);
 
-/* Return the rows of the formula with its reference, and draw them down to the sheet's end; a formula that does not
-   fit ends with an ellipsis. */
-int gm_schemes_formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme);
+/* Draws the formula with its reference down to the sheet's end; a formula that does not fit ends with an ellipsis. */
 void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme);
 
 /* The start screen: the entries found, group by group. */
