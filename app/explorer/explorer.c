@@ -28,47 +28,34 @@ enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS 
 /* the part of a core up to which frames come at full pace */
 static const double FRAMES_SHARE = 1.0 / 3;
 
-/* Starts showing what to watch in a newly opened scene, for some seconds. */
-static void begin_watch(struct gm_explorer *explorer)
-{
-    enum { WATCH_MILLISECONDS = 8000 };
-    struct gm_face *face = &explorer->face;
-    if (face->watched != explorer->open.shot->scene) {
-        face->watched = explorer->open.shot->scene;
-        face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
-    }
-}
-
-/* Requests the measurement of the scheme on a page. */
-static void ask_measure(struct gm_explorer *explorer)
-{
-    struct gm_face *face = &explorer->face;
-    if (face->page == GM_PAGE_HELP) {
-        face->explained = explorer->open.shot->lanes[explorer->open.shot->selected].scheme;
-    }
-    if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
-        gm_measure_ask(&explorer->measure, face->explained);
-        face->measured = gm_measure_text(&explorer->measure);
-    }
-}
-
 bool gm_explorer_compose(struct gm_explorer *explorer)
 {
+    enum { WATCH_MILLISECONDS = 8000 };
     struct gm_screen *screen = &explorer->screen;
+    struct gm_face *face = &explorer->face;
+    const struct gm_shot *shot = explorer->open.shot;
     if (explorer->list.shown) {
         bool looked = gm_explorer_is_looked_at(explorer);
-        gm_screen_draw_start(screen, &explorer->face, &explorer->list.start,
-                             looked ? explorer->open.shot : NULL, explorer->fresh,
+        gm_screen_draw_start(screen, face, &explorer->list.start, looked ? shot : NULL, explorer->fresh,
                              looked ? explorer->open.said : "");
-    } else if (explorer->open.shot) {
-        ask_measure(explorer);
-        begin_watch(explorer);
-        gm_screen_draw_scene(screen, &explorer->face, explorer->open.shot, explorer->fresh);
+    } else if (shot) {
+        if (face->page == GM_PAGE_HELP) {
+            face->explained = shot->lanes[shot->selected].scheme;
+        }
+        if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
+            gm_measure_ask(&explorer->measure, face->explained);
+            face->measured = gm_measure_text(&explorer->measure);
+        }
+        if (face->watched != shot->scene) { /* what to watch in a new scene is shown for some seconds */
+            face->watched = shot->scene;
+            face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
+        }
+        gm_screen_draw_scene(screen, face, shot, explorer->fresh);
     } else {
         return false;
     }
-    if (explorer->face.loss) {
-        gm_screen_ask(screen, &explorer->face);
+    if (face->loss) {
+        gm_screen_ask(screen, face);
     }
     explorer->fresh = false;
     return true;

@@ -21,19 +21,9 @@
 
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
-/* Stores a line to print in the shell. */
-static void keep_parting(struct gm_open *open, const char *line)
-{
-    char *before = open->partings, *longer = NULL;
-    if (line[0] && asprintf(&longer, "%sgeomint: %s\n", before ? before : "", line) > 0) {
-        open->partings = longer;
-        free(before);
-    }
-}
-
 void gm_open_leave(struct gm_open *open)
 {
-    char parting[GM_MESSAGE] = "";
+    char parting[GM_MESSAGE] = "", *before = open->partings, *longer = NULL;
     gm_display_finish(open->display);
     if (open->touring) {
         gm_worker_close(open->worker, parting); /* the worker must end before its tour is freed */
@@ -42,7 +32,10 @@ void gm_open_leave(struct gm_open *open)
     }
     open->worker = NULL;
     open->touring = false;
-    keep_parting(open, gm_text_tame(parting));
+    if (parting[0] && asprintf(&longer, "%sgeomint: %s\n", before ? before : "", gm_text_tame(parting)) > 0) {
+        open->partings = longer;
+        free(before);
+    }
 }
 
 /* Replaces the open scene by lanes that a new worker plays. Returns false and fills message if there is none. */

@@ -27,14 +27,6 @@ static void close_past(struct gm_past *past)
     *past = (struct gm_past){0};
 }
 
-/* Sets a parameter that is the same at all times (struct gm_parameter, looks). */
-static void set_in_past(struct gm_past *past, const struct gm_parameter *row, const char *text)
-{
-    for (size_t i = 0; i < past->count; i++) {
-        gm_parameter_set(row, past->moments[i].memory, text);
-    }
-}
-
 static void thin(struct gm_past *past)
 {
     size_t kept = 0;
@@ -47,15 +39,6 @@ static void thin(struct gm_past *past)
     }
     past->count = kept;
     past->every *= 2;
-}
-
-/* Sets the largest number of snapshots. */
-static void limit_past(struct gm_past *past, size_t bound)
-{
-    past->bound = bound < MOST_MOMENTS ? bound : MOST_MOMENTS;
-    while (past->count > past->bound && past->count > 1) {
-        thin(past);
-    }
 }
 
 /* A copy for a fork of the lane; an empty one when out of memory. */
@@ -306,7 +289,11 @@ static void share_budget(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         struct gm_past *past = &session->pasts[i];
         size_t size = session->scene->size + gm_lane_snapshot_size(session->lanes[i]);
-        limit_past(past, PAST_BUDGET / session->count / size);
+        const size_t bound = PAST_BUDGET / session->count / size;
+        past->bound = bound < MOST_MOMENTS ? bound : MOST_MOMENTS;
+        while (past->count > past->bound && past->count > 1) {
+            thin(past);
+        }
     }
 }
 
@@ -572,7 +559,9 @@ static void look(struct gm_session *session, size_t i, const struct gm_parameter
 {
     gm_parameter_set(row, session->lanes[i]->parameters, text);
     gm_parameter_set(row, session->log.lanes[i].parameters, text);
-    set_in_past(&session->pasts[i], row, text);
+    for (size_t k = 0; k < session->pasts[i].count; k++) {
+        gm_parameter_set(row, session->pasts[i].moments[k].memory, text);
+    }
     forget_arguments(session);
 }
 

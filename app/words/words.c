@@ -530,16 +530,6 @@ static void check_choices(const struct gm_words *words)
     }
 }
 
-/* Gives every scheme its own name. */
-static void name_schemes(struct gm_words *words, const struct gm_scene *scene)
-{
-    struct gm_word *word = (struct gm_word *)gm_words_find(words, "scheme");
-    for (size_t k = 0; word && k < word->piece_count; k++) {
-        word->pieces[k].text =
-            gm_arena_print(words->arena, "%s", gm_scheme_own_name(scene, word->pieces[k].text));
-    }
-}
-
 bool gm_words_chosen(const struct gm_words *words, const char *key)
 {
     const struct gm_word *word = gm_words_find(words, key);
@@ -567,7 +557,11 @@ static void read_words(struct gm_arena *arena, void *data)
             read_word(words, scene, typing->typed[i], i + 1 < typing->count ? typing->typed[i + 1] : NULL);
         }
     }
-    name_schemes(words, scene);
+    struct gm_word *names = (struct gm_word *)gm_words_find(words, "scheme");
+    for (size_t k = 0; names && k < names->piece_count; k++) {
+        const char *name = gm_scheme_own_name(scene, names->pieces[k].text);
+        names->pieces[k].text = gm_arena_print(words->arena, "%s", name);
+    }
     check_choices(words);
     prefer(words, preference ? preference->schemes : scene->schemes, typing->schemes);
     words->zip = gm_words_chosen(words, "zip");

@@ -374,17 +374,6 @@ void gm_screen_ask(struct gm_screen *screen, const struct gm_face *face)
     gm_sheet_hints(&last, 1, "q:quit|any other key:stay");
 }
 
-static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)
-{
-    screen->pixels = (struct gm_inline_place){.column = column, .row = row, .columns = columns, .rows = rows};
-    for (int i = 0; i < rows; i++) {
-        struct gm_cell *line = &screen->cells.cells[(size_t)(row + i) * (size_t)screen->cells.columns];
-        for (int k = column; k < column + columns; k++) {
-            line[k].glyph = 0;
-        }
-    }
-}
-
 void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
     const struct gm_face *face = sheet->face;
@@ -395,7 +384,12 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, c
     screen->picture_row = sheet->row;
     /* in the last row a picture of pixels could make the screen scroll */
     if (face->pixels && !face->monochrome && sheet->row + sheet->height < screen->cells.rows) {
-        leave_for_pixels(screen, sheet->column, sheet->row, sheet->width, sheet->height);
+        screen->pixels = (struct gm_inline_place){
+            .column = sheet->column, .row = sheet->row, .columns = sheet->width, .rows = sheet->height};
+        for (int i = 0; i < sheet->width * sheet->height; i++) {
+            const int row = sheet->row + i / sheet->width, column = sheet->column + i % sheet->width;
+            screen->cells.cells[row * screen->cells.columns + column].glyph = 0;
+        }
         return;
     }
     if (face->guide) {

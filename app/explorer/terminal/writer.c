@@ -57,17 +57,6 @@ static const struct gm_rgb sixteen[16] = {
     {92, 92, 255}, {255, 0, 255},   {0, 255, 255},   {255, 255, 255},
 };
 
-static int nearest_16(struct gm_rgb colour)
-{
-    int best = 0;
-    for (int i = 1; i < 16; i++) {
-        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
-            best = i;
-        }
-    }
-    return best;
-}
-
 /* the roles' strong and faded colours on white, then on black */
 static const uint8_t roles[GM_ROLE_COUNT][GM_THEME_COUNT][2] = {
     [GM_PAPER] = {{15, 15}, {0, 0}},    [GM_INK] = {{0, 8}, {15, 7}},
@@ -94,7 +83,13 @@ static int nearest_ground(enum gm_theme theme, struct gm_rgb colour)
     if (gm_rgb_distance(colour, paper) < 4000) {
         return roles[GM_PAPER][theme][0];
     }
-    return nearest_16(colour);
+    int best = 0;
+    for (int i = 1; i < 16; i++) {
+        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
+            best = i;
+        }
+    }
+    return best;
 }
 
 /* Returns true if a colour counts as ink on a monochrome terminal. */
@@ -282,16 +277,6 @@ static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
                                 a->bold == b->bold && a->role == b->role));
 }
 
-static void move_to(struct gm_writer *writer, int column, int row)
-{
-    if (writer->row == row && writer->column == column) {
-        return;
-    }
-    put_capability(writer, tiparm(writer->place, row, column));
-    writer->row = row;
-    writer->column = column;
-}
-
 static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
 {
     char bytes[GM_TEXT_BYTES];
@@ -302,15 +287,6 @@ static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int
     if (writer->column >= cells->columns) {
         writer->row = -1; /* at the right edge terminals differ in the cursor's position */
     }
-}
-
-static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
-{
-    if (writer->shown.columns != cells->columns || writer->shown.rows != cells->rows) {
-        writer->failed = !gm_cells_resize(&writer->shown, cells->columns, cells->rows) || writer->failed;
-        writer->known = false;
-    }
-    return !writer->failed;
 }
 
 enum { CHEAPER = 4 }; /* the most cells that are cheaper to rewrite than to skip */
@@ -334,8 +310,12 @@ static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     const struct gm_writer_image *image)
 {
-    if (!resize(writer, cells)) {
-        return;
+    if (writer->shown.columns != cells->columns || writer->shown.rows != cells->rows) {
+        writer->known = false;
+        if (!gm_cells_resize(&writer->shown, cells->columns, cells->rows)) {
+            writer->failed = true;
+            return;
+        }
     }
     /* Synchronised output: terminals that support it show the frame at once, others ignore it. */
     bool together = writer->colours >= GM_COLOURS_256 || image;
@@ -360,7 +340,11 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     put_cell(writer, cells, writer->column, row);
                 }
             }
-            move_to(writer, column, row);
+            if (writer->row != row || writer->column != column) {
+                put_capability(writer, tiparm(writer->place, row, column));
+                writer->row = row;
+                writer->column = column;
+            }
             put_cell(writer, cells, column, row);
         }
     }

@@ -127,14 +127,6 @@ static void put_measured(struct page *page)
     }
 }
 
-static int draw_scheme(const struct gm_sheet *sheet, int scroll)
-{
-    struct page page = {.sheet = *sheet, .scroll = scroll};
-    put_scheme(&page, sheet->face->explained, GM_INK);
-    put_measured(&page);
-    return page.row;
-}
-
 enum { TWO_COLUMNS = 110, COLUMN_GAP = 4 };
 
 static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
@@ -221,7 +213,13 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
     if (sheet->face->page == GM_PAGE_COMMAND) {
         return draw_commands(sheet, scroll, shot);
     }
-    return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
+    if (sheet->face->page == GM_PAGE_HELP) {
+        return draw_help(sheet, scroll, shot);
+    }
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put_scheme(&page, sheet->face->explained, GM_INK);
+    put_measured(&page);
+    return page.row;
 }
 
 void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, const struct gm_shot *shot)

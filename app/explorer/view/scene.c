@@ -229,14 +229,6 @@ static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide
     return row;
 }
 
-/* Returns the rows below the picture for the texts, at most two fifths of the screen. */
-static int guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide)
-{
-    const struct gm_sheet nothing = gm_sheet_part(screen, 0, 0, screen->width - 2, 0);
-    const int wanted = draw_texts(&nothing, guide), most = screen->height * 2 / 5;
-    return screen->height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
-}
-
 /* Draws the tour's keys at the right of the rule; returns their first column. */
 static int draw_guide_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
 {
@@ -372,7 +364,9 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         rows = cells->rows - 1 - asked;
     }
     if (face->guide && !asked) {
-        const int told = guide_rows(&whole, face->guide);
+        const struct gm_sheet nothing = gm_sheet_part(&whole, 0, 0, whole.width - 2, 0);
+        const int wanted = draw_texts(&nothing, face->guide), most = whole.height * 2 / 5;
+        const int told = whole.height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
         const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows - told, cells->columns, told);
         draw_guide(&panel, face->guide);
         rows -= told;

@@ -92,13 +92,6 @@ static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start
     }
 }
 
-static int wrapped_rows(const struct gm_sheet *sheet, const char *text)
-{
-    struct gm_sheet nothing = *sheet;
-    nothing.height = 0;
-    return gm_sheet_wrapped(&nothing, 0, 0, 100, text, GM_INK);
-}
-
 /* Draws a message and below it the faulty line with a caret, in unchanged columns. */
 static void draw_fault(const struct gm_sheet *sheet, int row, int rows, const char *said)
 {
@@ -126,7 +119,9 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
     if (rows >= 30) {
         row += gm_sheet_wrapped(sheet, 0, row, 4, blurb, GM_SECONDARY) + 1;
     }
-    int below = wrapped_rows(sheet, watch), picture = rows - row - below - (rows >= 30);
+    const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
+    int below = gm_sheet_wrapped(&nothing, 0, 0, 100, watch, GM_INK);
+    int picture = rows - row - below - (rows >= 30);
     if (said[0]) {
         draw_fault(sheet, row + 1, picture, said);
     } else if (shot && picture >= 4) {

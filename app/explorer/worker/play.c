@@ -152,21 +152,10 @@ static bool step_ahead(struct gm_play *play)
     return worked;
 }
 
-/* Pauses at the start time, so that the returned states can be seen. */
-static void stop_at_home(struct gm_play *play)
-{
-    const struct gm_lane *lane = play->session.lanes[0];
-    if (play->homewards && gm_play_left_until(play, lane->t0) < 1e-6 * fabs(lane->run->dt)) {
-        play->homewards = false;
-        play->paused = true;
-        gm_play_say(play,
-                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
-    }
-}
-
 static bool step_along(struct gm_play *play)
 {
     const double begun = gm_clock_seconds(), from = gm_session_time(&play->session);
+    const struct gm_lane *first = play->session.lanes[0];
     /* at most one second's worth of steps, so that orders are heard */
     const double a_second = from + gm_session_direction(&play->session) * play->rate;
     const double due =
@@ -179,8 +168,11 @@ static bool step_along(struct gm_play *play)
         const double covered = fabs(gm_session_time(&play->session) - from);
         play->rate = covered > 0 ? covered / fmax(gm_clock_seconds() - begun, 1e-9) : play->rate;
         play->changed = true;
-    } else {
-        stop_at_home(play);
+    } else if (play->homewards && gm_play_left_until(play, first->t0) < 1e-6 * fabs(first->run->dt)) {
+        play->homewards = false;
+        play->paused = true; /* so that the returned states can be seen */
+        gm_play_say(play,
+                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
     }
     double next = gm_session_next(&play->session);
     if (!play->paused && isfinite(next)) {
