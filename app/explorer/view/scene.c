@@ -356,13 +356,8 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, shot);
         return;
     }
-    const int asked = gm_typed_prompt_rows(face->typed_prompt, cells->columns, cells->rows);
-    if (asked) {
-        const struct gm_sheet panel =
-            gm_sheet_part(&whole, 0, cells->rows - 1 - asked, cells->columns, asked);
-        gm_typed_prompt_draw(&panel, face->typed_prompt);
-        rows = cells->rows - 1 - asked;
-    }
+    const int asked = gm_typed_prompt_draw(&whole, face->typed_prompt);
+    rows = asked ? cells->rows - asked : rows;
     if (face->guide && !asked) {
         const struct gm_sheet nothing = gm_sheet_part(&whole, 0, 0, whole.width - 2, 0);
         const int wanted = draw_texts(&nothing, face->guide), most = whole.height * 2 / 5;
@@ -394,10 +389,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
             gm_side_draw(&body, shot);
         }
     }
-    if (asked) {
-        const struct gm_sheet last = gm_sheet_part(&whole, 0, cells->rows - 1, cells->columns, 1);
-        gm_typed_prompt_keys(&last, face->typed_prompt);
-    } else if (below > 0) {
+    if (!asked && below > 0) {
         draw_status(&whole, shot, side);
     }
 }

@@ -196,8 +196,6 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    const int asked = gm_typed_prompt_rows(face->typed_prompt, whole.width, whole.height);
-    const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked + 1 : below);
     int at = 0;
     if (fresh) {
         screen->picture.fresh = false;
@@ -206,6 +204,8 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, NULL);
         return;
     }
+    const int asked = gm_typed_prompt_draw(&whole, face->typed_prompt);
+    const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked : below);
     if (rows > 6) {
         gm_sheet_text(&whole, 1, 0, "geomint", GM_INK, true);
         gm_sheet_text(&whole, 10, 0, "what a geometric integrator conserves, and an ordinary one loses",
@@ -228,13 +228,10 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
             draw_look(screen, &right, chosen, shot, said);
         }
     }
-    const struct gm_sheet last =
-        asked ? gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1) : gm_screen_foot(&whole);
-    if (asked) {
-        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked);
-        gm_typed_prompt_draw(&panel, face->typed_prompt);
-        gm_typed_prompt_keys(&last, face->typed_prompt);
-    } else if (below > 0) {
-        draw_keys(&last, start);
+    if (!asked) {
+        const struct gm_sheet last = gm_screen_foot(&whole);
+        if (below > 0) {
+            draw_keys(&last, start);
+        }
     }
 }

@@ -52,11 +52,11 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
     void *owner =
         calloc(1, scene->size > sizeof(struct gm_settings) ? scene->size : sizeof(struct gm_settings));
     bool standard = true;
-    if (owner && gm_parameter_set(parameter->row, owner, parameter->value) == GM_PARSED) {
-        const double present = gm_parameter_get(parameter->row, owner);
+    if (owner) {
+        char usual[GM_TEXT_SIZE];
         gm_parameter_set(parameter->row, owner, parameter->row->standard);
-        const double usual = gm_parameter_get(parameter->row, owner);
-        standard = present == usual || (isnan(present) && isnan(usual));
+        gm_parameter_format(parameter->row, owner, usual, sizeof usual);
+        standard = strcmp(parameter->value, usual) == 0;
     }
     free(owner);
     return standard;

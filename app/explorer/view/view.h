@@ -146,12 +146,9 @@ struct gm_typed_prompt {
     char *last[GM_TYPED_KINDS]; /* the last line of each kind; NULL: never typed */
 };
 
-/* Returns the prompt's rows on a screen of this size, in cells; 0: it is closed. */
-int gm_typed_prompt_rows(const struct gm_typed_prompt *prompt, int columns, int rows);
-/* Draws the prompt into a sheet of that many rows. */
-void gm_typed_prompt_draw(const struct gm_sheet *sheet, const struct gm_typed_prompt *prompt);
-/* Draws the prompt's keys, in the last row. */
-void gm_typed_prompt_keys(const struct gm_sheet *last, const struct gm_typed_prompt *prompt);
+/* Draws the prompt over the last rows of the screen, with its keys; returns the number of these rows, 0 if it is
+   closed (or NULL). */
+int gm_typed_prompt_draw(const struct gm_sheet *whole, const struct gm_typed_prompt *prompt);
 
 /* The parts of the screen, and their keys. */
 

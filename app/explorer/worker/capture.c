@@ -248,14 +248,9 @@ static void put_end(FILE *stream, const struct gm_session *session)
 
 static void put_changes(FILE *stream, const struct gm_request *log)
 {
-    char *list = NULL;
-    size_t size = 0;
-    FILE *changes = log->change_count > 0 ? open_memstream(&list, &size) : NULL;
-    for (size_t i = 0; changes && i < log->change_count; i++) {
-        const struct gm_change *change = &log->changes[i];
-        fprintf(changes, "%s%zu:%" PRId64 ":%s", i == 0 ? "" : ",", change->lane, change->step, change->text);
-    }
-    if (changes && fclose(changes) == 0) {
+    char *list = log->change_count > 0 ? gm_changes_format(log, ':', ',') : NULL;
+    if (list) {
+        list[strlen(list) - 1] = '\0';
         fputs(" --changes ", stream);
         gm_arguments_put_shell(stream, list);
     }
