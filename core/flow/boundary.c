@@ -4,7 +4,6 @@
 #include "core/flow/boundary.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The construction of a boundary. */
@@ -82,10 +81,6 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
     struct gm_flow *flow = maker->flow;
     const struct gm_complex *complex = flow->complex;
     size_t inlets = 0, outlets = 0;
-    flow->opening = calloc(complex->boundary + 1, sizeof *flow->opening);
-    if (!flow->opening) {
-        return GM_BOUNDARY_MEMORY;
-    }
     for (size_t e = 0; e < complex->boundary; e++) {
         const unsigned char side = maker->side_of[e];
         const bool begins = maker->side_of[gm_complex_previous(complex, e)] != side;
@@ -292,25 +287,12 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
 }
 
 /* Lists the points where tracers return: all inlets as one line, along which psi is continuous. */
-static bool list_inflow(struct gm_flow *flow)
+static void list_inflow(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
     struct gm_inflow *inflow = &flow->inflow;
-    size_t count = 0;
-    free(inflow->point);
-    free(inflow->psi);
-    free(inflow->triangle);
-    *inflow = (struct gm_inflow){0};
+    inflow->count = 0;
     flow->inlet_length = 0;
-    for (size_t i = 0; i < flow->openings; i++) {
-        count += flow->opening[i].inlet ? flow->opening[i].count + 1 : 0;
-    }
-    inflow->point = malloc(2 * (count + 1) * sizeof *inflow->point);
-    inflow->psi = malloc((count + 1) * sizeof *inflow->psi);
-    inflow->triangle = malloc((count + 1) * sizeof *inflow->triangle);
-    if (!inflow->point || !inflow->psi || !inflow->triangle) {
-        return false;
-    }
     for (size_t i = 0; i < flow->openings; i++) {
         const struct gm_opening *opening = &flow->opening[i];
         size_t e = opening->first;
@@ -326,7 +308,6 @@ static bool list_inflow(struct gm_flow *flow)
         }
         flow->inlet_length += opening->inlet ? opening->length : 0;
     }
-    return true;
 }
 
 static void number_holes(struct gm_flow *flow)
@@ -422,13 +403,9 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
 {
     const struct gm_complex *complex = flow->complex;
     const struct maker maker = {flow, side_of, sides, outlet};
-    free(flow->opening);
-    flow->opening = NULL;
     flow->openings = flow->holes = 0;
     memset(flow->sheet, 0, complex->vertices * sizeof *flow->sheet);
-    if (flow->heat) {
-        memset(flow->heating, 0, complex->vertices * sizeof *flow->heating);
-    }
+    memset(flow->heating, 0, complex->vertices * sizeof *flow->heating);
     number_holes(flow);
     enum gm_boundary_fault fault = find_openings(&maker);
     if (fault != GM_BOUNDARY_OK) {
@@ -463,7 +440,8 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
             flow->psi[complex->boundary_vertex[e]] = level;
         }
     }
-    return list_inflow(flow) ? GM_BOUNDARY_OK : GM_BOUNDARY_MEMORY;
+    list_inflow(flow);
+    return GM_BOUNDARY_OK;
 }
 
 enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,

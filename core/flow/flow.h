@@ -54,6 +54,7 @@ struct gm_opening {
 enum gm_opening_kind { GM_OPEN_NOT, GM_OPEN_INLET, GM_OPEN_OUTLET };
 
 struct gm_flow {
+    struct gm_arena *arena; /* holds the flow, its complex and arrays */
     struct gm_complex *complex;
     double viscosity, diffusivity;
     double time_unit;    /* time unit of a run, in the flow's own time */
@@ -75,9 +76,9 @@ struct gm_flow {
                                                none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
     double buoyancy, reference_temperature; /* g beta; T without buoyancy */
-    /* The arrays of temperature, like those of theta; NULL without heat. holder: 1 + the side that holds
-       or heats a vertex, 0: none; heating: the heat from walls to the cells at them, per unit of time,
-       over density and heat capacity. */
+    /* The arrays of temperature, like those of theta; holder: 1 + the side that holds or heats a vertex,
+       0: none; heating: the heat from walls to the cells at them, per unit of time, over density and heat
+       capacity. */
     bool *temperature_fixed;
     double *temperature;
     unsigned char *temperature_holder;
@@ -140,13 +141,11 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
    memory. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
-/* The flow with a boundary of its own, for `give`; the complex and sources still belong to `flow`. Returns
-   NULL when out of memory. */
+/* The flow with a boundary of its own, for `give`, in an arena of its own; the complex and sources still
+   belong to `flow`. Returns NULL when out of memory. */
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
-void gm_flow_close_now(struct gm_flow *now);
-/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. Returns false when out of
-   memory. */
-bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
+/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. */
+void gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
 /* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);

@@ -9,14 +9,15 @@
 /* The workspace of steps: index sets, matrices, factors, scratch, all derived from the flow and the time
    step. */
 struct gm_flow_solver {
+    struct gm_arena *arena;     /* holds the solver and all but the factors */
     const struct gm_flow *flow; /* `now` if its boundary changes in time */
     struct gm_flow *now;        /* flow at the time of gm_flow_solver_give; NULL: constant */
     struct gm_unknowns unknowns;
     bool vorticity_form;
-    size_t soft; /* vertices whose omega is an unknown of its own */
-    int *soft_vertex;
-    size_t warm; /* vertices whose temperature is an unknown, of steady states */
-    int *warm_vertex;
+    size_t soft;                   /* vertices whose omega is an unknown of its own */
+    int *soft_vertex, *soft_index; /* these, and the column of a vertex; -1: it has none */
+    size_t warm;                   /* vertices whose temperature is an unknown, of steady states */
+    int *warm_vertex, *warm_index;
     bool *held; /* vertices whose omega has no equation of its own */
     struct gm_cholesky *poisson;
     double energy_limit;     /* largest energy that these boundaries can drive; set with the factors */
@@ -26,7 +27,6 @@ struct gm_flow_solver {
     struct gm_transport transport, heat; /* heat: of temperature in steady states */
     struct gm_transport convection;      /* the preconditioner's part of transport, as a matrix */
     struct gm_transport carried;         /* transport of the scalar, concurrent with the flow's step */
-    double *numbers;                     /* the memory of all arrays below */
     double *flux, *centre;               /* edges, triangles */
     double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
     double *carried_rate;                /* vertices */

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_FLOW_TRANSPORT_H
 #define GM_CORE_FLOW_TRANSPORT_H
 
+#include "core/arena.h"
 #include "core/flow/flow.h"
 
 /* The matrix
@@ -20,8 +21,8 @@ enum gm_backflow {
     GM_BACKFLOW_OWN,  /* q: it brings the boundary's own value */
 };
 
-bool gm_transport_open(struct gm_transport *transport, const struct gm_complex *complex);
-void gm_transport_close(struct gm_transport *transport);
+/* A matrix that is not assembled yet, in a body of the arena. */
+struct gm_transport gm_transport_of(struct gm_arena *arena, const struct gm_complex *complex);
 
 void gm_transport_assemble(struct gm_transport *transport, const double *flux, double shift, double share,
                            double diffusion, enum gm_backflow backflow);

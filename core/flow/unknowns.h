@@ -2,6 +2,7 @@
 #ifndef GM_CORE_FLOW_UNKNOWNS_H
 #define GM_CORE_FLOW_UNKNOWNS_H
 
+#include "core/arena.h"
 #include "core/flow/flow.h"
 #include "core/linear/cholesky.h"
 
@@ -16,21 +17,16 @@ struct gm_unknowns {
     bool closed;
 };
 
-bool gm_unknowns_open(struct gm_unknowns *unknowns, const struct gm_flow *flow);
-void gm_unknowns_close(struct gm_unknowns *unknowns);
+/* The unknowns of a flow, in a body of the arena. */
+struct gm_unknowns gm_unknowns_of(struct gm_arena *arena, const struct gm_flow *flow);
 
 /* into[i] = the sum of values over the vertices of unknown i: E' values */
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into);
 
-/* The factor of K between unknowns, E' K E. Returns NULL when out of memory, or if it is not positive
-   definite. */
-struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns,
-                                               const struct gm_flow *flow);
-
-/* The factor of shift K + viscosity K W K between unknowns, the same way, W = 1 / star0 where omega is by the
-   formula. */
-struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                                              double shift, double viscosity);
+/* The factor of shift K between unknowns, E' K E; of a rough one shift K + viscosity K W K, W = 1 / star0
+   where omega is by the formula. Returns NULL when out of memory, or if it is not positive definite. */
+struct gm_cholesky *gm_unknowns_factor(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                                       enum gm_cholesky_precision precision, double shift, double viscosity);
 
 /* Solves E' K psi = E' right (NULL: 0) for the unknown values of psi, the others being given in psi. b, x:
    scratch, a number for each unknown. On a closed surface sum star0 psi = 0 afterwards. */

@@ -208,25 +208,6 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, c
     return true;
 }
 
-bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
-{
-    static const char *const sentences[] = {
-        [GM_BOUNDARY_MEMORY] = "not enough memory",
-        [GM_BOUNDARY_NO_INLET] = "the mesh has an outlet but no inlet",
-        [GM_BOUNDARY_NO_OUTLET] = "the mesh has an inlet but no outlet",
-        [GM_BOUNDARY_SHORT] =
-            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)",
-        [GM_BOUNDARY_WHOLE] = "the whole boundary is inlet or outlet",
-        [GM_BOUNDARY_IN_HOLE] =
-            "an inlet or an outlet is on the wall of a hole; they must be in the outer wall",
-        [GM_BOUNDARY_UNBALANCED] = "all flows are given, and what enters does not leave",
-        [GM_BOUNDARY_PROFILE] = "no more enters by the profile of an inlet than leaves by it",
-        [GM_BOUNDARY_BACKWARDS] = "the outlets with a given flow take more than enters",
-        [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
-    };
-    return fault == GM_BOUNDARY_OK || gm_refuse(sentence, "%s", sentences[fault]);
-}
-
 const char *gm_flows_idle(const void *parameters, const char *key)
 {
     static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {

@@ -64,9 +64,6 @@ extern const char *const gm_flows_outlets[];
 /* Reads "soft", "dirichlet", "free", or GROUP, or GROUP:free and so on; *group: "outlet" unless named. */
 bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, char *sentence);
 
-/* Writes why a boundary determines no flow; returns true for GM_BOUNDARY_OK. */
-bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence);
-
 /* Returns why a parameter has no effect, with a mesh file or without; NULL if it has one. */
 const char *gm_flows_idle(const void *parameters, const char *key);
 

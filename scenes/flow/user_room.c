@@ -140,23 +140,19 @@ static double observe_local(const struct gm_view *view)
     }
 }
 
-/* Writes a fault of the room with its line, or of the whole boundary without a line; nothing without a
-   fault. */
-static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault,
-                 enum gm_boundary_fault boundary, char *sentence)
+/* Writes a fault of the room with its line, if it has one; nothing without a fault. */
+static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault, char *sentence)
 {
     size_t line = 0, column = 0;
-    char whole[GM_MESSAGE] = "";
-    if (!fault->sentence[0] && gm_flows_boundary(boundary, whole)) {
+    if (!fault->sentence[0]) {
         return;
     }
-    if ((whole[0] && fault->offset == 0) || user_room->file.built_in) {
-        gm_refuse(sentence, "%s", whole[0] ? whole : fault->sentence);
+    if (fault->offset == GM_ROOM_NOWHERE || user_room->file.built_in) {
+        gm_refuse(sentence, "%s", fault->sentence);
         return;
     }
     gm_text_place(user_room->file.text, fault->offset, &line, &column);
-    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column,
-              whole[0] ? whole : fault->sentence);
+    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column, fault->sentence);
 }
 
 /* Returns true if the mesh is the room's rectangle, with no file named instead. */
@@ -168,11 +164,9 @@ static bool has_rectangle(const struct gm_flows *chosen)
 /* Closes a problem, also one without a flow. */
 static void close_problem(struct gm_problem *problem)
 {
-    struct gm_flow *flow = (struct gm_flow *)(uintptr_t)gm_flow_of(problem);
-    struct gm_room *room = flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL;
-    gm_flow_close(flow);
+    const struct gm_flow *flow = gm_flow_of(problem);
     problem->parameters = NULL;
-    gm_room_close(room);
+    gm_room_close(flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL);
 }
 
 /* Returns the room with a lane's parameters; `outlet` names its group; the caller closes it. NULL with a
@@ -238,7 +232,6 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
 {
     struct gm_triangulation mesh;
     struct gm_fault fault;
-    enum gm_boundary_fault boundary;
     const long edges = room->rectangle.edges, multiple = room->multiple;
     room->from_file = room->rectangular && !has_rectangle(chosen);
     if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
@@ -251,11 +244,11 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     if (!read_mesh(user_room, room, chosen, &mesh, sentence)) {
         return NULL;
     }
-    struct gm_flow *flow = gm_room_flow(room, &mesh, &fault, &boundary);
+    struct gm_flow *flow = gm_room_flow(room, &mesh, &fault);
     gm_triangulation_close(&mesh);
     if (!flow) {
         gm_refuse(sentence, "not enough memory");
-        tell(user_room, &fault, boundary, sentence);
+        tell(user_room, &fault, sentence);
         return NULL;
     }
     struct gm_span rest, unit;
@@ -263,8 +256,7 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
         rest.begin < rest.end &&
         (!gm_room_number(room, unit, &flow->time_unit, &fault) ||
          (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number")))) {
-        gm_flow_close(flow);
-        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        tell(user_room, &fault, sentence);
         return NULL;
     }
     room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
@@ -297,7 +289,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     struct gm_room *room = room_for(user_room, parameters, group, &fault);
     if (!room) {
         gm_refuse(sentence, "not enough memory");
-        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        tell(user_room, &fault, sentence);
         return false;
     }
     room->outlet = outlet;
@@ -359,7 +351,7 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
     }
     good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
     if (!good) { /* when out of memory, the lane's sentence stays */
-        tell(gm_user_room_of(parameters), &fault, GM_BOUNDARY_OK, sentence);
+        tell(gm_user_room_of(parameters), &fault, sentence);
     }
     free(omega);
     return good;
@@ -389,10 +381,9 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     }
     for (int half = 1; half <= 2 && !sentence[0] && view->run; half++) {
         struct gm_fault fault;
-        enum gm_boundary_fault boundary;
         gm_room_fault(gm_room_of(view->problem), gm_flow_of(view->problem),
-                      view->t + view->run->dt * half / 2, &fault, &boundary);
-        tell(user_room, &fault, boundary, sentence);
+                      view->t + view->run->dt * half / 2, &fault);
+        tell(user_room, &fault, sentence);
     }
     snprintf(text, size, "%s", sentence);
 }
