@@ -1352,7 +1352,8 @@ const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_co
         if (met != hole) {
             continue;
         }
-        const int group = mesh->edge_group[complex->boundary_edge[complex->loop_start[loop]]];
+        const int group =
+            gm_triangulation_first(mesh, (size_t)complex->boundary_edge[complex->loop_start[loop]]);
         for (size_t i = 0; i < mesh->groups; i++) {
             if (group != 0 && mesh->group[i].tag == group && mesh->group[i].name[0]) {
                 snprintf(name, size, "%s", mesh->group[i].name);

@@ -6,7 +6,7 @@
 #include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 
 #include <stdint.h>
 

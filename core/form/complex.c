@@ -101,6 +101,31 @@ void gm_complex_middle(const struct gm_complex *complex, size_t edge, double mid
     }
 }
 
+int gm_complex_edge(const struct gm_complex *complex, int a, int b)
+{
+    for (int k = complex->ring_start[a]; k < complex->ring_start[a + 1]; k++) {
+        if (complex->ring_vertex[k] == b) {
+            return complex->ring_edge[k];
+        }
+    }
+    return -1;
+}
+
+void gm_complex_quarter(const struct gm_complex *complex, double *points, int *corners)
+{
+    const size_t n = complex->vertices;
+    memcpy(points, complex->point, 2 * n * sizeof *points);
+    for (size_t e = 0; e < complex->edges; e++) {
+        gm_complex_middle(complex, e, points + 2 * (n + e));
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        const int *v = complex->triangle + 3 * t, *e = complex->triangle_edge + 3 * t;
+        const int m[3] = {(int)n + e[0], (int)n + e[1], (int)n + e[2]};
+        const int four[12] = {v[0], m[0], m[2], m[0], v[1], m[1], m[2], m[1], v[2], m[0], m[1], m[2]};
+        memcpy(corners + 12 * t, four, sizeof four);
+    }
+}
+
 static void flip(int *corner)
 {
     const int swap = corner[1];

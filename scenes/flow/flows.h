@@ -6,7 +6,7 @@
 #include "core/flow/flow.h"
 #include "core/flow/gmsh.h"
 #include "core/flow/start.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 #include "scenes/common/lane.h"
 
 /* The common part of all scenes of flows on complexes: room, and scenes from files. All solve, in the plane,

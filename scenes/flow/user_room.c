@@ -646,7 +646,10 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
     if (complex) {
         sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
         sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
-        sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int group = gm_triangulation_first(mesh, e);
+            sum = checksum(sum, &group, sizeof group);
+        }
     }
     return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
 }

@@ -16,7 +16,7 @@
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 #include "core/flow/start.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"

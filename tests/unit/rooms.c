@@ -16,7 +16,7 @@
 #include "core/flow/boundary.h"
 #include "core/flow/start.h"
 #include "core/flow/tracers.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"
@@ -342,7 +342,7 @@ static struct gm_flow *open_room(double window)
     unsigned char *side_of = calloc(mesh.complex->boundary, 1);
     assert_true(flow && side_of);
     for (size_t b = 0; b < mesh.complex->boundary; b++) {
-        side_of[b] = (unsigned char)mesh.edge_group[mesh.complex->boundary_edge[b]];
+        side_of[b] = (unsigned char)gm_triangulation_first(&mesh, (size_t)mesh.complex->boundary_edge[b]);
     }
     const struct gm_side sides[6] = {
         {.kind = GM_EDGE_WALL, .theta_free = true},
