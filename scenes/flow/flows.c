@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flows from parameters: meshes are made or read, boundaries named, faults explained in a sentence. */
-#include "scenes/flow/flows.h"
+/* The meshes of rooms from parameters: they are made or read, and faults explained in a sentence. */
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -10,10 +10,6 @@
 
 #include "core/files/files.h"
 #include "render/files/regular_file.h"
-
-#define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
-const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[] = {SHOWS, "temperature",
-                                                                                    NULL};
 
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
@@ -82,7 +78,8 @@ static void explain(const char *name, const struct gm_triangulation_fault *fault
               things[wrong[fault->kind].thing], wrong[fault->kind].after);
 }
 
-struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
+/* Returns the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence on failure. */
+static struct gm_complex *lay_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     enum { MOST = 10000000 };
     const long best =
@@ -113,8 +110,9 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
     return complex;
 }
 
-bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
-                   struct gm_triangulation *mesh, char *sentence)
+/* Reads the mesh of a file, or a built-in one if `inside` is not NULL. */
+static bool read_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                      struct gm_triangulation *mesh, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
     size_t size = 0;
@@ -133,91 +131,51 @@ bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_s
     return good;
 }
 
-bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
-                     char *sentence)
+/* Cuts each edge of the mesh of a file into `parts`, a power of two. */
+static bool refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                   char *sentence)
 {
     enum { MOST_TRIANGLES = 5000000 };
     struct gm_triangulation_fault fault;
-    bool good = true;
     if ((parts & (parts - 1)) != 0) {
-        good = gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
-    } else if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
-        good = gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
+        return gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
+    }
+    if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
+        return gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
                          MOST_TRIANGLES, mesh->complex->triangles, path);
     }
-    for (; good && parts > 1; parts /= 2) {
-        good = gm_triangulation_halve(mesh, star, &fault);
-        if (!good) {
+    for (; parts > 1; parts /= 2) {
+        if (!gm_triangulation_halve(mesh, star, &fault)) {
             explain(path, &fault, sentence);
+            return false;
         }
     }
+    return true;
+}
+
+bool gm_flows_has_rectangle(const struct gm_flows *flows)
+{
+    return flows->room->room.rectangular && strcmp(flows->mesh, "none") == 0;
+}
+
+bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
+                   char *sentence)
+{
+    const struct gm_user_room *user_room = flows->room;
+    const enum gm_star star = (enum gm_star)flows->star;
+    *mesh = (struct gm_triangulation){0};
+    if (room && gm_flows_has_rectangle(flows)) {
+        struct gm_rectangle rectangle = room->rectangle;
+        mesh->complex = lay_rectangle(&rectangle, sentence);
+        return mesh->complex != NULL;
+    }
+    const char *path = user_room->room.rectangular ? flows->mesh : user_room->mesh;
+    if (!read_file(path, user_room->inside, star, mesh, sentence)) {
+        return false;
+    }
+    const bool good = !room || flows->refine < 2 || refine(path, star, flows->refine, mesh, sentence);
     if (!good) {
         gm_triangulation_close(mesh);
     }
     return good;
-}
-
-void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
-{
-    struct gm_flows *flows = parameters;
-    const bool square = strcmp(flows->mesh, "none") == 0;
-    flows->star = square ? flows->star : (int)gm_flow_of(problem)->complex->star;
-}
-
-void gm_flows_note(const struct gm_problem *problem, const void *parameters, char *sentence)
-{
-    (void)parameters;
-    const struct gm_complex_origin *origin = &gm_flow_of(problem)->complex->origin;
-    const double *x = origin->axes[0], *y = origin->axes[1];
-    size_t used = 0;
-    for (int k = 0; k < 3 && used == 0; k++) {
-        if (x[k] != 0) {
-            used = (size_t)snprintf(
-                sentence, GM_MESSAGE,
-                "the mesh lies in a plane of its own: x is its direction (%.3g, %.3g, %.3g), y is (%.3g, %.3g, %.3g)",
-                x[0] + 0., x[1] + 0., x[2] + 0., y[0] + 0., y[1] + 0., y[2] + 0.);
-        }
-    }
-    if (origin->repeated > 0) {
-        snprintf(sentence + used, GM_MESSAGE - used, "%striangles that the mesh has twice count once: %zu",
-                 used > 0 ? "; " : "", origin->repeated);
-    }
-}
-
-const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
-
-bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, char *sentence)
-{
-    static const enum gm_vertex_kind kinds[] = {GM_VERTEX_SOFT, GM_VERTEX_FIXED, GM_VERTEX_OPEN};
-    const char *colon = strrchr(text, ':'), *name = colon ? colon + 1 : text;
-    snprintf(group, GM_TEXT_SIZE, "%s", "outlet");
-    for (size_t i = 0; gm_flows_outlets[i]; i++) {
-        if (strcmp(name, gm_flows_outlets[i]) == 0) {
-            *kind = kinds[i];
-            if (colon) {
-                snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon - text), text);
-            }
-            return true;
-        }
-    }
-    if (colon) {
-        return gm_refuse(sentence, "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free",
-                         text);
-    }
-    snprintf(group, GM_TEXT_SIZE, "%s", text);
-    return true;
-}
-
-const char *gm_flows_idle(const void *parameters, const char *key)
-{
-    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {
-                                                                                  "inlet", "lid", "star",
-                                                                                  "refine", NULL};
-    const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
-    for (const char *const *name = from_file ? made : named; *name; name++) {
-        if (strcmp(key, *name) == 0) {
-            return from_file ? "the mesh comes from a file" : "it is for a mesh=FILE";
-        }
-    }
-    return NULL;
 }

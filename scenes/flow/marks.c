@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
-#include "scenes/flow/marks.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -201,8 +201,8 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
                  false);
 }
 
-size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening,
-                               double outward[2])
+void gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening, double outward[2],
+                             double middle[2])
 {
     const struct gm_complex *complex = flow->complex;
     size_t e = opening->first;
@@ -214,7 +214,8 @@ size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_openi
                  *b = complex->point + 2 * complex->boundary_vertex[e];
     outward[0] = b[1] - a[1];
     outward[1] = a[0] - b[0];
-    return e;
+    middle[0] = (a[0] + b[0]) / 2;
+    middle[1] = (a[1] + b[1]) / 2;
 }
 
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
@@ -223,22 +224,18 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
     const struct gm_style style = {.role = GM_INK, .alpha = 1, .width = 1};
     for (size_t i = 0; i < flow->openings; i++) {
         const struct gm_opening *opening = &flow->opening[i];
-        const struct gm_complex *complex = flow->complex;
-        double outward[2];
-        const size_t e = gm_flow_opening_outward(flow, opening, outward);
-        const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
-                     *b = complex->point + 2 * complex->boundary_vertex[e];
+        double outward[2], middle[2];
+        gm_flow_opening_outward(flow, opening, outward, middle);
         const double x = outward[0], z = outward[1];
         const bool upright = fabs(x) >= fabs(z);
         const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
-        struct gm_mark *name =
-            gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
-                         upright && x < 0 ? GM_ANCHOR_RIGHT
-                         : upright        ? GM_ANCHOR_LEFT
-                                          : GM_ANCHOR_CENTRE,
-                         names            ? names[opening->side]
-                         : opening->inlet ? "inlet"
-                                          : "outlet");
+        struct gm_mark *name = gm_mark_text(picture, panel, style, middle[0] + away * x, middle[1] + away * z,
+                                            upright && x < 0 ? GM_ANCHOR_RIGHT
+                                            : upright        ? GM_ANCHOR_LEFT
+                                                             : GM_ANCHOR_CENTRE,
+                                            names            ? names[opening->side]
+                                            : opening->inlet ? "inlet"
+                                                             : "outlet");
         if (name) {
             name->fixed = true; /* a name without space outside must not cover the field */
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
    scene's arena; its body calls this. */
-#include "scenes/flow/room_lines.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +10,6 @@
 #include "core/flow/flow.h"
 #include "core/model/scope.h"
 #include "core/schemes.h"
-#include "scenes/flow/observables.h"
-#include "scenes/flow/profiles.h"
 
 /* Returns the text of the only line that begins so; NULL without such a line. */
 static const char *said(struct gm_user_room *user_room, const char *word)
@@ -117,6 +115,9 @@ static const char *observable_key(struct gm_user_room *user_room, struct gm_span
     return key;
 }
 
+#define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
+static const char *const shows[] = {SHOWS, NULL}, *const warm_shows[] = {SHOWS, "temperature", NULL};
+
 /* The rows that a file may name; others are its own numbers. */
 static const struct gm_parameter known[] = {
     GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1", 0.01, 1e5, "Reynolds number",
@@ -145,8 +146,7 @@ static const struct gm_parameter known[] = {
                    "particles that the flow carries along", .logarithmic = true),
     GM_BOOLEAN_ROW(struct gm_flows, smoke, "smoke", "no",
                    "tracers come in at inlets and sources, and do not fill the room at the start"),
-    GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", gm_flows_shows, "what the picture shows",
-                  .live = true),
+    GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", shows, "what the picture shows", .live = true),
     GM_BOOLEAN_ROW(struct gm_flows, streamlines, "streamlines", "yes",
                    "streamlines, as level lines of the stream function", .live = true),
     GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),
@@ -257,7 +257,7 @@ static void make_rows(struct gm_user_room *user_room)
         if (!gm_room_parameter(room, known[i].key) && !(of_file && room->rectangular)) {
             struct gm_parameter *row = add_row(user_room, &known[i]);
             if (!isnan(room->buoyancy) && strcmp(row->key, "show") == 0) {
-                row->choices = gm_flows_warm_shows;
+                row->choices = warm_shows;
                 row->standard = "temperature";
             }
         }
@@ -288,7 +288,7 @@ static void observe(struct gm_user_room *user_room, struct gm_span rest)
     const struct gm_observable *row = gm_room_observable(key, along);
     size_t profile = 0, i = 0;
     while (along && profile < user_room->profile_count &&
-           strcmp(user_room->profiles[profile].line.name, along) != 0) {
+           strcmp(user_room->profiles[profile].name, along) != 0) {
         profile++;
     }
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, key) != 0) {
@@ -317,7 +317,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
     const struct gm_span line = rest;
     gm_span_take(user_room->room.text, &rest, ";", &head);
     const char *const *words = list_words(user_room, gm_room_keep(&user_room->room, head));
-    *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
+    *profile = (struct gm_room_profile){.name = words ? words[0] : "", .range = {NAN, NAN}};
     char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
     profile->quantities = quantities;
     for (size_t i = 1; words && words[i]; i++) {
@@ -326,7 +326,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
         }
         quantities[i - 1] = words[i][0];
     }
-    double *const ends[2] = {profile->line.a, profile->line.b};
+    double *const ends[2] = {profile->a, profile->b};
     for (int end = 0; end < 2; end++) {
         size_t count;
         gm_span_take(user_room->room.text, &rest, ";", &piece);
@@ -338,7 +338,7 @@ static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
         memcpy(ends[end], place, 2 * sizeof *place);
     }
     gm_span_take(user_room->room.text, &rest, ";", &piece);
-    profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
+    profile->count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
     const struct gm_room *room = &user_room->room;
     if (gm_span_take(room->text, &rest, ";", &piece)) {
         gm_room_need(room, gm_room_range_of(room, piece, &profile->range, room->fault));
@@ -359,7 +359,7 @@ static void add_table(struct gm_user_room *user_room, struct gm_span rest)
     *table = (struct gm_room_table){.name = words ? words[0] : "",
                                     .row = gm_scene_parameter(&user_room->scene, key)};
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        if (words && words[1] && strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
+        if (words && words[1] && strcmp(user_room->profiles[i].name, words[1]) == 0) {
             table->profile = &user_room->profiles[i];
         }
     }
@@ -391,6 +391,11 @@ static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct 
     *nonzero = colon < close;
     rest->begin = close < rest->end ? close + 1 : close;
     return open < close;
+}
+
+const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
 }
 
 /* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
@@ -473,15 +478,8 @@ static bool take_graph(const struct gm_room *room, size_t number, struct gm_span
 void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
                        struct gm_picture *picture, struct gm_look *look)
 {
-    static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
-                                                  {"theta_error", "θ"},
-                                                  {"flux_error", "flux"},
-                                                  {"velocity_error", "velocity"},
-                                                  {"pressure_error", "total pressure"},
-                                                  {NULL, NULL}};
     struct gm_span rest, piece;
     struct gm_fault fault;
-    look->errors = gm_room_line(room, GM_ROOM_EXACT) ? errors : NULL;
     if (gm_room_said(room, "time", 0, &rest)) {
         gm_span_take(room->text, &rest, ";", &piece);
         rest = gm_span_trimmed(room->text, rest);
@@ -500,7 +498,7 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
         look->levels = look->level_count > 0 ? levels : NULL;
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
+        look->profiles |= user_room->profiles[i].quantities[0] != 0;
     }
     const bool graphs = gm_room_said(room, "graph", 0, &rest);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
