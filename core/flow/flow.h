@@ -147,6 +147,15 @@ struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
 /* Adds heat to a flow, nowhere held, everywhere at the reference temperature. */
 void gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
+/* States that a run may start from: psi for a vorticity, the given scalar, tracers strewn evenly. */
+
+/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. Returns false
+   when out of memory, or if the boundary leaves psi undetermined. */
+bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
+/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
+   omega less its mean on a closed surface. */
+bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
+
 /* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The states that a run may start from, without and with vorticity, and where tracers begin. */
-#include "core/flow/start.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 
 #include "core/arena.h"
 #include "core/flow/room.h"
-#include "core/flow/start.h"
 #include "scenes/common/lane.h"
 
 /* The scene of a room, which solves, in the plane,

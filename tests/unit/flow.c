@@ -15,7 +15,6 @@
 #include "core/basics.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/flow/start.h"
 #include "core/form/generators.h"
 #include "core/run.h"
 #include "core/schemes.h"

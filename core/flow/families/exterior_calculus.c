@@ -12,11 +12,13 @@
    Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155. The steady scheme takes C(F)
    omega + nu K omega = 0 by Newton's method, a correction a step. */
 #include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/flow/families/families.h"
-#include "core/flow/second_thread.h"
 #include "core/flow/solver.h"
 #include "core/flow/tracers.h"
 #include "core/flow_scheme_texts.h"
@@ -259,15 +261,17 @@ static bool advance_temperature(struct gm_flow_solver *solver, double dt, double
                            flow->temperature_fixed, flow->heating, &progress->iterations);
 }
 
-/* The scalar's part of a step, which needs only the previous fluxes of the flow. */
+/* The scalar's part of a step, which needs only the previous fluxes of the flow: on another core, if there is
+   one. It writes nothing that the flow uses in the meantime, so no bit depends on the core. */
 struct scalar_part {
     struct gm_flow_solver *solver;
     double dt, *theta;
     unsigned long iterations;
-    bool good;
+    bool good, beside;
+    pthread_t thread;
 };
 
-static void advance_scalar(void *data)
+static void *advance_scalar(void *data)
 {
     struct scalar_part *part = data;
     struct gm_flow_solver *solver = part->solver;
@@ -275,10 +279,35 @@ static void advance_scalar(void *data)
     part->good =
         !flow->scalar || advance_carried(solver, &solver->carried, solver->carried_rate, part->dt,
                                          part->theta, flow->theta_fixed, flow->source, &part->iterations);
+    return NULL;
 }
 
+/* Begins the part, in a thread that leaves signals to this one; `alone`: does it at once. */
+static void begin_scalar(struct scalar_part *part, bool alone)
+{
+    cpu_set_t cores;
+    if (!alone && (sched_getaffinity(0, sizeof cores, &cores) != 0 || CPU_COUNT(&cores) > 1)) {
+        static const int own[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+        sigset_t others, before;
+        sigfillset(&others);
+        for (size_t i = 0; i < GM_COUNT(own); i++) {
+            sigdelset(&others, own[i]);
+        }
+        pthread_sigmask(SIG_BLOCK, &others, &before);
+        part->beside = pthread_create(&part->thread, NULL, advance_scalar, part) == 0;
+        pthread_sigmask(SIG_SETMASK, &before, NULL);
+    }
+    if (!part->beside) {
+        advance_scalar(part);
+    }
+}
+
+/* Waits for the part. */
 static bool take_scalar(const struct scalar_part *part, struct gm_progress *progress)
 {
+    if (part->beside) {
+        pthread_join(part->thread, NULL);
+    }
     progress->solves += part->solver->flow->scalar;
     progress->iterations += part->iterations;
     return part->good;
@@ -339,11 +368,9 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
         return GM_NO_CONVERGENCE;
     }
     struct scalar_part scalar = {.solver = solver, .dt = dt, .theta = block(flow, y, GM_FLOW_THETA)};
-    struct gm_beside beside = {.work = advance_scalar, .data = &scalar};
-    gm_beside_begin(&beside, !flow->scalar || solver->vorticity_form || n < WORTH_A_THREAD);
+    begin_scalar(&scalar, !flow->scalar || solver->vorticity_form || n < WORTH_A_THREAD);
     const bool moved = solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
                                               : advance_stream(solver, row, dt, y, psi_before, progress);
-    gm_beside_end(&beside);
     if (!take_scalar(&scalar, progress) || !moved) {
         return GM_NO_CONVERGENCE;
     }
