@@ -193,6 +193,16 @@ void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *p
    surfaces and with slip walls. Then omega is stepped. */
 bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
 
+/* Carries the tracers of y for the time dt into those of out, with the midpoint rule and velocities
+   interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: the flow does
+   not depend on them. A tracer that leaves through an outlet returns at the inflow, at a place given by
+   `step` and its number. */
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
+                      const double *y, double *out);
+
+/* Has the tracers of the start y wait outside, to come in one after the other. */
+void gm_tracers_wait(const struct gm_flow *flow, double *y);
+
 /* Functionals of a state y. */
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);
 double gm_flow_enstrophy(const struct gm_flow *flow, const double *y);

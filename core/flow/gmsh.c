@@ -13,14 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A Gmsh file on its way to a mesh: its text, and the tables that are made of
- * its sections. */
-
 /* The largest number of nodes, elements or entities. */
 enum { MOST = 5000000 };
 
 struct node {
-    long tag;
+    long tag; /* first, by which nodes are compared */
     double at[3];
     long line;
     int vertex; /* -1: unused */
@@ -346,10 +343,10 @@ static void read_partitioned_entities(struct reader *reader)
     read_all_entities(reader, true);
 }
 
-static int compare_nodes(const void *a, const void *b)
+static int compare_tags(const void *a, const void *b)
 {
-    const struct node *p = a, *q = b;
-    return (p->tag > q->tag) - (p->tag < q->tag);
+    const long p = *(const long *)a, q = *(const long *)b;
+    return (p > q) - (p < q);
 }
 
 static void read_place(struct reader *reader, struct node *node)
@@ -427,7 +424,7 @@ static void read_nodes(struct reader *reader)
         read_node_block(reader, total);
     }
     expect(reader, reader->node_count == total, "as many nodes as announced");
-    qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
+    qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_tags);
     for (size_t i = 1; i < reader->node_count; i++) {
         if (reader->nodes[i].tag == reader->nodes[i - 1].tag) {
             const long a = reader->nodes[i].line, b = reader->nodes[i - 1].line;
@@ -444,16 +441,9 @@ static void read_parametric_nodes(struct reader *reader)
 
 static int nodes_of(long type)
 {
-    static const struct {
-        long type;
-        int nodes;
-    } known[] = {{POINT, 1}, {LINE, 2}, {TRIANGLE, 3}, {LINE_OF_3, 3}, {TRIANGLE_OF_6, 6}};
-    for (size_t i = 0; i < GM_COUNT(known); i++) {
-        if (known[i].type == type) {
-            return known[i].nodes;
-        }
-    }
-    return 0;
+    static const signed char nodes[] = {
+        [LINE] = 2, [TRIANGLE] = 3, [LINE_OF_3] = 3, [TRIANGLE_OF_6] = 6, [POINT] = 1};
+    return type >= 0 && type < (long)GM_COUNT(nodes) ? nodes[type] : 0;
 }
 
 /* The nodes of an element, whose tag and further tags are read: the corners
@@ -479,36 +469,31 @@ static void expect_type(struct reader *reader, long type, long line)
     }
 }
 
-/* Reads a block of at most `left` elements; returns their number. */
+/* Reads a block of at most `left` elements; returns their number. In version 2.2 each has its tag, type, number
+   of tags, those (the first is the physical one) and nodes; in binary files the type and the numbers of elements
+   and tags precede their elements. */
 static size_t read_element_block(struct reader *reader, size_t left)
 {
-    take_whole(reader, "a dimension");
-    const long entity = take_whole(reader, "an entity"), type = take_whole(reader, "a type of elements"),
-               count = take_count(reader, "a number of elements");
-    expect_type(reader, type, reader->line);
-    expect(reader, (size_t)count <= left, "as many elements as announced");
-    for (long i = 0; i < count; i++) {
-        take_tag(reader, "an element's tag");
-        read_corners(reader, type, (struct element){.line = reader->line, .entity = entity});
+    long entity = 0, type = 0, count = 1, tags = 0;
+    if (!reader->old) {
+        take_whole(reader, "a dimension");
+        entity = take_whole(reader, "an entity");
     }
-    return (size_t)count;
-}
-
-/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
-   binary files the type and the numbers of elements and tags precede their elements. */
-static size_t read_old_elements(struct reader *reader, size_t left)
-{
-    long type = 0, count = 1, tags = 0;
-    if (reader->raw) {
+    if (!reader->old || reader->raw) {
         type = take_whole(reader, "a type of elements");
-        count = take_whole(reader, "a number of elements");
+        count = reader->old ? take_whole(reader, "a number of elements")
+                            : take_count(reader, "a number of elements");
+    }
+    if (!reader->old) {
+        expect_type(reader, type, reader->line);
+    } else if (reader->raw) {
         tags = take_whole(reader, "a number of tags");
     }
-    expect(reader, count >= 1 && (size_t)count <= left, "as many elements as announced");
+    expect(reader, count >= reader->old && (size_t)count <= left, "as many elements as announced");
     for (long i = 0; i < count; i++) {
-        take_whole(reader, "an element's tag");
-        struct element element = {.line = reader->line};
-        if (!reader->raw) {
+        take_tag(reader, "an element's tag");
+        struct element element = {.line = reader->line, .entity = entity};
+        if (reader->old && !reader->raw) {
             type = take_whole(reader, "a type of elements");
             tags = take_count(reader, "a number of tags");
         }
@@ -532,10 +517,7 @@ static void read_elements(struct reader *reader)
     if (reader->old) {
         begin_raw(reader);
     }
-    while (reader->old && left > 0) {
-        left -= read_old_elements(reader, left);
-    }
-    for (long i = 0; i < blocks; i++) {
+    while (reader->old ? left > 0 : blocks-- > 0) {
         left -= read_element_block(reader, left);
     }
     expect(reader, left == 0, "as many elements as announced");
@@ -599,12 +581,12 @@ static void read_sections(struct reader *reader)
 /* The number of an element's node in the order of tags. */
 static long find_node(struct reader *reader, const struct element *element, size_t k)
 {
-    const struct node key = {.tag = element->nodes[k]};
+    const long tag = element->nodes[k];
     const struct node *node = reader->node_count == 0 ? NULL
-                                                      : bsearch(&key, reader->nodes, reader->node_count,
-                                                                sizeof *reader->nodes, compare_nodes);
+                                                      : bsearch(&tag, reader->nodes, reader->node_count,
+                                                                sizeof *reader->nodes, compare_tags);
     if (!node) {
-        fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, key.tag);
+        fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, tag);
     }
     return node - reader->nodes;
 }
@@ -626,13 +608,6 @@ static int compare_corners(const void *a, const void *b)
     return (p->place > q->place) - (p->place < q->place);
 }
 
-static void exchange_if_above(long *a, long *b)
-{
-    const long low = *a < *b ? *a : *b;
-    *b = *a < *b ? *b : *a;
-    *a = low;
-}
-
 /* Version 2.2 writes a triangle once for each of its physical surfaces, and a
    surface that was meshed twice is there twice in any: the first stays. */
 static void drop_repeated(struct reader *reader)
@@ -642,9 +617,7 @@ static void drop_repeated(struct reader *reader)
     for (size_t t = 0; t < reader->triangle_count; t++) {
         long *nodes = all[t].nodes;
         memcpy(nodes, reader->triangles[t].nodes, sizeof all[t].nodes);
-        exchange_if_above(&nodes[0], &nodes[1]);
-        exchange_if_above(&nodes[1], &nodes[2]);
-        exchange_if_above(&nodes[0], &nodes[1]);
+        qsort(nodes, 3, sizeof *nodes, compare_tags);
         all[t].place = t;
     }
     qsort(all, reader->triangle_count, sizeof *all, compare_corners);

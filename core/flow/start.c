@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/flow/tracers.h"
-#include "core/flow/unknowns.h"
+#include "core/flow/solver.h"
 
 /* K psi = right inside, with the given boundary values; right == NULL: 0. */
 struct poisson {

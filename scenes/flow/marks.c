@@ -26,27 +26,21 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
     const struct gm_style turning = {over ? GM_OVER : GM_INK, over ? 0.38 : 0.5, 1.0, GM_SOLID};
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
-    double levels[MOST_LEVELS], low = INFINITY, high = -INFINITY, through = 0;
+    double levels[MOST_LEVELS], low = INFINITY, high = -INFINITY, through = 0, base = 0;
     size_t count = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         low = fmin(low, gm_run_state(lane->run)[v]);
         high = fmax(high, gm_run_state(lane->run)[v]);
     }
-    double base = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
         through = fmax(through, flow->psi[complex->boundary_vertex[b]]);
         base = fmin(base, flow->psi[complex->boundary_vertex[b]]);
     }
     through -= base;
-    if (look->levels) {
-        gm_mark_level_lines(picture, panel, turning, sheet->points, sheet->psi, sheet->vertices,
-                            sheet->triangles, sheet->count, look->levels, look->level_count);
-        return;
+    for (int i = 1; i < 10 && through > 0 && !look->levels; i++) {
+        levels[count++] = base + through * i / 10;
     }
-    if (through > 0) {
-        for (int i = 1; i < 10; i++) {
-            levels[count++] = base + through * i / 10;
-        }
+    if (count > 0) {
         gm_mark_level_lines(picture, panel, passing, sheet->points, sheet->psi, sheet->vertices,
                             sheet->triangles, sheet->count, levels, count);
         count = 0;
@@ -63,7 +57,8 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
         }
     }
     gm_mark_level_lines(picture, panel, turning, sheet->points, sheet->psi, sheet->vertices, sheet->triangles,
-                        sheet->count, levels, count);
+                        sheet->count, look->levels ? look->levels : levels,
+                        look->levels ? look->level_count : count);
 }
 
 /* Draws edges along the boundary in one go: walls bold, openings not at all. */
@@ -180,18 +175,19 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
         taken[place] = true;
         const double dx = velocities[2 * v] / speed * cell * 0.9,
                      dz = velocities[2 * v + 1] / speed * cell * 0.9;
-        const double arrow[14] = {x - dx / 2,
+        const double tip[2] = {x + dx / 2, z + dz / 2}, back[2] = {tip[0] - 0.3 * dx, tip[1] - 0.3 * dz},
+                     arrow[14] = {x - dx / 2,
                                   z - dz / 2,
-                                  x + dx / 2,
-                                  z + dz / 2,
+                                  tip[0],
+                                  tip[1],
                                   NAN,
                                   NAN,
-                                  x + dx / 2 - 0.3 * dx + 0.15 * dz,
-                                  z + dz / 2 - 0.3 * dz - 0.15 * dx,
-                                  x + dx / 2,
-                                  z + dz / 2,
-                                  x + dx / 2 - 0.3 * dx - 0.15 * dz,
-                                  z + dz / 2 - 0.3 * dz + 0.15 * dx,
+                                  back[0] + 0.15 * dz,
+                                  back[1] - 0.15 * dx,
+                                  tip[0],
+                                  tip[1],
+                                  back[0] - 0.15 * dz,
+                                  back[1] + 0.15 * dx,
                                   NAN,
                                   NAN};
         memcpy(lines + 2 * count, arrow, sizeof arrow);

@@ -14,7 +14,6 @@
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/flow/boundary.h"
-#include "core/flow/tracers.h"
 #include "core/form/generators.h"
 #include "core/run.h"
 #include "core/schemes.h"
