@@ -281,13 +281,3 @@ void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, dou
         }
     }
 }
-
-bool gm_flow_is_vorticity_form(const struct gm_flow *flow)
-{
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        if (flow->kind[v] != GM_VERTEX_FREE && flow->kind[v] != GM_VERTEX_SLIP) {
-            return false;
-        }
-    }
-    return true;
-}

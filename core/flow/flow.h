@@ -189,10 +189,6 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi);
    has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
 
-/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
-   surfaces and with slip walls. Then omega is stepped. */
-bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
-
 /* Carries the tracers of y for the time dt into those of out, with the midpoint rule and velocities
    interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: the flow does
    not depend on them. A tracer that leaves through an outlet returns at the inflow, at a place given by

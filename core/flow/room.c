@@ -251,11 +251,6 @@ bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm
            (range->least < range->most || gm_fail(fault, span.begin, "a range's lower end comes first"));
 }
 
-static bool is_word(const struct gm_room *room, struct gm_span span, const char *word)
-{
-    return gm_span_is(room->text, span, word);
-}
-
 static const struct gm_read_line *find_line(const struct gm_room *room, const char *word, size_t number)
 {
     for (size_t i = 0; i < room->said_count; i++) {
@@ -288,7 +283,7 @@ bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const cha
                     struct gm_span *value)
 {
     while (gm_span_take(room->text, &pieces, ";", value)) {
-        if (is_word(room, take_word(room, value), word)) {
+        if (gm_span_is(room->text, take_word(room, value), word)) {
             return true;
         }
     }
@@ -449,13 +444,13 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest)
                    {"strips", &strips, {0, 100000}, room->strips},
                    {"multiple", &multiple, {1, 100000}, (char[GM_ROOM_NAME]){0}}};
     gm_span_take(room->text, &rest, ";", &value);
-    rectangle->torus = is_word(room, value, "flat-torus");
-    room->rectangular = rectangle->torus || is_word(room, value, "rectangle");
+    rectangle->torus = gm_span_is(room->text, value, "flat-torus");
+    room->rectangular = rectangle->torus || gm_span_is(room->text, value, "rectangle");
     rectangle->fixed = room->fixed;
     while (room->rectangular && gm_span_take(room->text, &rest, ";", &value)) {
         const struct gm_span word = take_word(room, &value);
         size_t i = 0;
-        while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
+        while (i < GM_COUNT(options) && !gm_span_is(room->text, word, options[i].word)) {
             i++;
         }
         if (i < GM_COUNT(options)) {
@@ -471,9 +466,10 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest)
                 snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
                          room->text + value.begin);
             }
-        } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
+        } else if (gm_span_is(room->text, word, "along") && gm_span_is(room->text, value, "y")) {
             rectangle->transposed = true;
-        } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
+        } else if (gm_span_is(room->text, word, "keep") &&
+                   rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
             double *at = room->fixed + 2 * rectangle->fixed_count++;
             for (int c = 0; c < 2; c++) {
                 gm_span_take(room->text, &value, ",", &piece);
@@ -769,7 +765,7 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
         }
     }
     gm_room_need(room, !room->graph.failed);
-    if (gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
+    if (gm_room_said(room, "geomint", 0, &value) && !gm_span_is(room->text, value, "1")) {
         gm_room_refuse(room, value.begin, "this program reads files of format 1, not %.*s",
                        (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
                        room->text + value.begin);
@@ -983,7 +979,7 @@ static bool find_side(const struct gm_room *room, const char *side, struct gm_sp
 {
     struct gm_span name;
     for (size_t i = 0; gm_room_said(room, "side", i, conditions); i++) {
-        if (gm_span_take(room->text, conditions, ";", &name) && is_word(room, name, side)) {
+        if (gm_span_take(room->text, conditions, ";", &name) && gm_span_is(room->text, name, side)) {
             return true;
         }
     }

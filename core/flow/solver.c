@@ -91,6 +91,18 @@ static double energy_limit(struct gm_flow_solver *solver)
     return largest * largest * flow->complex->total_area;
 }
 
+/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
+   surfaces and with slip walls. Then omega is stepped. */
+static bool is_vorticity_form(const struct gm_flow *flow)
+{
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        if (flow->kind[v] != GM_VERTEX_FREE && flow->kind[v] != GM_VERTEX_SLIP) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static void close_flow(void *flow)
 {
     gm_flow_close(flow);
@@ -105,7 +117,7 @@ static void open_solver(struct gm_arena *arena, void *data)
     solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), close_flow) : NULL;
     solver->flow = flow->give ? solver->now : flow;
     solver->energy_limit = INFINITY;
-    solver->vorticity_form = gm_flow_is_vorticity_form(flow);
+    solver->vorticity_form = is_vorticity_form(flow);
     solver->unknowns = gm_unknowns_of(arena, flow);
     list_unknowns(solver);
     take_memory(solver);

@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/expression/residue.h"
 
 /* The points and corners that are laid. */
 struct laying {
@@ -173,13 +174,12 @@ static void lay_flat_torus(struct laying *laying)
     }
 }
 
-/* splitmix64: the same meshes on every machine */
+/* The same meshes on every machine. */
 static double random_in_unit(uint64_t *state)
 {
-    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    const uint64_t bits = gm_mixed(*state);
+    *state += UINT64_C(0x9e3779b97f4a7c15);
+    return (double)(bits >> 11) * 0x1p-53;
 }
 
 static bool is_fixed(const struct gm_rectangle *r, const double *p)

@@ -89,12 +89,6 @@ static void colour_range(struct gm_picture *picture, const struct gm_lane *const
     }
 }
 
-static const char *const bar_labels[GM_SHOW_TEMPERATURE + 1] = {
-    [GM_SHOW_SCALAR] = "concentration θ",  [GM_SHOW_VORTICITY] = "vorticity ω",
-    [GM_SHOW_SPEED] = "speed |u|",         [GM_SHOW_PRESSURE] = "total pressure",
-    [GM_SHOW_TEMPERATURE] = "temperature",
-};
-
 static const char *title_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const char *colour = lane->shown.colour_name, *panel = gm_lane_title(lane);
@@ -165,8 +159,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                      plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
                      plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
-        panel->colour_bar_label =
-            look->names[flows->show] ? look->names[flows->show] : bar_labels[flows->show];
+        panel->colour_bar_label = look->names[flows->show];
     }
     if (flows->grid) {
         gm_flow_draw_grid(picture, panel, complex, over);

@@ -20,7 +20,7 @@ struct gm_look {
     const char *axes[2];    /* labels of x and y of the field, if one lane is shown; NULL: none are drawn */
     double scalar_high;     /* the scalar's range */
     double temperature[2];  /* the range of the temperature */
-    const char *names[GM_SHOW_TEMPERATURE + 1]; /* labels of the colours; NULL: without a unit */
+    const char *names[GM_SHOW_TEMPERATURE + 1]; /* labels of the colours */
     double vorticity_range;                     /* the end of the colours */
     double speed_high;
     const char *const *sides; /* names of openings, by the number of their side; NULL: "inlet", "outlet" */

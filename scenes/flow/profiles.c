@@ -132,18 +132,6 @@ static void write_sample(const struct gm_view *view, const char *front, const ch
     fputc('\n', stream);
 }
 
-static void write_profile(const struct gm_view *view, const char *front,
-                          const struct gm_room_profile *profile, char quantity, FILE *stream)
-{
-    for (size_t i = 0; i < profile->count; i++) {
-        const double s = (double)i / (double)(profile->count - 1),
-                     at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
-                              profile->a[1] + s * (profile->b[1] - profile->a[1])};
-        write_sample(view, front, profile->name, at[0], at[1],
-                     quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
-    }
-}
-
 void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
@@ -158,6 +146,13 @@ void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE 
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
         const struct gm_room_profile *profile = &user_room->profiles[i];
-        write_profile(view, front, profile, profile->quantities[0], stream);
+        const char quantity = profile->quantities[0];
+        for (size_t k = 0; k < profile->count; k++) {
+            const double s = (double)k / (double)(profile->count - 1),
+                         at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
+                                  profile->a[1] + s * (profile->b[1] - profile->a[1])};
+            write_sample(view, front, profile->name, at[0], at[1],
+                         quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
+        }
     }
 }

@@ -497,7 +497,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const bool units = user_room->room.units, named = !room->rectangular;
+    const bool named = !room->rectangular;
     const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
     for (size_t i = 0; sides && i < room->count; i++) {
         sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
@@ -517,17 +517,17 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                           : "scalar_outflow"},
         .scalar_high = high > 0 ? high : 1,
         .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar},
+        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar ? user_room->room.scalar : "concentration θ"},
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
     };
     for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
         look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || units) {
+        if (named || user_room->room.units) {
             look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
         }
     }
-    for (size_t i = 0; i < GM_COUNT(shown) && units; i++) {
+    for (size_t i = 0; i < GM_COUNT(shown); i++) {
         look.names[shown[i].show] =
             gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
     }
