@@ -97,6 +97,14 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
     return whole;
 }
 
+bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data)
+{
+    struct gm_arena *arena = gm_arena_open();
+    const bool whole = gm_arena_run(arena, body, data);
+    gm_arena_close(arena);
+    return whole;
+}
+
 const char *gm_arena_reason(const struct gm_arena *arena)
 {
     return arena ? arena->reason : no_memory;

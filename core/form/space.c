@@ -173,22 +173,17 @@ static void close_mass(void *mass)
     gm_cholesky_close(mass);
 }
 
-/* The rows of a symmetric matrix up to the diagonal. */
 static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
-    int *start = gm_arena_take(arena, a->rows + 1, sizeof *start);
-    int *column = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *column);
-    double *value = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *value);
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->rows, (size_t)a->start[a->rows]);
     for (size_t i = 0; i < a->rows; i++) {
-        start[i + 1] = start[i];
-        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            if (a->column[k] <= (int)i) {
-                column[start[i + 1]] = a->column[k];
-                value[start[i + 1]++] = a->value[k];
-            }
+        for (int k = a->start[i]; k < a->start[i + 1] && a->column[k] <= (int)i; k++) {
+            gm_matrix_add(&rows, a->column[k], a->value[k]);
         }
+        gm_matrix_end_row(&rows, false);
     }
-    return gm_cholesky_open(a->rows, start, column, value, GM_CHOLESKY_EXACT);
+    const struct gm_matrix half = gm_matrix_end(&rows);
+    return gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
 }
 
 static void make_stars(struct gm_form_space *space)
