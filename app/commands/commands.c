@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/output/say.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
 #include "core/arena.h"

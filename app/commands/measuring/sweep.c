@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint sweep: a run for every combination of values, on all cores, and a table of them. */
-#include <stdio.h>
 #include <string.h>
 
 #include "app/base/interrupt.h"
@@ -11,7 +10,6 @@
 #include "app/output/say.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
-#include "core/basics.h"
 #include "core/expression/number.h"
 
 /* More runs than these are made if that is confirmed. */
