@@ -71,6 +71,9 @@ struct gm_option {
 };
 extern const struct gm_option gm_option_rows[];
 extern const size_t gm_option_count;
+/* The row of this command for an option, with or without its =VALUE, or else one of the same name that other
+   commands have, or NULL. */
+const struct gm_option *gm_option_find(const char *word, enum gm_command command);
 /* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
 const char *gm_option_name(const char *word);
 

@@ -341,10 +341,10 @@ static void put_page(struct page *page)
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message)
 {
-    char *path = gm_text("%s/figures.html", output->folder),
-         *partial = gm_text("%s/.figures.html", output->folder);
-    errno = 0;
-    struct page page = {path && partial ? fopen(partial, "w") : NULL, output, jobs, outcomes, count, false};
+    char path[GM_FIGURE_PATH], partial[GM_FIGURE_PATH];
+    snprintf(path, sizeof path, "%s/figures.html", output->folder);
+    snprintf(partial, sizeof partial, "%s/.figures.html", output->folder);
+    struct page page = {fopen(partial, "w"), output, jobs, outcomes, count, false};
     bool made = false;
     if (page.file) {
         put_page(&page);
@@ -354,9 +354,7 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
     if (!made) {
         gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
                   gm_memory_was_short() ? "not enough memory" : strerror(errno));
-        remove(partial ? partial : "");
+        remove(partial);
     }
-    free(path);
-    free(partial);
     return made;
 }
