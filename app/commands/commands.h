@@ -92,6 +92,10 @@ struct gm_command_row {
 __attribute__((format(printf, 3, 4))) _Noreturn void gm_command_end(const struct gm_options *options,
                                                                     int status, const char *format, ...);
 
+/* The same if that is so. */
+__attribute__((format(printf, 4, 5))) void gm_command_end_if(const struct gm_options *options, bool wrong,
+                                                             int status, const char *format, ...);
+
 extern const struct gm_command_row gm_commands[]; /* the first is the explorer */
 extern const size_t gm_command_count;
 /* The command of that name; for the name of a scene the explorer; or NULL. */

@@ -111,15 +111,12 @@ static void plan_user_figures(struct series *series, const struct gm_arguments *
             continue;
         }
         const struct gm_scene *scene = own_scene(words->words[i], &status, message);
-        if (!scene) {
-            gm_command_end(series->options, status, "%s", message);
-        }
+        gm_command_end_if(series->options, !scene, status, "%s", message);
         for (int k = 0; k < i; k++) {
-            if (series->user[k].name && strcmp(series->user[k].name, scene->name) == 0) {
-                gm_command_end(series->options, GM_EXIT_USAGE,
-                               "the pictures of %.200s and %.200s would have one name", words->words[k],
-                               words->words[i]);
-            }
+            gm_command_end_if(series->options,
+                              series->user[k].name && strcmp(series->user[k].name, scene->name) == 0,
+                              GM_EXIT_USAGE, "the pictures of %.200s and %.200s would have one name",
+                              words->words[k], words->words[i]);
         }
         series->user[i] = (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
         gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
@@ -145,9 +142,7 @@ static struct series *open_series(const struct gm_options *options)
     }
     series->outcomes = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (series->outcomes == MAP_FAILED) {
-        gm_command_end(options, GM_EXIT_FILE, "not enough memory");
-    }
+    gm_command_end_if(options, series->outcomes == MAP_FAILED, GM_EXIT_FILE, "not enough memory");
 
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
@@ -407,9 +402,7 @@ int gm_command_figures(const struct gm_options *options)
     char message[GM_MESSAGE];
     int status = GM_EXIT_OK;
     struct series *series = open_series(options);
-    if (!gm_folder_make(options->out, message)) {
-        gm_command_end(options, GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !gm_folder_make(options->out, message), GM_EXIT_FILE, "%s", message);
     gm_catch_interrupts();
     run(series, &status);
     /* finished ones that follow an interrupted one */

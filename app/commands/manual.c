@@ -168,9 +168,7 @@ int gm_command_manual(const struct gm_options *options)
     } parts[] = {{"version", put_version}, {"synopsis", put_synopsis}, {"commands", put_commands},
                  {"keys", put_keys},       {"scenes", put_scenes},     {"claims", put_claims},
                  {"schemes", put_schemes}};
-    if (options->arguments.count > 0) {
-        return gm_give_up(GM_EXIT_USAGE, "manual takes no arguments");
-    }
+    gm_command_end_if(options, options->arguments.count > 0, GM_EXIT_USAGE, "manual takes no arguments");
     char slot[GM_PAGE_SLOT];
     for (const char *text = gm_page_text("geomint"); gm_page_next(stdout, &text, slot);) {
         for (size_t i = 0; i < GM_COUNT(parts); i++) {

@@ -46,9 +46,7 @@ void gm_cells_open(struct gm_grid *grid)
     char message[GM_MESSAGE];
     const struct gm_arguments *typed = grid->typed;
     const struct gm_study_row *row = grid->row;
-    if (typed->count == 0) {
-        gm_arena_refuse(grid->arena, "%s", row->which);
-    }
+    gm_arena_refuse_if(grid->arena, typed->count == 0, "%s", row->which);
     const struct gm_scene *scene =
         gm_request_scene(typed->count, typed->words, &grid->request.refusal, message);
     gm_arena_check(grid->arena, scene, message);

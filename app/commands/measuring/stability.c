@@ -227,15 +227,11 @@ static int find_region(const struct gm_options *options)
         .scheme = gm_scheme_sought(options->region, &status, message),
         .measured = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.measured),
         .known = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.known)};
-    if (!region.scheme) {
-        return gm_give_up(status, "%s", message);
-    }
+    gm_command_end_if(options, !region.scheme, status, "%s", message);
     region.test = gm_linear_test_of(region.scheme);
-    if (region.test == GM_TEST_NONE) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "%s takes neither y' = z y nor an oscillator: it has no linear stability region",
-                          region.scheme->name);
-    }
+    gm_command_end_if(options, region.test == GM_TEST_NONE, GM_EXIT_USAGE,
+                      "%s takes neither y' = z y nor an oscillator: it has no linear stability region",
+                      region.scheme->name);
     gm_catch_interrupts();
     region.reach = region.test == GM_TEST_PLANE ? 6 : 2 * M_PI;
     char own[41];
@@ -256,8 +252,7 @@ static int find_region(const struct gm_options *options)
 
 int gm_command_stability(const struct gm_options *options)
 {
-    if (options->region && options->arguments.count > 0) {
-        return gm_give_up(GM_EXIT_USAGE, "--region takes a scheme alone, no scene");
-    }
+    gm_command_end_if(options, options->region && options->arguments.count > 0, GM_EXIT_USAGE,
+                      "--region takes a scheme alone, no scene");
     return options->region ? find_region(options) : gm_command_study(options, GM_STUDY_STABILITY);
 }

@@ -26,10 +26,8 @@ static size_t rank_of(const struct gm_scene *scene, const struct gm_scheme *sche
    modified energy. */
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
-    if (!scene->asked_shown) {
-        gm_arena_refuse(grid->arena, "scene %s has no modified energy: it has no canonical Hamiltonian",
-                        scene->name);
-    }
+    gm_arena_refuse_if(grid->arena, !scene->asked_shown,
+                       "scene %s has no modified energy: it has no canonical Hamiltonian", scene->name);
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES], *usual = NULL;
     const size_t count = gm_fitting_schemes(scene, schemes);
     const struct gm_timing *timing = gm_arena_keep(grid->arena, gm_scene_defaults(scene), free);
@@ -62,10 +60,8 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
         const double dt = ((const struct gm_timing *)spec->parameters)->dt;
         size_t at = line->count++;
         for (; at > 0 && line->cells[at - 1].step <= dt; at--) {
-            if (line->cells[at - 1].step == dt) {
-                gm_arena_refuse(grid->arena,
-                                "backward compares steps and schemes: only scheme and dt take lists");
-            }
+            gm_arena_refuse_if(grid->arena, line->cells[at - 1].step == dt,
+                               "backward compares steps and schemes: only scheme and dt take lists");
             line->cells[at] = line->cells[at - 1];
         }
         line->cells[at] = (struct gm_grid_cell){.spec = spec, .step = dt};

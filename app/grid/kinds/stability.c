@@ -15,11 +15,9 @@
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
     enum { MOST = 6 }; /* schemes of the scene, if the plan gives none */
-    if (!scene->stability) {
-        gm_arena_refuse(grid->arena, "scene %s has no stability map: %s", scene->name,
-                        scene->no_stability ? scene->no_stability
-                                            : "stability --region SCHEME shows the limit of a scheme");
-    }
+    gm_arena_refuse_if(grid->arena, !scene->stability, "scene %s has no stability map: %s", scene->name,
+                       scene->no_stability ? scene->no_stability
+                                           : "stability --region SCHEME shows the limit of a scheme");
     const bool planned = scene->stability->schemes != NULL;
     const char *const *schemes = planned ? scene->stability->schemes : scene->schemes;
     char list[512] = "";
@@ -38,18 +36,17 @@ static void read_judge(struct gm_grid *grid, const char *judge)
     if (!judge || strcmp(judge, "bounded") == 0) {
         return;
     }
-    if (strncmp(judge, accurate, length) != 0 || (judge[length] && judge[length] != '=')) {
-        gm_arena_refuse(grid->arena, "--judge %.60s is none of: bounded, accurate, accurate=ERROR", judge);
-    }
+    gm_arena_refuse_if(grid->arena,
+                       strncmp(judge, accurate, length) != 0 || (judge[length] && judge[length] != '='),
+                       "--judge %.60s is none of: bounded, accurate, accurate=ERROR", judge);
     grid->accuracy = 0.1;
-    if (judge[length] && (!gm_number_parse(judge + length + 1, &grid->accuracy) ||
-                          !(grid->accuracy > 0 && grid->accuracy < INFINITY))) {
-        gm_arena_refuse(grid->arena, "--judge %.60s needs an error above 0, such as accurate=1e-2", judge);
-    }
-    if (!grid->plan->error) {
-        gm_arena_refuse(grid->arena, "scene %s has no error to be accurate by; take --judge bounded",
-                        grid->request.scene->name);
-    }
+    gm_arena_refuse_if(grid->arena,
+                       judge[length] && (!gm_number_parse(judge + length + 1, &grid->accuracy) ||
+                                         !(grid->accuracy > 0 && grid->accuracy < INFINITY)),
+                       "--judge %.60s needs an error above 0, such as accurate=1e-2", judge);
+    gm_arena_refuse_if(grid->arena, !grid->plan->error,
+                       "scene %s has no error to be accurate by; take --judge bounded",
+                       grid->request.scene->name);
 }
 
 static struct gm_grid_axis axis_of(struct gm_grid *grid, const double *values, size_t count)
@@ -72,10 +69,8 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     grid->values = axis_of(grid, plan->values, plan->value_count);
     grid->lines = gm_arena_take(grid->arena, request->count, sizeof *grid->lines);
     for (size_t i = 0; i < request->count; i++) {
-        if (gm_grid_find(grid, request->lanes[i].scheme)) {
-            gm_arena_refuse(grid->arena, "stability varies dt and %s itself: only scheme takes a list",
-                            plan->parameter);
-        }
+        gm_arena_refuse_if(grid->arena, gm_grid_find(grid, request->lanes[i].scheme),
+                           "stability varies dt and %s itself: only scheme takes a list", plan->parameter);
         struct gm_grid_line *line =
             gm_grid_add(grid, request->lanes[i].scheme, grid->steps.count * grid->values.count);
         for (size_t s = 0; s < grid->steps.count; s++) {
