@@ -124,6 +124,18 @@ void gm_arena_refuse(struct gm_arena *arena, const char *format, ...)
     gm_arena_leave(arena);
 }
 
+void gm_arena_refuse_if(struct gm_arena *arena, bool wrong, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
+        vsnprintf(arena->reason, sizeof arena->reason, format, arguments);
+        va_end(arguments);
+        gm_arena_leave(arena);
+    }
+    va_end(arguments);
+}
+
 void gm_arena_check(struct gm_arena *arena, bool done, const char *message)
 {
     if (!done) {

@@ -188,3 +188,24 @@ void gm_place_show(const char *text, size_t length, size_t offset, char *message
     }
     gm_append(message, GM_MESSAGE, "\n    %.*s\n    %*s^", shown, line, columns, "");
 }
+
+/* ---- pages that the program completes ---- */
+
+const char *gm_page_text(const char *name)
+{
+    return gm_built_in_find(GM_FILE_PAGE, name)->text;
+}
+
+bool gm_page_next(FILE *page, const char **text, char slot[GM_PAGE_SLOT])
+{
+    const char *open = strstr(*text, "{{"), *close = open ? strstr(open, "}}") : NULL;
+    if (!close) {
+        fputs(*text, page);
+        return false;
+    }
+    fwrite(*text, 1, (size_t)(open - *text), page);
+    snprintf(slot, GM_PAGE_SLOT, "%.*s", (int)(close - open) - 2, open + 2);
+    const bool alone = open[-1] == '\n' && close[2] == '\n'; /* a page does not begin with a slot */
+    *text = close + (alone ? 3 : 2);
+    return true;
+}

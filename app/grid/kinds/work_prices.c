@@ -1,102 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Verdicts on steps; fronts and the cost of an error on them; slopes. */
-#include "app/grid/grid.h"
-
+/* The cost of an error on the steps of a scheme, and the tables of it. */
 #include <math.h>
 #include <stdio.h>
 
-/* ---- stability ---- */
-
-const char *gm_stability_judge(const struct gm_grid *grid)
-{
-    return grid->accuracy < INFINITY ? "accurate" : "bounded";
-}
-
-const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t size)
-{
-    const char *judge = gm_stability_judge(grid);
-    if (grid->accuracy < INFINITY) {
-        snprintf(text, size, "%s to %.3g (%s)", judge, grid->accuracy, grid->plan->error);
-    } else {
-        snprintf(text, size, "%s", judge);
-    }
-    return text;
-}
-
-static const struct {
-    char letter;
-    const char *word;
-} verdicts[] = {[GM_BOUNDED] = {'.', ""},
-                [GM_LOST] = {'L', "lost"},
-                [GM_GAINED] = {'G', "gained"},
-                [GM_WRONG] = {'W', "wrong"}};
-
-const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell)
-{
-    if (!cell->tried) {
-        return "untried";
-    }
-    if (cell->verdict == GM_FAILED) {
-        return gm_status_name(cell->status);
-    }
-    return cell->verdict == GM_BOUNDED ? gm_stability_judge(grid) : verdicts[cell->verdict].word;
-}
-
-char gm_cell_letter(const struct gm_grid_cell *cell)
-{
-    if (!cell->tried || cell->verdict != GM_FAILED) {
-        return cell->tried ? verdicts[cell->verdict].letter : '?';
-    }
-    switch (cell->status) {
-    case GM_BLOW_UP:
-        return 'B';
-    case GM_NO_CONVERGENCE:
-        return 'N';
-    case GM_MESH_CROSSING:
-        return 'M';
-    default:
-        return 'C';
-    }
-}
-
-const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size)
-{
-    bool noted[128] = {['.'] = true};
-    text[0] = '\0';
-    for (size_t i = 0; i < grid->count; i++) {
-        for (size_t k = 0; k < grid->lines[i].count; k++) {
-            const struct gm_grid_cell *cell = &grid->lines[i].cells[k];
-            const char letter = gm_cell_letter(cell);
-            if (!noted[(size_t)letter]) {
-                gm_append(text, size, "%s%c %s", text[0] ? ", " : "", letter, gm_cell_word(grid, cell));
-                noted[(size_t)letter] = true;
-            }
-        }
-    }
-    return text;
-}
-
-double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line)
-{
-    double limit = 0;
-    for (size_t s = 0; s < grid->steps.count; s++) {
-        bool open = false;
-        for (size_t v = 0; v < grid->values.count; v++) {
-            const struct gm_grid_cell *cell = &line->cells[s * grid->values.count + v];
-            if (cell->tried && cell->verdict != GM_BOUNDED) {
-                return limit;
-            }
-            open = open || !cell->tried;
-        }
-        if (open) {
-            return NAN;
-        }
-        limit = grid->steps.values[s];
-    }
-    return limit;
-}
-
-/* ---- work-precision ---- */
+#include "app/grid/hooks.h"
 
 double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost)
 {
@@ -149,7 +56,8 @@ enum gm_cost gm_work_second_cost(const struct gm_grid *grid)
     return grid->parameter ? GM_COST_RESOLUTION : GM_COST_EVALUATIONS;
 }
 
-double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error)
+/* This cost of an error, as it is printed. */
+static double second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error)
 {
     const double price = gm_work_price(line, error, gm_work_second_cost(grid));
     return grid->parameter && grid->smaller_is_finer ? 1 / price : price;
@@ -235,4 +143,72 @@ const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size
         name_cheapest(grid, GM_COST_RESOLUTION, text, size);
     }
     return text;
+}
+
+/* ---- tables ---- */
+
+void gm_work_print(const struct gm_grid *grid)
+{
+    char sentence[512];
+    printf("%s, %s at t = %.6g", grid->request.scene->name, grid->measure, gm_grid_timing(grid)->until);
+    printf(grid->reference[0] ? " against %s\n" : "\n", grid->reference);
+    char heading[64];
+    snprintf(heading, sizeof heading, "%s for an error of",
+             grid->parameter ? grid->parameter->key : "evaluations");
+    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
+    for (int cost = 0; cost < 2; cost++) {
+        for (size_t i = 0; i < 3; i++) {
+            printf(" %11.0e", grid->errors[i]);
+        }
+    }
+    printf(" %9s\n", "error");
+    for (size_t i = 0; i < grid->begun; i++) {
+        const struct gm_grid_line *line = &grid->lines[i];
+        double least = INFINITY;
+        printf("%-26s", line->scheme->name);
+        for (size_t k = 0; k < 3; k++) {
+            gm_print_number(" %11.3g", 11, 1e3 * gm_work_price(line, grid->errors[k], GM_COST_SECONDS));
+        }
+        for (size_t k = 0; k < 3; k++) {
+            gm_print_number(" %11.3g", 11, second_price(grid, line, grid->errors[k]));
+        }
+        enum gm_status last = GM_OK;
+        for (size_t k = 0; k < line->count; k++) {
+            least = fmin(least, line->cells[k].error);
+            last = line->cells[k].tried ? line->cells[k].status : last;
+        }
+        if (isfinite(least)) {
+            printf(" %9.1e\n", least);
+        } else {
+            printf(" %9s\n", last == GM_OK ? "-" : gm_status_name(last));
+        }
+        if (line->reason[0]) {
+            printf("  none: %s\n", line->reason);
+        }
+    }
+    printf("%s\n", gm_work_sentence(grid, sentence, sizeof sentence));
+}
+
+void gm_work_put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    (void)line;
+    gm_row_put(row, "measure %s, against %s, until %.17g", grid->measure, grid->reference,
+               gm_grid_timing(grid)->until);
+}
+
+void gm_work_put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    struct gm_row prices = gm_row_open(row, "prices", ']');
+    for (size_t k = 0; k < 3; k++) {
+        const double error = grid->errors[k];
+        struct gm_row price = gm_row_open(&prices, NULL, '}');
+        gm_row_put(&price, "error %.17g, seconds %.17g", error, gm_work_price(line, error, GM_COST_SECONDS));
+        gm_row_number(&price, grid->parameter ? grid->parameter->key : "evaluations",
+                      second_price(grid, line, error), 17);
+        gm_row_close(&price);
+    }
+    gm_row_close(&prices);
+    if (line->reason[0]) {
+        gm_row_put(row, "reason %s", line->reason);
+    }
 }
