@@ -10,7 +10,6 @@
 
 /* The formulas of L, derived once: functions of q, v (stored instead of the momenta) and t. */
 struct gm_user_lagrangian_model {
-    const struct gm_formula *graph;
     size_t half, components; /* half: coordinates; components: 2 half, and one more if the system is timed */
     bool linear;             /* dL/dv is linear in v: one solve finds it */
     gm_node_id *nodes;       /* dL/dv, p' (half each), L */
@@ -19,39 +18,21 @@ struct gm_user_lagrangian_model {
     gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
     size_t momenta_count;
 };
-/* Derives the formulas; the graph of the system grows. The arena owns them; both open functions leave its
-   body when out of memory. */
+/* Derives the formulas; the graph of the system grows. The arena owns them; its body is left when out of memory. */
 void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
                                    struct gm_user_system *system);
 
-/* The tapes of L for given values of parameters; the model outlives them, and threads share them. */
-struct gm_user_lagrangian {
-    const struct gm_user_lagrangian_model *model;
-    struct gm_tape momenta;
-    struct gm_tape rates; /* p' */
-    struct gm_tape value; /* L */
-    struct gm_tape slopes;
-};
-/* `values` are the values of the system's variables. */
-void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
-                             const struct gm_user_lagrangian_model *model, const double *values);
+/* Names the tapes of L for the problem's values. */
+struct gm_user_data; /* core/ode/user/data.h */
+void gm_user_lagrangian_open(struct gm_user_data *data);
 
-/* These write, for m states y (components * m), the rates (components * m), q' and p' alone (half * m) if L =
-   T(v) - V(q), and the energy p v - L (m). They are not finite if the transform is singular or out of memory,
-   which is noted (core/memory.h). A member's bits do not depend on m. */
-void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
-                              size_t m);
-void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, const double *y,
-                                 double *velocity, size_t m);
-void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
-                              size_t m);
-void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, const double *y, double *energy,
-                               size_t m);
+/* q' and p' alone if L = T(v) - V(q); the Jacobian by the implicit function theorem for dL/dv(q, v, t) = p. The loops
+   and the energy p v - L are not finite if the transform is singular or out of memory, which is noted
+   (core/memory.h). A member's bits do not depend on m. */
+extern const struct gm_loops gm_user_lagrangian_loops;
+void gm_user_lagrangian_energy(const struct gm_problem *problem, const double *y, double *energy, size_t m);
 /* gm_action.motion, of at most GM_NEWTON_LARGEST components */
-void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, const double *at,
+void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *at,
                                const struct gm_motion *motion);
-/* The Jacobian of the field at one state, by rows: the implicit function theorem for dL/dv(q, v, t) = p. */
-void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y,
-                                 double *matrix);
 
 #endif

@@ -25,5 +25,7 @@ void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double
 void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t inputs_apart, double *outputs,
                         size_t outputs_apart, size_t m);
 void gm_late_tape_close(struct gm_late_tape *late);
+/* Lets an arena close it. */
+void gm_late_tape_keep(struct gm_arena *arena, struct gm_late_tape *late);
 
 #endif

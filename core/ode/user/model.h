@@ -8,7 +8,6 @@
 #include "core/expression/derivative.h"
 #include "core/model/facts.h"
 #include "core/ode/user/bracket.h"
-#include "core/ode/user/constraints.h"
 #include "core/ode/user/lagrangian.h"
 
 /* The rates of the components, and their Jacobian d rate[row] / d component if the model has one; for all
@@ -21,6 +20,14 @@ struct gm_user_rates {
     double value;
 };
 
+/* The constraints g(q) = 0 of a system and their exact derivatives. */
+struct gm_user_constraints {
+    size_t half, count;      /* coordinates; constraints, 0: none */
+    gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
+    struct gm_sparse slopes; /* dg[row] / dq */
+    struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
+};
+
 /* The formulas of a system, for all values of its parameters. They do not change after opening: runs and
    threads share them. */
 struct gm_user_model {
@@ -31,7 +38,7 @@ struct gm_user_model {
     size_t rate_count;
     bool has_jacobian;                          /* false if the matrix would be too large */
     struct gm_user_lagrangian_model lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
-    struct gm_user_constraints_model constraints;
+    struct gm_user_constraints constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket_model bracket;
     char *names; /* the components' names, in the format of struct gm_ode */
