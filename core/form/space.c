@@ -168,13 +168,12 @@ static void make_derivatives(struct gm_form_space *space)
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }
 
-static void close_mass(void *mass)
+static void close_factor(void *factor)
 {
-    gm_cholesky_close(mass);
+    gm_cholesky_close(factor);
 }
 
-/* The rows of a symmetric matrix up to the diagonal. */
-static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix *a)
+struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
     int *start = gm_arena_take(arena, a->rows + 1, sizeof *start);
     int *column = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *column);
@@ -188,7 +187,8 @@ static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix
             }
         }
     }
-    return gm_cholesky_open(a->rows, start, column, value, GM_CHOLESKY_EXACT);
+    struct gm_cholesky *factor = gm_cholesky_open(a->rows, start, column, value, GM_CHOLESKY_EXACT);
+    return factor ? gm_arena_keep(arena, factor, close_factor) : NULL;
 }
 
 static void make_stars(struct gm_form_space *space)
@@ -213,7 +213,7 @@ static void make_stars(struct gm_form_space *space)
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
     } else {
         matrix[GM_MATRIX_STAR1] = mass_of(space);
-        space->mass = gm_arena_keep(arena, factor(arena, &matrix[GM_MATRIX_STAR1]), close_mass);
+        space->mass = gm_matrix_factor(arena, &matrix[GM_MATRIX_STAR1]);
         gm_arena_need(arena, space->mass);
     }
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
