@@ -77,4 +77,12 @@ static inline void gm_user_values(const struct gm_problem *problem, int formula,
     gm_late_tape_values(&gm_user_data_of(problem)->tapes[formula], inputs, values, m);
 }
 
+/* Opens the facet of the parts that have names: lines `part:` and `let:`, and those of the structure. The arena's
+   body is left when out of memory. */
+void gm_user_parts_open(const struct gm_problem *problem);
+
+/* gm_ode.conserved */
+gm_node_id gm_user_conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                             char *lacks);
+
 #endif

@@ -12,9 +12,7 @@
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/trace_free.h"
-#include "core/ode/user/conserved.h"
 #include "core/ode/user/data.h"
-#include "core/ode/user/parts.h"
 #include "core/ode/variational/manifold.h"
 #include "core/user/line.h"
 
@@ -149,30 +147,9 @@ static void prepare(const struct gm_problem *problem, unsigned needs)
     }
 }
 
-static gm_node_id conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                            char *lacks)
-{
-    return gm_user_conserved(gm_user_data_of(problem)->model, gm_user_data_of(problem)->values, name, graph,
-                             lacks);
-}
-
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return gm_user_data_of(problem)->frequencies[i];
-}
-
-static bool part_rates(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                       gm_node_id *rates)
-{
-    const struct gm_user_data *self = gm_user_data_of(problem);
-    return gm_user_part_rates(self->model, self->values, name, graph, rates);
-}
-
-static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
-                                struct gm_arena *arena)
-{
-    const struct gm_user_data *self = gm_user_data_of(problem);
-    return gm_user_parts_differ(self->model, self->values, names, count, arena);
 }
 
 static void kepler_solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
@@ -413,7 +390,7 @@ static void open_problem(struct gm_arena *arena, void *data)
                                 .linear = !constrained && holds(self, GM_FACT_LINEAR) &&
                                           holds(self, GM_FACT_AUTONOMOUS),
                                 .rough = !holds(self, GM_FACT_SMOOTH),
-                                .conserved = conserved,
+                                .conserved = gm_user_conserved,
                                 .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         self->ode.loops[isa] = &self->loops;
@@ -448,9 +425,8 @@ static void open_problem(struct gm_arena *arena, void *data)
     open_action(self);
     open_monitor(self);
     gm_user_bracket_open(problem);
-    self->parts = (struct gm_parts){.rates = part_rates, .differ = parts_differ};
-    if (system->tangents == 0 && !constrained && gm_user_parts_open(arena, model, values, &self->parts)) {
-        self->ode.parts = &self->parts;
+    if (system->tangents == 0 && !constrained) {
+        gm_user_parts_open(problem);
     }
     if (self->ode.linear && !self->ode.volume && is_trace_free(self, problem)) {
         self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
