@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The structure of a Poisson system: a bracket of angular momenta, if it is one, and the pieces of the energy
    whose flows are exact. */
-#include "core/ode/user/bracket.h"
+#include "core/ode/user/data.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/ode/kernel/members.h"
-#include "core/ode/user/data.h"
 
 /* ---- angular momenta ---- */
 
@@ -63,7 +62,7 @@ static bool are_spins(struct gm_user_system *system, bool negative)
     return same;
 }
 
-static void find_turning(struct gm_user_bracket_model *model, struct gm_user_system *system)
+static void find_turning(struct gm_user_bracket *model, struct gm_user_system *system)
 {
     for (int negative = 1; negative >= 0 && model->facet.turning == 0; negative--) {
         const bool spins = are_spins(system, negative);
@@ -161,8 +160,8 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
 }
 
 /* Opens the rates of one group. Returns false if they are not linear in the components that move. */
-static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                       struct gm_user_system *system, const size_t *group, size_t which)
+static bool open_piece(struct gm_arena *arena, struct gm_user_bracket *model, struct gm_user_system *system,
+                       const size_t *group, size_t which)
 {
     struct gm_formula *graph = &system->graph;
     const size_t n = system->n;
@@ -180,8 +179,8 @@ static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *mod
                                  system->variable_count);
 }
 
-static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                        struct gm_user_system *system, const bool *holds)
+static void find_pieces(struct gm_arena *arena, struct gm_user_bracket *model, struct gm_user_system *system,
+                        const bool *holds)
 {
     const size_t n = system->n;
     size_t group[GM_NEWTON_LARGEST];
@@ -244,10 +243,10 @@ static void find_moments(struct gm_poisson *poisson, const struct gm_problem *pr
     }
 }
 
-void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                                struct gm_user_system *system)
+void gm_user_bracket_derive(struct gm_arena *arena, struct gm_user_bracket *model,
+                            struct gm_user_system *system)
 {
-    *model = (struct gm_user_bracket_model){
+    *model = (struct gm_user_bracket){
         .facet = {.energy = energy, .gradient = gradient, .bracket = bracket, .flow = flow}};
     if (system->kind != GM_POISSON || system->timed) {
         return;
@@ -268,7 +267,7 @@ void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_m
 void gm_user_bracket_open(const struct gm_problem *problem)
 {
     struct gm_user_data *data = gm_user_data_of(problem);
-    const struct gm_user_bracket_model *model = &data->model->bracket;
+    const struct gm_user_bracket *model = &data->model->bracket;
     const struct gm_user_system *system = data->model->system;
     const size_t n = system->n;
     if (!model->gradient) {

@@ -77,6 +77,21 @@ static inline void gm_user_values(const struct gm_problem *problem, int formula,
     gm_late_tape_values(&gm_user_data_of(problem)->tapes[formula], inputs, values, m);
 }
 
+/* The motion of a Lagrangian system in coordinates and momenta: at each state the velocities solve dL/dv = p, with the
+   mass matrix d2L/dv2 factored there; then q' = v and p' = dL/dq + F. The first function names the tapes. q' and p'
+   alone if L = T(v) - V(q); the Jacobian by the implicit function theorem. The loops and the energy p v - L are not
+   finite if the transform is singular or out of memory, which is noted (core/memory.h). A member's bits do not
+   depend on m. */
+void gm_user_lagrangian_open(struct gm_user_data *data);
+extern const struct gm_loops gm_user_lagrangian_loops;
+void gm_user_lagrangian_energy(const struct gm_problem *problem, const double *y, double *energy, size_t m);
+/* gm_action.motion, of at most GM_NEWTON_LARGEST components */
+void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *at,
+                               const struct gm_motion *motion);
+
+/* Opens the facet of schemes for brackets, whose flow is NaN where the motion is too fast for its exponential. */
+void gm_user_bracket_open(const struct gm_problem *problem);
+
 /* Opens the facet of the parts that have names: lines `part:` and `let:`, and those of the structure. The arena's
    body is left when out of memory. */
 void gm_user_parts_open(const struct gm_problem *problem);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Legendre transform of a Lagrangian at every state, and its derivatives. */
-#include "core/ode/user/lagrangian.h"
+#include "core/ode/user/data.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,6 @@
 
 #include "core/model/equations.h"
 #include "core/ode/kernel/members.h"
-#include "core/ode/user/data.h"
 
 static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, bool *marked)
 {
@@ -25,21 +24,21 @@ static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, boo
 }
 
 /* returns true if the entry belongs to the mass matrix */
-static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struct gm_sparse_entry *entry)
+static bool is_of_mass(const struct gm_user_lagrangian *model, const struct gm_sparse_entry *entry)
 {
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
 }
 
-void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
-                                   struct gm_user_system *system)
+void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian *model,
+                               struct gm_user_system *system)
 {
     const size_t n = system->n, half = n / 2, count = system->variable_count;
     gm_node_id *others = gm_arena_take(arena, count, sizeof *others);
     bool *marked = gm_arena_take(arena, count, sizeof *marked);
-    *model = (struct gm_user_lagrangian_model){.half = half,
-                                               .components = n + system->timed,
-                                               .linear = is_linear(arena, system, marked),
-                                               .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
+    *model = (struct gm_user_lagrangian){.half = half,
+                                         .components = n + system->timed,
+                                         .linear = is_linear(arena, system, marked),
+                                         .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
     memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
     memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
     model->nodes[n] = system->energy;
@@ -65,7 +64,7 @@ void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagran
 
 void gm_user_lagrangian_open(struct gm_user_data *data)
 {
-    const struct gm_user_lagrangian_model *model = &data->model->lagrangian;
+    const struct gm_user_lagrangian *model = &data->model->lagrangian;
     const size_t half = model->half, n = model->components;
     struct gm_late_tape *tapes = data->tapes;
     gm_user_compile(data, &tapes[GM_USER_MOMENTA], model->momenta, model->momenta_count, n);
@@ -90,28 +89,27 @@ struct transform {
     double *scratch;
 };
 
-static const struct gm_user_lagrangian_model *model_of(const struct gm_problem *problem)
+static const struct gm_user_lagrangian *model_of(const struct gm_problem *problem)
 {
     return &gm_user_data_of(problem)->model->lagrangian;
 }
 
 static struct transform lay_transform(const struct gm_problem *problem, double *memory)
 {
-    const struct gm_user_lagrangian_model *model = model_of(problem);
+    const struct gm_user_lagrangian *model = model_of(problem);
     struct transform transform = {.problem = problem, .at = memory, .outputs = memory + model->components};
     transform.wanted = transform.outputs + model->momenta_count;
     transform.scratch = transform.wanted + model->half;
     return transform;
 }
 
-static size_t transform_size(const struct gm_user_lagrangian_model *model)
+static size_t transform_size(const struct gm_user_lagrangian *model)
 {
     return model->components + model->momenta_count + model->half + gm_newton_scratch(model->half);
 }
 
 /* The mass matrix from the values of all slopes, or of those that are `alone` in it. */
-static void fill_mass(const struct gm_user_lagrangian_model *model, const double *values, bool alone,
-                      double *mass)
+static void fill_mass(const struct gm_user_lagrangian *model, const double *values, bool alone, double *mass)
 {
     memset(mass, 0, model->half * model->half * sizeof *mass);
     for (size_t i = 0; i < model->slopes.count; i++) {
@@ -128,7 +126,7 @@ static void fill_mass(const struct gm_user_lagrangian_model *model, const double
 static bool momenta_at(void *data, const double *v, double *residual, double *matrix, double *scale)
 {
     struct transform *transform = data;
-    const struct gm_user_lagrangian_model *model = model_of(transform->problem);
+    const struct gm_user_lagrangian *model = model_of(transform->problem);
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
     gm_user_values(transform->problem, GM_USER_MOMENTA, transform->at, transform->outputs, 1);
     for (size_t i = 0; i < model->half; i++) {
@@ -143,7 +141,7 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
    every state has one field, and are not finite if the solver fails. */
 static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
 {
-    const struct gm_user_lagrangian_model *model = model_of(transform->problem);
+    const struct gm_user_lagrangian *model = model_of(transform->problem);
     const struct gm_implicit_equations equations = {.size = model->half,
                                                     .data = transform,
                                                     .linear = momenta_at,
@@ -169,7 +167,7 @@ static void find_velocities(struct transform *transform, const double *y, size_t
 static double *at_velocities(const struct gm_problem *problem, const double *y, size_t m, bool found,
                              double *numbers, size_t count)
 {
-    const struct gm_user_lagrangian_model *model = model_of(problem);
+    const struct gm_user_lagrangian *model = model_of(problem);
     const size_t half = model->half, n = model->components;
     double *at = malloc((n * m + half + transform_size(model)) * sizeof *at);
     if (!at) {
@@ -242,7 +240,7 @@ void gm_user_lagrangian_energy(const struct gm_problem *problem, const double *y
 void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *at,
                                const struct gm_motion *motion)
 {
-    const struct gm_user_lagrangian_model *model = model_of(problem);
+    const struct gm_user_lagrangian *model = model_of(problem);
     const size_t half = model->half, square = half * half * sizeof(double);
     double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
     gm_user_values(problem, GM_USER_MOMENTA, at, values, 1);
@@ -267,7 +265,7 @@ void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *a
 /* dL/dv(q, v, t) = p gives M dv = dp - B dq - b dt. */
 static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
-    const struct gm_user_lagrangian_model *model = model_of(problem);
+    const struct gm_user_lagrangian *model = model_of(problem);
     const size_t half = model->half, n = model->components, count = model->slopes.count;
     const struct gm_sparse_entry *entries = model->slopes.entries;
     /* columns of dv over the state, the slopes' values, a velocity */

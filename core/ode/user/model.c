@@ -167,7 +167,7 @@ static void open_model(struct gm_arena *arena, void *data)
     memset(opening->marked, true, n * sizeof *opening->marked);
     open_constraints(arena, opening);
     if (system->kind == GM_LAGRANGIAN) {
-        gm_user_lagrangian_model_open(arena, &model->lagrangian, system);
+        gm_user_lagrangian_derive(arena, &model->lagrangian, system);
     }
     open_rates(arena, opening, NULL);
     for (size_t i = 0; i < system->item_count; i++) {
@@ -176,7 +176,7 @@ static void open_model(struct gm_arena *arena, void *data)
         }
     }
     open_slopes(arena, opening);
-    gm_user_bracket_model_open(arena, &model->bracket, system);
+    gm_user_bracket_derive(arena, &model->bracket, system);
     for (size_t i = 0; i < model->rate_count && system->kind != GM_LAGRANGIAN; i++) {
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }
