@@ -68,7 +68,7 @@ static inline void gm_user_compile(const struct gm_user_data *data, struct gm_la
                                    const gm_node_id *nodes, size_t count, size_t inputs)
 {
     *tape = (struct gm_late_tape){&data->model->system->graph, nodes, count, inputs, data->values, NULL};
-    gm_late_tape_keep(data->arena, tape);
+    gm_arena_keep(data->arena, tape, gm_late_tape_close);
 }
 
 static inline void gm_user_values(const struct gm_problem *problem, int formula, const double *inputs,

@@ -52,17 +52,7 @@ void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double
     }
 }
 
-void gm_late_tape_close(struct gm_late_tape *late)
+void gm_late_tape_close(void *late)
 {
-    close_tape(atomic_load(&late->tape));
-}
-
-static void close_late(void *late)
-{
-    gm_late_tape_close(late);
-}
-
-void gm_late_tape_keep(struct gm_arena *arena, struct gm_late_tape *late)
-{
-    gm_arena_keep(arena, late, close_late);
+    close_tape(atomic_load(&((struct gm_late_tape *)late)->tape));
 }
