@@ -199,7 +199,7 @@ void gm_subject_start(const struct gm_subject *subject, double *whole)
 double gm_subject_friction(const struct gm_subject *subject)
 {
     const struct gm_action *action = gm_ode_of(&subject->problem)->action;
-    return action && action->friction ? action->friction(&subject->problem) : 0;
+    return action && action->friction ? *action->friction : 0;
 }
 
 struct gm_settings gm_subject_settings(double dt)

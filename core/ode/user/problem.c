@@ -94,11 +94,6 @@ static void constrain(const struct gm_problem *problem, const double *q, const d
     }
 }
 
-static double friction(const struct gm_problem *problem)
-{
-    return gm_user_data_of(problem)->friction;
-}
-
 /* x_piece := x_piece + h rate(the others) */
 static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
 {
@@ -268,7 +263,7 @@ static void open_action(struct gm_user_data *self)
     }
     if (holds(self, GM_FACT_CONFORMAL)) {
         find_constants(self, model->findings[GM_FACT_CONFORMAL].nodes, 1, &self->friction);
-        self->action.friction = friction;
+        self->action.friction = &self->friction;
     }
 }
 
