@@ -168,12 +168,12 @@ static void make_derivatives(struct gm_form_space *space)
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }
 
-static void close_mass(void *mass)
+static void close_factor(void *factor)
 {
-    gm_cholesky_close(mass);
+    gm_cholesky_close(factor);
 }
 
-static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix *a)
+struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
     struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->rows, (size_t)a->start[a->rows]);
     for (size_t i = 0; i < a->rows; i++) {
@@ -183,7 +183,9 @@ static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix
         gm_matrix_end_row(&rows, false);
     }
     const struct gm_matrix half = gm_matrix_end(&rows);
-    return gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
+    struct gm_cholesky *factor =
+        gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
+    return factor ? gm_arena_keep(arena, factor, close_factor) : NULL;
 }
 
 static void make_stars(struct gm_form_space *space)
@@ -208,7 +210,7 @@ static void make_stars(struct gm_form_space *space)
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
     } else {
         matrix[GM_MATRIX_STAR1] = mass_of(space);
-        space->mass = gm_arena_keep(arena, factor(arena, &matrix[GM_MATRIX_STAR1]), close_mass);
+        space->mass = gm_matrix_factor(arena, &matrix[GM_MATRIX_STAR1]);
         gm_arena_need(arena, space->mass);
     }
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);

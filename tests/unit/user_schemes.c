@@ -20,7 +20,7 @@
 #include "core/ode/families/runge_kutta/implicit.h"
 #include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/families/splitting/splitting.h"
-#include "core/ode/user/polish.h"
+#include "core/ode/user/scheme.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/high_order.h"

@@ -301,7 +301,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     double *y = members->y;
     step.task = task;
     step.progress = progress;
-    step.friction = rule->damped ? gm_ode_of(problem)->action->friction(problem) : 0;
+    step.friction = rule->damped ? *gm_ode_of(problem)->action->friction : 0;
     const double fades = exp(-step.friction * task->dt / 2);
     if (rule->late) {
         memset(step.manifold.at + half, 0, half * sizeof *y);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy of a problem whose kernels are written from a file, GM_KERNELS and GM_PROBLEM as for over_kernels.c.
-   The build compiles this file once for each; a kernel file without an energy leaves it empty. */
+/* The energy of a problem, from the file GM_ENERGIES that write_energy writes; GM_PROBLEM as for over_kernels.c. The build
+   compiles this file once for each; without an energy it is empty. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,11 +12,12 @@
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/scheme.h"
+#include "tests/problems/energy.h"
 
 #define GM_PASS_SCALAR
 #include "core/ode/kernel/simd.h"
 
-#include GM_KERNELS
+#include GM_ENERGIES
 
 #define NAME(what) NAME_(what, GM_PROBLEM)
 #define NAME_(what, problem) NAME__(what, problem)
