@@ -17,7 +17,7 @@
 #include "core/expression/lines.h"
 #include "core/files/generated.h"
 #include "core/scheme.h"
-#include "core/theory/written_scheme.h"
+#include "core/model/written_scheme.h"
 
 static void put_numbers(FILE *out, const struct gm_written_number *numbers, int count)
 {

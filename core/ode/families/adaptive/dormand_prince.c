@@ -251,12 +251,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, USED)) {
         return false;
     }
-    for (int j = 0; j < USED; j++) {
-        for (int i = j + 1; i < USED; i++) {
-            coefficients->a[0][i * USED + j] = gm_ball_written(a[i][j]);
-        }
-        coefficients->b[0][j] = gm_ball_written(a[USED][j]);
-    }
+    gm_coefficients_write(coefficients, 0, a[0], STAGES, a[USED]);
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include "core/ode/families/runge_kutta/implicit.h"
 
 #include "core/ode/families/family.h"
+#include "core/ode/families/runge_kutta/modes.h"
 #include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"

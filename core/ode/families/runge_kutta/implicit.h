@@ -9,10 +9,6 @@
 extern const struct gm_tableau gm_implicit_midpoint, gm_implicit_gauss4, gm_implicit_gauss6,
     gm_implicit_gauss8;
 
-/* The steps for y' = L y + N(y) on a ring, one member: the iteration solves the stiff linear part, so that it
-   converges if h N' is small, however large h L is. */
-extern const struct gm_member_family gm_implicit_modes;
-
 /* gm_family.coefficients_open of a family whose rows are tableaus. */
 bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 

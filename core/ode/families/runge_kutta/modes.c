@@ -3,13 +3,13 @@
        K_i - h L sum_j a_ij K_j = N(y + h sum_j a_ij K_j) + L y,
    the left side wave by wave, the right side by iteration. Slopes are never made of L times a stage, which
    would multiply rounding by h L. Hairer & Wanner, Solving ODEs II, IV.8. */
-#include "core/ode/families/runge_kutta/implicit.h"
+#include "core/ode/families/runge_kutta/modes.h"
 
 #include <complex.h>
 
 #include "core/linear/complex_matrix.h"
 #include "core/linear/fourier.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/kernel/tiles.h"
 
 enum { LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_TABLEAU_STAGES * LARGEST };

@@ -72,18 +72,11 @@ static const struct gm_scheme schemes[] = {
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const struct gm_partitioned_row *tableau = scheme->coefficients;
-    const size_t stages = tableau->stages;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)stages)) {
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)tableau->stages)) {
         return false;
     }
-    for (size_t i = 0; i < stages; i++) {
-        for (size_t j = 0; j < stages; j++) {
-            coefficients->a[GM_SIDE_Q][i * stages + j] = gm_ball_written(tableau->a[i][j]);
-            coefficients->a[GM_SIDE_P][i * stages + j] = gm_ball_written(tableau->c[i][j]);
-        }
-        coefficients->b[GM_SIDE_Q][i] = gm_ball_written(tableau->b[i]);
-        coefficients->b[GM_SIDE_P][i] = gm_ball_written(tableau->d[i]);
-    }
+    gm_coefficients_write(coefficients, GM_SIDE_Q, tableau->a[0], GM_TABLEAU_STAGES, tableau->b);
+    gm_coefficients_write(coefficients, GM_SIDE_P, tableau->c[0], GM_TABLEAU_STAGES, tableau->d);
     return true;
 }
 

@@ -6,9 +6,6 @@
 #include "core/ode/families/compositions.h"
 #include "core/ode/kernel/stages.h"
 
-/* The largest number of stages with an implicit loop compiled for it. */
-enum { GM_IMPLICIT_KNOWN_STAGES = 4 };
-
 /* A Runge-Kutta method, or a composition of an implicit one with itself. */
 struct gm_tableau {
     int stages;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads schemes: lines or the segments of a word, then names, then coefficients, each twice: as doubles, by
    the operations that every formula has, and as balls, which know what was written. */
-#include "core/theory/written_scheme.h"
+#include "core/model/written_scheme.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -34,7 +34,7 @@ enum {
 
 static const struct gm_line_word words[GM_SCHEME_WORDS] = {
 #define GM_SCHEME_WORD(constant, word, holds, kinds) {word, GM_LINE_ADDED, kinds},
-#include "core/theory/scheme_words.def"
+#include "core/model/written_scheme.def"
 #undef GM_SCHEME_WORD
 };
 static const struct gm_line_words lines_of_schemes = {"a scheme", words, GM_SCHEME_WORDS,
@@ -47,7 +47,7 @@ static const enum {
     SCHEME
 } holds[GM_SCHEME_WORDS] = {
 #define GM_SCHEME_WORD(constant, word, holds, kinds) holds,
-#include "core/theory/scheme_words.def"
+#include "core/model/written_scheme.def"
 #undef GM_SCHEME_WORD
 };
 

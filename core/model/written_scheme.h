@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scheme as a text: a file, or a word such as composition(verlet; g, 1 - 2*g, g). Every coefficient is read as a
    double and as the ball of numbers that its digits allow. docs/own-schemes.md lists the words. */
-#ifndef GM_CORE_THEORY_WRITTEN_SCHEME_H
-#define GM_CORE_THEORY_WRITTEN_SCHEME_H
+#ifndef GM_CORE_MODEL_WRITTEN_SCHEME_H
+#define GM_CORE_MODEL_WRITTEN_SCHEME_H
 
 #include "core/expression/lines.h"
 #include "core/theory/ball.h"
@@ -27,7 +27,7 @@ enum gm_written_kind {
 
 enum gm_scheme_word {
 #define GM_SCHEME_WORD(constant, ...) GM_SCHEME_WORD_##constant,
-#include "core/theory/scheme_words.def"
+#include "core/model/written_scheme.def"
 #undef GM_SCHEME_WORD
     GM_SCHEME_WORDS
 };
