@@ -12,7 +12,7 @@ struct work {
     struct gm_arena *arena; /* owns all of this */
     int count;
     double *state, *carry;        /* n * m each */
-    struct gm_base_scheme *bases; /* of each substep; those of one scheme share a workspace */
+    struct gm_base_scheme *bases; /* of each substep; equal schemes share a workspace */
 };
 
 bool gm_scheme_composes(const struct gm_scheme *scheme)
