@@ -100,17 +100,6 @@ static inline size_t gm_newton_scratch(size_t size)
     return size * (size + 3);
 }
 
-/* Sweeps from z to the solution. Returns false if they diverge, or contract too slowly and `linear` is
-   given; *progress has the reason. */
-bool gm_sweeps_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
-                     struct gm_progress *progress);
-
-/* Solves the equations by Newton's method. */
-bool gm_newton_solve(const struct gm_implicit_equations *equations, double *scratch, double *z,
-                     struct gm_progress *progress);
-
-/* ---- what follows is inline for the loops over kernels ---- */
-
 /* The sum of |h a_ij J_cd Y_jd|, the terms of h f that rounding acts on, from the matrix I - h a_ij J(Y_j)
    and the stages Y_j = y + z_j, of n components each. */
 static inline double gm_rounding_of_stages(size_t size, size_t n, const double *matrix, const double *y,
@@ -150,8 +139,8 @@ enum { GM_SWEEPS_MOST = 150, GM_NEWTON_STEPS = 50, GM_NEWTON_HALVINGS = 40 };
 /* z := z + change, or a part of that where the residual there would be larger than *off; of a small change it
    may be. The residual, *off its 1-norm, and the matrix are those there. */
 static inline __attribute__((always_inline)) bool
-gm_newton_move(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
-               double *restrict scratch, double *restrict z, bool small, double *off, double *scale)
+gm_newton_move(const struct gm_implicit_equations *equations, double *restrict scratch, double *restrict z,
+               bool small, double *off, double *scale)
 {
     const size_t size = equations->size;
     double *residual = scratch, *matrix = residual + size, *change = matrix + size * size,
@@ -166,7 +155,7 @@ gm_newton_move(const struct gm_implicit_equations *equations, gm_linear_equation
             z[i] = start[i] + part * change[i];
         }
         *scale = 0;
-        good = linear(equations->data, z, residual, matrix, scale);
+        good = equations->linear(equations->data, z, residual, matrix, scale);
         there = gm_sum_of(residual, size);
         nearer = good && (there <= *off || (small && isfinite(there)));
     }
@@ -174,15 +163,16 @@ gm_newton_move(const struct gm_implicit_equations *equations, gm_linear_equation
     return good;
 }
 
-/* gm_sweeps_solve with a function that may be inlined */
+/* Sweeps from z to the solution. Returns false if they diverge, or contract too slowly and `linear` is
+   given; *progress has the reason. Of equations that the compiler knows the functions are inlined. */
 static inline __attribute__((always_inline)) bool
-gm_sweeps_solve_by(const struct gm_implicit_equations *equations, gm_swept_equations *sweep,
-                   double *restrict scratch, double *restrict z, struct gm_progress *progress)
+gm_sweeps_solve(const struct gm_implicit_equations *equations, double *restrict scratch, double *restrict z,
+                struct gm_progress *progress)
 {
     double *next = scratch, previous = INFINITY, before_previous = INFINITY;
     for (int iteration = 0; iteration < GM_SWEEPS_MOST; iteration++) {
         double scale = 0, change = 0;
-        if (!sweep(equations->data, z, next, &scale)) {
+        if (!equations->sweep(equations->data, z, next, &scale)) {
             return false;
         }
         for (size_t i = 0; i < equations->size; i++) {
@@ -204,17 +194,17 @@ gm_sweeps_solve_by(const struct gm_implicit_equations *equations, gm_swept_equat
     return false;
 }
 
-/* gm_newton_solve with a function that may be inlined */
+/* Solves the equations by Newton's method. */
 static inline __attribute__((always_inline)) bool
-gm_newton_solve_by(const struct gm_implicit_equations *equations, gm_linear_equations *linear,
-                   double *restrict scratch, double *restrict z, struct gm_progress *progress)
+gm_newton_solve(const struct gm_implicit_equations *equations, double *restrict scratch, double *restrict z,
+                struct gm_progress *progress)
 {
     const size_t size = equations->size, n = equations->n;
     double *change = scratch, *matrix = change + size, previous = INFINITY, scale = 0, off = INFINITY;
     for (int iteration = 0; iteration < GM_NEWTON_STEPS; iteration++) {
         if (iteration == 0 || !equations->halved) {
             scale = 0;
-            if (!linear(equations->data, z, change, matrix, &scale)) {
+            if (!equations->linear(equations->data, z, change, matrix, &scale)) {
                 return false;
             }
             off = equations->halved ? gm_sum_of(change, size) : 0;
@@ -251,7 +241,7 @@ gm_newton_solve_by(const struct gm_implicit_equations *equations, gm_linear_equa
         progress->unsolved = gm_unsolved_by(moved, scale);
         if (!isfinite(moved) ||
             (equations->halved &&
-             !gm_newton_move(equations, linear, scratch, z, moved <= 0x1p-26 * scale, &off, &scale))) {
+             !gm_newton_move(equations, scratch, z, moved <= 0x1p-26 * scale, &off, &scale))) {
             return false;
         }
     }

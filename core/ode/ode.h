@@ -214,4 +214,11 @@ static inline const struct gm_ode *gm_ode_of(const struct gm_problem *problem)
     return problem->facets;
 }
 
+/* The weight w of its Hamiltonian. */
+static inline double gm_weight_of(const struct gm_problem *problem)
+{
+    const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
+    return hamiltonian->weight ? hamiltonian->weight(problem) : 1;
+}
+
 #endif

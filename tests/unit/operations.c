@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The operations that a kernel may use (core/ode/kernel/simd.h): a lane does what a double does, bit for bit,
+/* The operations that a kernel may use (core/ode/kernel/simd.h, formula.h): a lane does what a double does, bit for bit,
    and both are the function that the name says, against long double. */
 #include <float.h>
 #include <math.h>
@@ -14,14 +14,34 @@
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 
+/* The functions of a formula's operations, of one number. */
+#define OF_ONE(name, constant)                                                                               \
+    static real K(name)(real x)                                                                              \
+    {                                                                                                        \
+        return K(value_##constant)(x, x);                                                                    \
+    }
 #define GM_PASS_SCALAR
 #include "core/ode/kernel/simd.h"
+
+#include "core/ode/kernel/formula.h"
+
+OF_ONE(sine, SIN)
+OF_ONE(cosine, COS)
+OF_ONE(exponential, EXP)
+OF_ONE(logarithm, LOG)
 #undef GM_PASS_SCALAR
 #undef real
 #undef mask
 #undef GM_LANES
 #undef K
 #include "core/ode/kernel/simd.h"
+
+#include "core/ode/kernel/formula.h"
+
+OF_ONE(sine, SIN)
+OF_ONE(cosine, COS)
+OF_ONE(exponential, EXP)
+OF_ONE(logarithm, LOG)
 
 static const struct operation {
     double (*of_double)(double x);

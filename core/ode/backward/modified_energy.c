@@ -184,7 +184,7 @@ static void open_formula(struct opening *opening)
         snprintf(opening->why, GM_MODIFIED_WHY, "H is not smooth: it has no further derivatives");
         gm_arena_leave(energy->arena);
     }
-    energy->weight = hamiltonian->weight ? hamiltonian->weight(opening->problem) : 1;
+    energy->weight = gm_weight_of(opening->problem);
     node = gm_product(graph, gm_formula_constant(graph, energy->weight), node);
     gm_arena_need(energy->arena, !graph->failed);
     gm_node_id *field = field_of(opening, node);

@@ -6,18 +6,14 @@
 
 #include "core/kind.h"
 
-bool gm_base_open(struct gm_base_scheme *base, const struct gm_scheme *scheme,
-                  const struct gm_problem *problem)
+void gm_base_open(struct gm_arena *arena, struct gm_base_scheme *base, const struct gm_scheme *scheme,
+                  const struct gm_problem *problem, size_t members)
 {
     *base = (struct gm_base_scheme){.scheme = scheme, .problem = *problem};
-    base->problem.m = 1;
-    return gm_scheme_workspace_open(scheme, &base->problem, &base->workspace);
-}
-
-void gm_base_close(struct gm_base_scheme *base)
-{
+    base->problem.m = members;
+    gm_arena_need(arena, gm_scheme_workspace_open(scheme, &base->problem, &base->workspace));
     if (base->workspace) {
-        base->scheme->family->workspace_close(base->workspace);
+        gm_arena_keep(arena, base->workspace, scheme->family->workspace_close);
     }
 }
 
@@ -35,6 +31,7 @@ enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_t
                                  .scheme = base->scheme,
                                  .dt = h,
                                  .steps = 1,
+                                 .steps_before = base->steps_before,
                                  .limit = task->limit,
                                  .y = y,
                                  .out = out,
@@ -44,9 +41,11 @@ enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_t
                                  .workspace = base->workspace,
                                  .settings = task->settings};
     if (base->carry) { /* a scheme without compensation leaves it unchanged */
-        memcpy(base->carry_out, base->carry, base->problem.n * sizeof *y);
+        memcpy(base->carry_out, base->carry, base->problem.n * base->problem.m * sizeof *y);
     }
-    const struct gm_progress made = gm_scheme_loop(base->scheme, &base->problem)(&step);
+    gm_loop *advance = gm_scheme_loop(base->scheme, &base->problem);
+    const struct gm_progress made =
+        advance ? advance(&step) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
     progress->evaluations += made.evaluations;
     progress->solves += made.solves;
     progress->iterations += made.iterations;

@@ -3,20 +3,21 @@
 #ifndef GM_CORE_ODE_FAMILIES_BASE_SCHEME_H
 #define GM_CORE_ODE_FAMILIES_BASE_SCHEME_H
 
+#include "core/arena.h"
 #include "core/problem.h"
 
 struct gm_base_scheme {
     const struct gm_scheme *scheme;
-    struct gm_problem problem; /* with one member */
+    struct gm_problem problem;
     void *workspace;
     const double *carry; /* the compensations of the sums, before and after the next step; NULL: plain */
     double *carry_out;
+    int64_t steps_before; /* the step is not counted as the run's first if the run has made some */
 };
 
-/* Returns false when out of memory; to be closed in both cases. */
-bool gm_base_open(struct gm_base_scheme *base, const struct gm_scheme *scheme,
-                  const struct gm_problem *problem);
-void gm_base_close(struct gm_base_scheme *base);
+/* Opens it for this number of members, in the body of an arena, which closes it. */
+void gm_base_open(struct gm_arena *arena, struct gm_base_scheme *base, const struct gm_scheme *scheme,
+                  const struct gm_problem *problem, size_t members);
 /* Forgets what is derived from an earlier state. */
 void gm_base_reset(const struct gm_base_scheme *base);
 /* out := a step h from y, with the task's limit and settings; adds its costs to the progress. */

@@ -4,15 +4,15 @@
    with the loops of these schemes. The family has no rows: they are user-defined. Hairer, Lubich & Wanner (2006), sections II.4, V.3. */
 #include "core/ode/families/composition.h"
 
+#include "core/ode/families/base_scheme.h"
 #include "core/ode/families/family.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
-struct workspace {
-    const struct gm_substeps *substeps;
-    double *state, *carry; /* n * m each */
+struct work {
+    struct gm_arena *arena; /* owns all of this */
     int count;
-    const struct gm_family **families; /* the substeps' families; NULL: shares an earlier workspace */
-    void **workspaces;
+    double *state, *carry;        /* n * m each */
+    struct gm_base_scheme *bases; /* of each substep; equal schemes share a workspace */
 };
 
 bool gm_scheme_composes(const struct gm_scheme *scheme)
@@ -45,106 +45,90 @@ int gm_scheme_over_kernels(const struct gm_scheme *scheme)
     return over;
 }
 
-static void workspace_close(void *data)
+static void workspace_close(void *work)
 {
-    struct workspace *workspace = data;
-    if (!workspace) {
-        return;
-    }
-    for (int i = 0; i < workspace->count; i++) {
-        if (workspace->families[i]) {
-            workspace->families[i]->workspace_close(workspace->workspaces[i]);
-        }
-    }
-    free(workspace->families);
-    free(workspace->workspaces);
-    free(workspace->state);
-    free(workspace);
+    gm_arena_close(((struct work *)work)->arena);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+/* The arguments of the body that opens a workspace. */
+struct opening {
+    const struct gm_problem *problem;
+    const struct gm_substeps *substeps;
+    struct work *work;
+};
+
+static void open_work(struct gm_arena *arena, void *data)
 {
-    const struct gm_substeps *substeps = scheme->coefficients;
-    const size_t count = problem->n * problem->m, parts = (size_t)substeps->count;
-    struct workspace *workspace = calloc(1, sizeof *workspace);
-    if (!workspace) {
-        return NULL;
-    }
-    workspace->substeps = substeps;
-    workspace->state = malloc(2 * count * sizeof(double));
-    workspace->families = calloc(parts, sizeof(*workspace->families));
-    workspace->workspaces = calloc(parts, sizeof *workspace->workspaces);
-    bool good = workspace->state && workspace->families && workspace->workspaces;
-    for (int i = 0; good && i < substeps->count; i++) {
+    struct opening *opening = data;
+    const struct gm_problem *problem = opening->problem;
+    const struct gm_substeps *substeps = opening->substeps;
+    const size_t size = problem->n * problem->m;
+    struct work *work = opening->work = gm_arena_take(arena, 1, sizeof *work);
+    *work = (struct work){.arena = arena,
+                          .count = substeps->count,
+                          .state = gm_arena_take(arena, size, sizeof(double)),
+                          .carry = gm_arena_take(arena, size, sizeof(double)),
+                          .bases = gm_arena_take(arena, (size_t)substeps->count, sizeof *work->bases)};
+    for (int i = 0; i < substeps->count; i++) {
         const struct gm_scheme *part = substeps->at[i].scheme;
         int same = 0;
         while (substeps->at[same].scheme != part) {
             same++;
         }
-        workspace->count = i + 1;
-        workspace->workspaces[i] = workspace->workspaces[same];
+        work->bases[i] = work->bases[same];
         if (same == i) {
-            good = gm_scheme_workspace_open(part, problem, &workspace->workspaces[i]);
-            workspace->families[i] = workspace->workspaces[i] ? part->family : NULL;
+            gm_base_open(arena, &work->bases[i], part, problem, problem->m);
         }
     }
-    if (!good) {
-        workspace_close(workspace);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    struct opening opening = {problem, scheme->coefficients, NULL};
+    struct gm_arena *arena = gm_arena_open();
+    if (!gm_arena_run(arena, open_work, &opening)) {
+        gm_arena_close(arena);
         return NULL;
     }
-    workspace->carry = workspace->state + count;
-    return workspace;
+    return opening.work;
 }
 
 static void workspace_reset(void *data)
 {
-    struct workspace *workspace = data;
-    for (int i = 0; i < workspace->count; i++) {
-        if (workspace->families[i] && workspace->families[i]->workspace_reset) {
-            workspace->families[i]->workspace_reset(workspace->workspaces[i]);
-        }
+    const struct work *work = data;
+    for (int i = 0; i < work->count; i++) {
+        gm_base_reset(&work->bases[i]);
     }
 }
 
 static struct gm_progress loop(const struct gm_task *task)
 {
-    const struct workspace *workspace = task->workspace;
-    const struct gm_substeps *substeps = workspace->substeps;
+    const struct work *work = task->workspace;
+    const struct gm_substeps *substeps = task->scheme->coefficients;
     const size_t bytes = task->problem->n * task->problem->m * sizeof(double);
     struct gm_progress progress = {.status = GM_OK};
-    struct gm_task substep = *task;
-    substep.steps = 1;
+    const double *y = task->y, *carry = task->carry;
     for (; progress.done < task->steps; progress.done++) {
         for (int i = 0; i < substeps->count; i++) {
-            const struct gm_scheme *scheme = substeps->at[i].scheme;
-            gm_loop *advance = gm_scheme_loop(scheme, task->problem);
-            const bool there = substep.y == task->out;
-            substep.scheme = scheme;
-            substep.dt = substeps->at[i].fraction * task->dt;
-            substep.workspace = workspace->workspaces[i];
-            substep.out = there ? workspace->state : task->out;
-            substep.carry_out = !substep.carry ? NULL : there ? workspace->carry : task->carry_out;
-            if (substep.carry) { /* a scheme without compensation leaves it unchanged */
-                memcpy(substep.carry_out, substep.carry, bytes);
-            }
-            const struct gm_progress made =
-                advance ? advance(&substep) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
-            progress.evaluations += made.evaluations;
-            progress.solves += made.solves;
-            progress.iterations += made.iterations;
-            progress.unsolved = made.unsolved;
-            if (made.done < 1) {
-                progress.status = made.status;
+            struct gm_base_scheme *base = &work->bases[i];
+            const bool there = y == task->out;
+            double *out = there ? work->state : task->out;
+            base->carry = carry;
+            base->carry_out = there ? work->carry : task->carry_out;
+            base->steps_before = task->steps_before;
+            progress.status =
+                gm_base_step(base, task, substeps->at[i].fraction * task->dt, y, out, &progress);
+            if (progress.status != GM_OK) {
                 return progress;
             }
-            substep.y = substep.out;
-            substep.carry = substep.carry_out;
+            y = out;
+            carry = carry ? base->carry_out : NULL;
         }
     }
-    if (substep.y != task->out) {
-        memcpy(task->out, substep.y, bytes);
-        if (substep.carry) {
-            memcpy(task->carry_out, substep.carry, bytes);
+    if (y != task->out) {
+        memcpy(task->out, y, bytes);
+        if (carry) {
+            memcpy(task->carry_out, carry, bytes);
         }
     }
     return progress;

@@ -72,8 +72,7 @@ static double gradient_field(const struct substep *substep, const double *d, dou
     const size_t n = problem->n, half = n / 2;
     const double *y = substep->members->y;
     double *at = substep->members->scratch + AT * n, *f = substep->members->scratch + F * n;
-    double (*const weight_of)(const struct gm_problem *) = gm_ode_of(problem)->hamiltonian->weight;
-    const double weight = weight_of ? weight_of(problem) : 1;
+    const double weight = gm_weight_of(problem);
     double square = 0, along = 0;
     for (size_t c = 0; c < n; c++) {
         at[c] = y[c] + 0.5 * d[c];

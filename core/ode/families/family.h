@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* For every family: the declarations of all, the loop over members, the texts of rows. */
+/* The headers that every family includes. */
 #ifndef GM_CORE_ODE_FAMILIES_FAMILY_H
 #define GM_CORE_ODE_FAMILIES_FAMILY_H
 

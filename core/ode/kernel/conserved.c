@@ -79,8 +79,7 @@ void gm_conserved_slopes(const struct gm_conserved *conserved, const double *y, 
     gm_tape_values(&conserved->slopes, y, slopes, 1);
     if (conserved->energy < conserved->count) {
         const struct gm_problem *problem = conserved->problem;
-        const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
-        const double weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
+        const double weight = gm_weight_of(problem);
         const size_t n = conserved->n, half = n / 2;
         double *gradient = slopes + conserved->energy * n;
         gm_field(problem, y, gradient, 1);

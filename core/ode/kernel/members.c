@@ -22,12 +22,11 @@ static void scatter(const double *from, double *to, size_t count, size_t m, size
     }
 }
 
-/* a NaN compares false */
-static bool is_within(const double *y, size_t n, double limit)
+bool gm_is_within(const double *y, size_t count, double limit)
 {
     bool good = true;
-    for (size_t c = 0; c < n; c++) {
-        good &= fabs(y[c]) <= limit;
+    for (size_t i = 0; i < count; i++) {
+        good &= fabs(y[i]) <= limit;
     }
     return good;
 }
@@ -99,7 +98,7 @@ struct gm_progress gm_members_loop(const struct gm_task *task)
         }
         for (int64_t done = 0; done < progress.done; done++) {
             enum gm_status status = family->step(task, members, &progress);
-            if (status == GM_OK && !is_within(members->y, n, task->limit)) {
+            if (status == GM_OK && !gm_is_within(members->y, n, task->limit)) {
                 status = GM_BLOW_UP;
             }
             if (status != GM_OK) {

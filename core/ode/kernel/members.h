@@ -72,6 +72,9 @@ static inline enum gm_status gm_members_pass(struct gm_progress *progress, doubl
     return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
 }
 
+/* Returns true if all are at most the limit, and none is NaN. */
+bool gm_is_within(const double *y, size_t count, double limit);
+
 /* Writes the Jacobian of f at y, n * n by rows; false if the problem has none, or it would be too large a
    matrix. */
 bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian);

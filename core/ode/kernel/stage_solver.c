@@ -63,6 +63,5 @@ bool gm_stages_by_newton(struct gm_stage_solver *solver)
 {
     begin(solver);
     return solver->equations.linear &&
-           gm_newton_solve_by(&solver->equations, gm_stages_linear, solver->scratch, solver->z,
-                              solver->stages.progress);
+           gm_newton_solve(&solver->equations, solver->scratch, solver->z, solver->stages.progress);
 }

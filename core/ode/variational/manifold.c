@@ -131,13 +131,14 @@ static inline __attribute__((always_inline)) bool solve(const struct gm_manifold
     const size_t half = manifold->action.half;
     struct settling settling = {manifold, p};
     struct gm_progress ignored = {0};
-    const struct gm_implicit_equations equations = {.size = half + manifold->constraints,
+    const struct gm_implicit_equations equations = {.linear = linear,
+                                                    .size = half + manifold->constraints,
                                                     .data = &settling,
                                                     .counted = half,
                                                     .least = 0x1p-52,
                                                     .roundoff = 0x1p-46};
     memset(manifold->unknowns + half, 0, manifold->constraints * sizeof(double));
-    return gm_newton_solve_by(&equations, linear, manifold->right, manifold->unknowns, &ignored);
+    return gm_newton_solve(&equations, manifold->right, manifold->unknowns, &ignored);
 }
 
 bool gm_manifold_settle(const struct gm_manifold *manifold, double *y)

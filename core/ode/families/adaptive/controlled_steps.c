@@ -36,18 +36,12 @@ struct work {
     double *field, *gradient;   /* n */
 };
 
-static void close_base(void *base)
-{
-    gm_base_close(base);
-}
-
 static void *open_work(struct gm_members *members, const struct gm_problem *problem,
                        const struct gm_scheme *scheme)
 {
     const struct row *row = scheme->coefficients;
     struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
-    gm_arena_keep(members->arena, &work->base, close_base);
-    gm_arena_need(members->arena, gm_base_open(&work->base, gm_scheme_find(row->base), problem));
+    gm_base_open(members->arena, &work->base, gm_scheme_find(row->base), problem, 1);
     work->after = members->scratch;
     work->carry = work->after + members->n;
     work->field = work->carry + members->n;

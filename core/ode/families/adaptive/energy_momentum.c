@@ -36,12 +36,6 @@ static struct storage lay(const struct gm_problem *problem, double *scratch)
     return (struct storage){scratch, scratch + n, scratch + 3 * n, scratch + 2 * n, scratch + 3 * n + n * n};
 }
 
-static double weight_of(const struct gm_problem *problem)
-{
-    const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
-    return hamiltonian->weight ? hamiltonian->weight(problem) : 1;
-}
-
 /* matrix := 1 - tau/2 J */
 static void fill(const struct gm_problem *problem, const struct storage *storage, double tau, double *matrix)
 {
@@ -83,9 +77,9 @@ static bool find_middle(const struct gm_problem *problem, const double *y, doubl
     const size_t n = problem->n;
     struct half_step half = {problem, storage, y, tau, progress};
     const struct gm_implicit_equations equations = {
-        .size = n, .data = &half, .counted = n, .roundoff = 0x1p-50};
+        .linear = linear, .size = n, .data = &half, .counted = n, .roundoff = 0x1p-50};
     memcpy(storage->middle, y, n * sizeof *y);
-    if (!gm_newton_solve_by(&equations, linear, storage->scratch, storage->middle, progress)) {
+    if (!gm_newton_solve(&equations, storage->scratch, storage->middle, progress)) {
         return false;
     }
     gm_field(problem, storage->middle, storage->field, 1);
@@ -98,7 +92,7 @@ static bool find_step(const struct gm_problem *problem, const double *y, double 
                       const struct storage *storage, struct gm_progress *progress)
 {
     const size_t half = problem->n / 2;
-    const double last = *tau, weight = weight_of(problem);
+    const double last = *tau, weight = gm_weight_of(problem);
     double previous = INFINITY;
     for (int i = 0; i < ITERATIONS; i++) {
         if (!find_middle(problem, y, *tau, storage, progress)) {

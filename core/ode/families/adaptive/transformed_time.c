@@ -19,13 +19,11 @@ enum { ENERGY, TIME_CARRY, REMEMBERED };
 static bool slopes(const struct gm_problem *problem, double E, const double *y, double *gradient, double *F,
                    double *time)
 {
-    const struct gm_hamiltonian *hamiltonian = gm_ode_of(problem)->hamiltonian;
     const size_t half = problem->n / 2;
     double density;
     gm_ode_of(problem)->monitor->density(problem, y, &density, gradient);
     gm_field(problem, y, F, 1);
-    const double weight = hamiltonian->weight ? hamiltonian->weight(problem) : 1;
-    const double excess = weight * (gm_energy(problem, y) - E) / (density * density);
+    const double excess = gm_weight_of(problem) * (gm_energy(problem, y) - E) / (density * density);
     for (size_t i = 0; i < half; i++) {
         F[i] = F[i] / density - excess * gradient[half + i];
         F[half + i] = F[half + i] / density + excess * gradient[i];

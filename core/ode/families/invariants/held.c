@@ -126,11 +126,6 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
 
 /* ---- the hooks ---- */
 
-static void close_base(void *base)
-{
-    gm_base_close(base);
-}
-
 static void close_conserved(void *conserved)
 {
     gm_conserved_close(conserved);
@@ -152,8 +147,7 @@ void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
         *arrays[i] = gm_arena_take(members->arena, n, sizeof(double));
         *rows[i] = gm_arena_take(members->arena, count * n, sizeof(double));
     }
-    gm_arena_keep(members->arena, &held->base, close_base);
-    gm_arena_need(members->arena, gm_base_open(&held->base, gm_holding_base(scheme), problem));
+    gm_base_open(members->arena, &held->base, gm_holding_base(scheme), problem, 1);
     if (count > 0) {
         gm_arena_need(members->arena,
                       gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks));

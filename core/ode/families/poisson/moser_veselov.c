@@ -44,13 +44,13 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     double *y = members->y, c[3], scratch[18], unused = 0;
     struct rotation rotation = {.inertia = poisson->moments};
     const struct gm_implicit_equations equations = {
-        .size = 3, .data = &rotation, .counted = 3, .least = 0x1p-52, .roundoff = 0x1p-46};
+        .linear = linear, .size = 3, .data = &rotation, .counted = 3, .least = 0x1p-52, .roundoff = 0x1p-46};
     for (int i = 0; i < 3; i++) {
         rotation.m[i] = h / 2 * y[i];
         c[i] = rotation.m[i] / rotation.inertia[i];
     }
     progress->evaluations++;
-    if (!gm_newton_solve_by(&equations, linear, scratch, c, progress)) {
+    if (!gm_newton_solve(&equations, scratch, c, progress)) {
         return GM_NO_CONVERGENCE;
     }
     linear(&rotation, c, scratch, scratch + 3, &unused);

@@ -106,9 +106,10 @@ static enum gm_status spherical_midpoint(const struct gm_task *task, struct gm_m
     const size_t n = members->n;
     double *push = members->scratch + 2 * n, *next = push + n;
     struct turn turn = {task->problem, task->dt, members, progress};
-    const struct gm_implicit_equations equations = {.size = n, .data = &turn, .roundoff = 12e-16};
+    const struct gm_implicit_equations equations = {
+        .sweep = sweep, .size = n, .data = &turn, .roundoff = 12e-16};
     memset(push, 0, n * sizeof *push);
-    if (!gm_sweeps_solve_by(&equations, sweep, next, push, progress)) {
+    if (!gm_sweeps_solve(&equations, next, push, progress)) {
         return GM_NO_CONVERGENCE;
     }
     for (size_t c = 0; c < n; c++) {

@@ -149,8 +149,13 @@ static bool implicit_newton(const struct gm_tableau *row, const double *y, doubl
     };
     const struct gm_implicit_equations equations = {
 
-        .size = stages.count * N, .data = &stages, .counted = stages.count * N, .y = y, .n = N};
-    if (!gm_newton_solve_by(&equations, gm_stages_linear, scratch, z, progress)) {
+        .linear = gm_stages_linear,
+        .size = stages.count * N,
+        .data = &stages,
+        .counted = stages.count * N,
+        .y = y,
+        .n = N};
+    if (!gm_newton_solve(&equations, scratch, z, progress)) {
         return false;
     }
     gm_stages_increment(&stages, z, increment);

@@ -92,11 +92,6 @@ static void part_jacobian(const struct gm_problem *problem, const double *y, dou
     }
 }
 
-static void close_steps(void *by)
-{
-    gm_base_close(by);
-}
-
 /* Opens a part that takes steps of a scheme, which may need a Jacobian and no other structure. */
 static void open_steps(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
 {
@@ -119,8 +114,7 @@ static void open_steps(struct work *work, struct part *part, const char *name, c
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         part->ode.loops[isa] = &part->loops;
     }
-    gm_arena_keep(work->arena, &part->by, close_steps);
-    gm_arena_need(work->arena, gm_base_open(&part->by, by, &problem));
+    gm_base_open(work->arena, &part->by, by, &problem, 1);
 }
 
 static const char *name_of(size_t i, const void *names)
@@ -553,16 +547,6 @@ static bool advance_flow(const struct gm_task *task, struct work *work, size_t n
     return good;
 }
 
-/* a NaN compares false */
-static bool is_within(const double *y, size_t count, double limit)
-{
-    bool good = true;
-    for (size_t i = 0; i < count; i++) {
-        good &= y[i] <= limit && y[i] >= -limit;
-    }
-    return good;
-}
-
 /* One evaluation is a flow of the last part. */
 static struct gm_progress loop(const struct gm_task *task)
 {
@@ -587,7 +571,7 @@ static struct gm_progress loop(const struct gm_task *task)
             }
             progress.evaluations += work->flows[i].part + 1 == work->part_count ? task->problem->m : 0;
         }
-        if (!is_within(task->out, count, task->limit)) {
+        if (!gm_is_within(task->out, count, task->limit)) {
             progress.status = GM_BLOW_UP;
             return progress;
         }

@@ -255,14 +255,15 @@ static void correct_impulse(const struct step *step)
    rounding, but has one sign in all steps: left out it would add up. */
 static bool solve(struct step *step)
 {
-    const struct gm_implicit_equations equations = {.size = step->unknowns,
+    const struct gm_implicit_equations equations = {.linear = linear,
+                                                    .size = step->unknowns,
                                                     .data = step,
                                                     .counted = step->rule->degree * step->half,
                                                     .least = 0x1p-53,
                                                     .roundoff = 0x1p-46,
                                                     .halved = true};
     memset(step->solution, 0, step->unknowns * sizeof(double));
-    if (!gm_newton_solve_by(&equations, linear, step->scratch, step->solution, step->progress)) {
+    if (!gm_newton_solve(&equations, step->scratch, step->solution, step->progress)) {
         return false;
     }
     correct_impulse(step);
