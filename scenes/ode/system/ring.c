@@ -87,7 +87,7 @@ double gm_ring_resolution(const struct gm_view *view)
 static double friction_of(const struct gm_problem *problem)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
-    return ode->action && ode->action->friction ? ode->action->friction(problem) : ode->forced ? NAN : 0;
+    return ode->action && ode->action->friction ? *ode->action->friction : ode->forced ? NAN : 0;
 }
 
 double gm_ring_action_error(const struct gm_view *view)
