@@ -243,7 +243,7 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
    run. */
 static bool is_same(const struct gm_view *view, const struct followed *followed)
 {
-    const double *state = gm_growth_state(followed->growth);
+    const double *state = gm_run_state(gm_growth_run(followed->growth));
     bool same = true;
     for (size_t c = 0; c < followed->n; c++) {
         same = same && state[c] == last_of(view, view->state, c);
@@ -257,7 +257,7 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
     struct gm_worked *worked = &view->worked[kind];
     struct followed *followed = worked->data;
     const int64_t steps = view->run->steps;
-    const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
+    const bool earlier = followed && followed->growth && gm_growth_run(followed->growth)->steps > steps;
     if (followed && (earlier || followed->scheme != view->scheme)) {
         worked->data = NULL; /* another scheme, or an earlier step of the view */
         forget(followed);
@@ -426,7 +426,7 @@ static double loop_resolution(const struct gm_view *view)
 static double friction_of(const struct gm_problem *problem)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
-    return ode->action && ode->action->friction ? ode->action->friction(problem) : ode->forced ? NAN : 0;
+    return ode->action && ode->action->friction ? *ode->action->friction : ode->forced ? NAN : 0;
 }
 
 static double loop_action_error(const struct gm_view *view)

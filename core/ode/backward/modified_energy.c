@@ -45,8 +45,7 @@ struct opening {
     int power;
     struct gm_modified_energy *energy;
     struct gm_formula graph;
-    int most;  /* the most branches of a term */
-    char *why; /* the reason if the body is left; empty: out of memory */
+    int most; /* the most branches of a term */
 };
 
 /* nodes := their derivatives along a further vector, number m from 1 */
@@ -78,9 +77,8 @@ static void open_tapes(struct opening *opening, struct gm_tape *tapes, int last,
             differentiate(opening, nodes, count, (size_t)m);
         }
         if (graph->count > MOST_NODES) {
-            snprintf(opening->why, GM_MODIFIED_WHY,
-                     "the derivatives of H up to order %d are too long to be worked out", opening->most);
-            gm_arena_leave(arena);
+            gm_arena_refuse(arena, "the derivatives of H up to order %d are too long to be worked out",
+                            opening->most);
         }
         gm_tape_keep(arena, &tapes[m],
                      gm_tape_open(&tapes[m], graph, nodes, count, (size_t)(m + 1) * n, none));
@@ -138,33 +136,34 @@ static void close_modified(void *modified)
     gm_modified_close(modified);
 }
 
+static void close_coefficients(void *coefficients)
+{
+    gm_coefficients_close(coefficients);
+}
+
 /* Finds the terms from the scheme's coefficients. */
 static void open_terms(struct opening *opening)
 {
     struct gm_modified_energy *energy = opening->energy;
+    struct gm_arena *arena = energy->arena;
     const char *title = opening->scheme->title;
-    struct gm_coefficients coefficients;
-    gm_arena_keep(energy->arena, &energy->modified, close_modified);
-    if (!gm_scheme_coefficients_open(opening->scheme, &coefficients)) {
-        snprintf(
-            opening->why, GM_MODIFIED_WHY,
+    struct gm_coefficients *coefficients = gm_arena_take(arena, 1, sizeof *coefficients);
+    gm_arena_keep(arena, &energy->modified, close_modified);
+    if (!gm_scheme_coefficients_open(opening->scheme, coefficients)) {
+        gm_arena_refuse(
+            arena,
             "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, splitting or composition",
             title);
-        gm_arena_leave(energy->arena);
     }
-    gm_coefficients_reduce(&coefficients);
-    if (!gm_theory_is_symplectic(&coefficients)) {
-        snprintf(opening->why, GM_MODIFIED_WHY,
-                 "%.80s is not symplectic: the equation that it solves has no Hamiltonian", title);
-    } else if (coefficients.nystrom > 0) {
-        snprintf(opening->why, GM_MODIFIED_WHY, "the modified equation of a Nystrom method is unknown");
+    gm_arena_keep(arena, coefficients, close_coefficients);
+    gm_coefficients_reduce(coefficients);
+    if (!gm_theory_is_symplectic(coefficients)) {
+        gm_arena_refuse(arena, "%.80s is not symplectic: the equation that it solves has no Hamiltonian",
+                        title);
     }
-    const bool good =
-        !opening->why[0] && gm_modified_open(&energy->modified, &coefficients, energy->power + 1);
-    gm_coefficients_close(&coefficients);
-    if (!good) {
-        gm_arena_leave(energy->arena);
-    }
+    gm_arena_check(arena, coefficients->nystrom == 0, "the modified equation of a Nystrom method is unknown");
+    gm_arena_need(arena, gm_modified_open(&energy->modified, coefficients, energy->power + 1));
+    gm_arena_drop(arena, coefficients);
     int branches[MOST_BRANCHES];
     for (size_t i = 0; i < energy->modified.count; i++) {
         energy->with[branches_of(&energy->modified.trees, energy->modified.terms[i].tree, branches)]++;
@@ -180,10 +179,7 @@ static void open_formula(struct opening *opening)
     const struct gm_hamiltonian *hamiltonian = gm_ode_of(opening->problem)->hamiltonian;
     gm_node_id node = GM_NO_NODE;
     gm_arena_need(energy->arena, hamiltonian->formula(opening->problem, graph, &node));
-    if (!is_smooth(graph, node)) {
-        snprintf(opening->why, GM_MODIFIED_WHY, "H is not smooth: it has no further derivatives");
-        gm_arena_leave(energy->arena);
-    }
+    gm_arena_check(energy->arena, is_smooth(graph, node), "H is not smooth: it has no further derivatives");
     energy->weight = gm_weight_of(opening->problem);
     node = gm_product(graph, gm_formula_constant(graph, energy->weight), node);
     gm_arena_need(energy->arena, !graph->failed);
@@ -201,8 +197,13 @@ static void open_energy(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
     struct gm_modified_energy *energy = opening->energy = gm_arena_take(arena, 1, sizeof *energy);
+    const struct gm_problem *problem = opening->problem;
+    const struct gm_hamiltonian *hamiltonian =
+        problem->kind == &gm_kind_ode ? gm_ode_of(problem)->hamiltonian : NULL;
+    gm_arena_check(arena, hamiltonian, "there is no Hamiltonian in canonical variables that stands still");
+    gm_arena_check(arena, hamiltonian->formula, "H is not written as a formula");
     energy->arena = arena;
-    energy->n = opening->problem->n - 2 * opening->problem->passive;
+    energy->n = problem->n - 2 * problem->passive;
     energy->power = opening->power;
     open_terms(opening);
     open_formula(opening);
@@ -222,20 +223,12 @@ struct gm_modified_energy *gm_modified_energy_open(const struct gm_problem *prob
                                                    const struct gm_scheme *scheme, int power,
                                                    char why[GM_MODIFIED_WHY])
 {
-    why[0] = '\0';
-    const struct gm_hamiltonian *hamiltonian =
-        problem->kind == &gm_kind_ode ? gm_ode_of(problem)->hamiltonian : NULL;
-    if (!hamiltonian || !hamiltonian->formula) {
-        snprintf(why, GM_MODIFIED_WHY, "%s",
-                 hamiltonian ? "H is not written as a formula"
-                             : "there is no Hamiltonian in canonical variables that stands still");
-        return NULL;
-    }
     struct gm_arena *arena = gm_arena_open();
-    struct opening opening = {.problem = problem, .scheme = scheme, .power = power, .why = why};
+    struct opening opening = {.problem = problem, .scheme = scheme, .power = power};
     gm_formula_open(&opening.graph);
     const bool opened = gm_arena_run(arena, open_energy, &opening);
     gm_formula_close(&opening.graph);
+    snprintf(why, GM_MODIFIED_WHY, "%s", opened ? "" : gm_arena_reason(arena));
     if (!opened) {
         gm_arena_close(arena);
     }

@@ -15,8 +15,8 @@ enum {
 struct gm_modified_energy;
 
 /* Computes the terms up to dt^power, power <= GM_MODIFIED_POWER. Returns NULL with the reason if the scheme
-   is not symplectic or not made of coefficients, or if H is not a formula or not smooth; NULL with "" when
-   out of memory. Neither the problem nor the scheme has to outlive it. */
+   is not symplectic or not made of coefficients, if H is not a formula or not smooth, or when out of memory.
+   Neither the problem nor the scheme has to outlive it. */
 struct gm_modified_energy *gm_modified_energy_open(const struct gm_problem *problem,
                                                    const struct gm_scheme *scheme, int power,
                                                    char why[GM_MODIFIED_WHY]);

@@ -57,30 +57,23 @@ static double spectral_radius(double a, double b, double c, double d)
 
 double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, int64_t steps)
 {
-    switch (gm_linear_test_of(scheme)) {
-    case GM_TEST_PLANE: {
+    const enum gm_linear_test test = gm_linear_test_of(scheme);
+    double ends[2][3];
+    if (test == GM_TEST_PLANE) {
         /* the third component stays 0 */
         const double matrix[9] = {re, -im, 0, im, re, 0, 0, 0, 0}, y[3] = {1, 0, 0};
-        double end[3];
         struct gm_problem problem = gm_problem_linear;
         problem.parameters = matrix;
-        return pow(grown(&problem, scheme, 1, y, steps, end), 1 / (double)steps);
+        return pow(grown(&problem, scheme, 1, y, steps, ends[0]), 1 / (double)steps);
     }
-    case GM_TEST_OSCILLATOR: {
-        /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its
-           columns */
-        const double first[2] = {1, 0}, second[2] = {0, 1};
-        double one[2], two[2];
-        if (!isfinite(grown(&gm_problem_oscillator, scheme, im, first, 1, one)) ||
-            !isfinite(grown(&gm_problem_oscillator, scheme, im, second, 1, two))) {
+    /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its columns */
+    for (int k = 0; k < 2; k++) {
+        const double start[2] = {k == 0, k == 1};
+        if (test == GM_TEST_NONE || !isfinite(grown(&gm_problem_oscillator, scheme, im, start, 1, ends[k]))) {
             return NAN;
         }
-        return spectral_radius(one[0], two[0], one[1], two[1]);
     }
-    case GM_TEST_NONE:
-        break;
-    }
-    return NAN;
+    return spectral_radius(ends[0][0], ends[1][0], ends[0][1], ends[1][1]);
 }
 
 /* R(z) = 1 + z b k of one tableau, (1 - z A) k = 1. */
@@ -124,14 +117,12 @@ static double splitting_radius(const struct gm_splitting *table, double w)
 double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double im)
 {
     const double complex z = re + im * I;
-    if (scheme->family == &gm_family_explicit) {
-        return cabs(stability_function(scheme->coefficients, z));
-    }
-    if (scheme->family == &gm_family_implicit) {
+    if (scheme->family == &gm_family_explicit || scheme->family == &gm_family_implicit) {
         const struct gm_tableau *row = scheme->coefficients;
+        const struct gm_composition *steps = row->composition ? row->composition : &gm_composition_none;
         double complex product = 1;
-        for (int i = 0; i < row->composition->steps; i++) {
-            product *= stability_function(row, gm_composition_fraction(row->composition, i) * z);
+        for (int i = 0; i < steps->steps; i++) {
+            product *= stability_function(row, gm_composition_fraction(steps, i) * z);
         }
         return cabs(product);
     }

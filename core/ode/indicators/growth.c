@@ -230,14 +230,9 @@ bool gm_growth_to(struct gm_growth *growth, int64_t steps)
     return !growth->failed;
 }
 
-const double *gm_growth_state(const struct gm_growth *growth)
+const struct gm_run *gm_growth_run(const struct gm_growth *growth)
 {
-    return gm_run_state(growth->run);
-}
-
-int64_t gm_growth_steps(const struct gm_growth *growth)
-{
-    return growth->run->steps;
+    return growth->run;
 }
 
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth)

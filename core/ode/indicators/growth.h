@@ -42,9 +42,8 @@ bool gm_growth_follow_volume(struct gm_growth *growth);
    before. */
 bool gm_growth_to(struct gm_growth *growth, int64_t steps);
 
-/* Returns the current state, n numbers, and the number of steps made. */
-const double *gm_growth_state(const struct gm_growth *growth);
-int64_t gm_growth_steps(const struct gm_growth *growth);
+/* Returns the run along the orbit. */
+const struct gm_run *gm_growth_run(const struct gm_growth *growth);
 
 /* Returns the indicators; NaN while no time has passed. */
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth);

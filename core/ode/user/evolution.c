@@ -25,8 +25,8 @@ enum { ORDERS = GM_MOST_DERIVATIVES + 1, MOST_INPUTS = GM_MOST_FIELDS * ORDERS +
 struct room {
     struct gm_modes modes;
     double *inputs;                 /* the tapes' inputs, [input * points + node] */
-    double *state, *rates;          /* one member: fields * points */
-    double complex *waves, *slopes; /* one member's waves */
+    double *density;                /* points */
+    double complex *waves, *slopes; /* of all fields */
 };
 
 struct own {
@@ -188,14 +188,13 @@ static struct room *room_open(const struct own *self)
     if (!room) {
         return NULL;
     }
-    room->inputs = calloc(self->inputs * points + 2 * n, sizeof *room->inputs);
+    room->inputs = calloc((self->inputs + 1) * points, sizeof *room->inputs);
     room->waves = malloc(2 * n * sizeof *room->waves);
     if (!gm_modes_open(&room->modes, points, self->fields) || !room->inputs || !room->waves) {
         room_close(room);
         return NULL;
     }
-    room->state = room->inputs + self->inputs * points;
-    room->rates = room->state + n;
+    room->density = room->inputs + self->inputs * points;
     room->slopes = room->waves + n;
     double *x = room->inputs + (self->inputs - 2) * points;
     for (size_t i = 0; i < points; i++) {
@@ -279,7 +278,7 @@ static void derive(const struct own *self, struct room *room, const double *y)
     }
 }
 
-/* Computes one member's rates, or their rest without L. */
+/* Computes the rates, or their rest without L. */
 static void evaluate(struct own *self, const struct gm_tape *tape, const double *y, double *rates)
 {
     const size_t points = self->line.points, n = self->fields * points, half = gm_modes_half(points);
@@ -304,27 +303,12 @@ static void evaluate(struct own *self, const struct gm_tape *tape, const double 
     give_back(self, room);
 }
 
+/* Fields on a line have one member. */
 static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
     struct own *self = own_of(problem);
-    if (m == 1) {
-        evaluate(self, &self->rates, y, f);
-        return;
-    }
-    const size_t n = problem->n;
-    double *one = malloc(2 * n * sizeof *one);
-    for (size_t member = 0; member < m; member++) {
-        for (size_t c = 0; one && c < n; c++) {
-            one[c] = y[c * m + member];
-        }
-        if (one) {
-            evaluate(self, &self->rates, one, one + n);
-        }
-        for (size_t c = 0; c < n; c++) {
-            f[c * m + member] = one ? one[n + c] : NAN;
-        }
-    }
-    free(one);
+    (void)m;
+    evaluate(self, &self->rates, y, f);
 }
 
 static void nonlinear(const struct gm_problem *problem, const double *y, double *rest)
@@ -579,10 +563,10 @@ double gm_user_evolution_integral(const struct gm_problem *problem, size_t densi
         return NAN;
     }
     derive(self, room, y);
-    gm_tape_block(&self->densities[density], room->inputs, points, room->rates, points, points);
+    gm_tape_block(&self->densities[density], room->inputs, points, room->density, points, points);
     double sum = 0;
     for (size_t i = 0; i < gm_grid1_seen(&self->line); i++) {
-        sum += gm_grid1_share(&self->line, i) * (magnitude ? fabs(room->rates[i]) : room->rates[i]);
+        sum += gm_grid1_share(&self->line, i) * (magnitude ? fabs(room->density[i]) : room->density[i]);
     }
     give_back(self, room);
     return sum * self->line.dx;

@@ -2,8 +2,6 @@
 /* The rates of a system, their Jacobian, and the facts about both. */
 #include "core/ode/user/model.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/model/equations.h"
@@ -31,17 +29,12 @@ bool gm_user_model_holds(const struct gm_user_model *model, const double *values
 }
 
 /* Returns the names in the format of struct gm_ode; "": too many or too long to be distinguished there. */
-static char *names_of(const struct gm_user_system *system)
+static const char *names_of(struct gm_arena *arena, const struct gm_user_system *system)
 {
-    char *names = NULL;
-    size_t size;
-    FILE *stream = open_memstream(&names, &size);
-    if (!stream) {
-        return NULL;
-    }
     /* lists have one name each if their lengths agree, else every component has its own, if there is room */
     const size_t n = system->n + system->timed;
     size_t lists = 0, scalars = 0, longest = 0, shortest = SIZE_MAX, length = 0;
+    const char *names = "";
     bool fit = true;
     for (size_t i = 0; i < n; i++) {
         const char *name = system->variables[i].name;
@@ -67,10 +60,10 @@ static char *names_of(const struct gm_user_system *system)
         const bool goes_on =
             i > 0 && name[letters] && strncmp(name, system->variables[i - 1].name, letters + 1) == 0;
         if (!goes_on) {
-            fprintf(stream, "%s%.*s%s", i > 0 ? " " : "", (int)letters, name, name[letters] ? "[]" : "");
+            names = gm_arena_print(arena, "%s%s%.*s%s", names, i > 0 ? " " : "", (int)letters, name,
+                                   name[letters] ? "[]" : "");
         }
     }
-    fclose(stream);
     return names;
 }
 
@@ -160,7 +153,7 @@ static void open_model(struct gm_arena *arena, void *data)
     struct gm_user_system *system = opening->system;
     const size_t n = model->components;
     gm_arena_need(arena, gm_facts_find(system, model->findings));
-    model->names = gm_arena_keep(arena, names_of(system), free);
+    model->names = names_of(arena, system);
     model->rates = gm_arena_take(arena, system->item_count + 1, sizeof *model->rates);
     model->has_jacobian = n <= GM_NEWTON_LARGEST;
     opening->marked = gm_arena_take(arena, system->variable_count, sizeof *opening->marked);

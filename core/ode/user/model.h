@@ -61,7 +61,7 @@ struct gm_user_model {
     struct gm_user_constraints constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket bracket;
-    char *names; /* the components' names, in the format of struct gm_ode */
+    const char *names; /* the components' names, in the format of struct gm_ode */
     struct gm_arena *arena;
 };
 
