@@ -21,6 +21,7 @@ struct gm_mesh_strategy {
     const struct gm_mesh_strategy
         *relaxed;     /* instead of it where the mesh is smoothed in time; NULL: never */
     bool free;        /* nothing holds the mesh: the strategy's end has velocities, not momenta */
+    bool multiplied;  /* multipliers hold the mesh: a slack and one less than stages at every node */
     size_t unknowns;  /* unknowns per node and stage */
     size_t projected; /* unknowns per node in gm_nodes_project */
     /* weight of a change of a node's unknown in the test of convergence; NULL: 1 */

@@ -23,20 +23,6 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
         GM_OBSERVABLE("crest", crest, "x where u is highest")
 
-static struct gm_grid1 ring(double half_length, long points)
-{
-    return (struct gm_grid1){
-        .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
-}
-
-static struct gm_grid1 between_walls(double half_length, long points)
-{
-    return (struct gm_grid1){.points = 2 * ((size_t)points - 1),
-                             .dx = 2 * half_length / (double)(points - 1),
-                             .first = -half_length,
-                             .walls = true};
-}
-
 /* The scale is 1: the momentum of a breather is 0, of a sine-Gordon kink its mass 8 times its velocity. */
 static double unit_momentum(const struct gm_view *view)
 {
@@ -79,10 +65,12 @@ static double left_of(const struct gm_system_lane *lane)
 
 struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane)
 {
-    struct gm_grid1 grid =
-        (lane->grid.walls ? between_walls : ring)(gm_system_half_length(lane), lane->grid.points);
-    grid.first = lane->grid.walls ? grid.first : left_of(lane);
-    return grid;
+    const double half_length = gm_system_half_length(lane);
+    const size_t points = (size_t)lane->grid.points, cells = lane->grid.walls ? points - 1 : points;
+    return (struct gm_grid1){.points = lane->grid.walls ? 2 * cells : points,
+                             .dx = 2 * half_length / (double)cells,
+                             .first = lane->grid.walls ? -half_length : left_of(lane),
+                             .walls = lane->grid.walls};
 }
 
 static bool open_wave(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
