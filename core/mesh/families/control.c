@@ -117,24 +117,25 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
     const struct layout of = layout_of(solver);
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
+    const size_t acting = of.slack > 0 ? stages - 1 : stages; /* the last column of abar is zero then */
+    const double h = solver->h, *state = solver->state, *momenta = solver->momenta;
     if (of.slack > 0) {
         gm_nodes_spread(unknowns, points, per_node, of.slack, solver->slack);
     }
     for (size_t i = 0; i < stages; i++) {
         struct gm_elements *stage = &solver->stage[i];
+        const double *a = tableau->a[i];
         for (size_t k = 0; k < points; k++) {
             const double *at = unknowns + k * per_node, *here = at + i * of.per_stage;
             double rise = 0, shift = 0;
             for (size_t j = 0; j < stages; j++) {
-                rise += tableau->a[i][j] * at[j * of.per_stage];
+                rise += a[j] * at[j * of.per_stage];
+                shift += of.drifts ? a[j] * at[j * of.per_stage + 1] : 0;
             }
-            for (size_t j = 0; of.drifts && j < stages; j++) {
-                shift += tableau->a[i][j] * at[j * of.per_stage + 1];
-            }
-            stage->y[k + 1] = solver->state[k] + solver->h * rise;
+            stage->y[k + 1] = state[k] + h * rise;
             stage->u[k + 1] = here[0];
             if (of.rate > 0) {
-                stage->x[k + 1] = of.held ? here[1] : solver->state[points + k] + solver->h * shift;
+                stage->x[k + 1] = of.held ? here[1] : state[points + k] + h * shift;
                 stage->v[k + 1] = here[of.rate];
             }
         }
@@ -149,19 +150,19 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
     const double resists = friction(&solver->mesh), *slack = solver->slack;
     for (size_t i = 0; i < stages; i++) {
         const struct gm_elements *stage = &solver->stage[i];
-        const double kappa = solver->row->kappa[i];
+        const double kappa = solver->row->kappa[i], left = solver->row->left[i], *abar = tableau->abar[i];
         double *const *by = stage->gradient;
         for (size_t k = 1; k <= points; k++) {
             double *node = out + (k - 1) * per_node, *at = node + i * of.per_stage;
             double sum = 0, sum_x = 0, p_y = gm_momentum_u(stage, k),
                    p_x = of.pushed ? gm_momentum_v(stage, k) : 0;
-            for (size_t j = 0; j < stages; j++) {
-                sum += tableau->abar[i][j] * solver->forces[j][2 * k - 2];
-                sum_x += tableau->abar[i][j] * solver->forces[j][2 * k - 1];
+            for (size_t j = 0; j < acting; j++) {
+                sum += abar[j] * solver->forces[j][2 * k - 2];
+                sum_x += abar[j] * solver->forces[j][2 * k - 1];
             }
             if (of.slack > 0) {
                 const double before = kappa * slack[k - 1], after = kappa * slack[k],
-                             hidden = solver->row->left[i] * gm_jump(stage->rate, k);
+                             hidden = left * gm_jump(stage->rate, k);
                 p_y = p_y + before * by[2][k - 1] + after * by[0][k];
                 p_x = p_x + before * by[3][k - 1] + after * by[1][k];
                 node[of.slack] = i == 0 ? hidden : node[of.slack] + hidden;
@@ -169,14 +170,14 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
                     node[of.slack + i] = gm_jump(stage->ell, k);
                 }
             }
-            at[0] = p_y - solver->momenta[2 * k - 2] - solver->h * sum;
+            at[0] = p_y - momenta[2 * k - 2] - h * sum;
             if (of.held) {
                 at[1] = gm_jump(stage->ell, k);
                 at[2] = gm_jump(stage->rate, k);
             } else if (of.relaxed) {
                 at[1] = resists * stage->v[k] - gm_jump(stage->ell, k);
             } else if (of.pushed) {
-                at[1] = p_x - solver->momenta[2 * k - 1] - solver->h * sum_x;
+                at[1] = p_x - momenta[2 * k - 1] - h * sum_x;
             }
         }
     }
