@@ -115,7 +115,9 @@ static void differentiate(const struct stages *stages, double h, double push[ELE
             const double u = (end ? at->momentum_u1 : at->momentum_u0)[e];
             momentum[0] += u / 2;
             momentum[1] -= at->slope[e] * u / 2;
-            momentum[1] += at->cells ? (end ? at->cell_v1 : at->cell_v0)[e] / 2 : 0;
+            if (at->cells) {
+                momentum[1] += (end ? at->cell_v1 : at->cell_v0)[e] / 2;
+            }
             force[side][0] = h / 2 * (end ? at->force_y1 : at->force_y0)[e];
             force[side][1] = h / 2 * (end ? at->force_d[e] : -at->force_d[e]);
         }

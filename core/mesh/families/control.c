@@ -381,14 +381,15 @@ static double weight(size_t stages, size_t unknown, double step)
 #define STRATEGY .guess = guess, .residual = residual, .jacobian = jacobian, .end = end
 static const struct gm_mesh_strategy relaxed = {
     .kind = GM_MESH_FREE, .unknowns = 2, .projected = 1, STRATEGY};
-static const struct gm_mesh_strategy control = {
+static const struct gm_mesh_strategy strategy_control = {
     .kind = GM_MESH_MOVING, .unknowns = 3, .projected = 2, .relaxed = &relaxed, STRATEGY};
-static const struct gm_mesh_strategy free_nodes = {
+static const struct gm_mesh_strategy strategy_free = {
     .kind = GM_MESH_FREE, .free = true, .unknowns = 2, .projected = 2, STRATEGY};
 const struct gm_mesh_strategy gm_mesh_multiplied = {
     .kind = GM_MESH_MOVING, .multiplied = true, .unknowns = 3, .projected = 3, .weight = weight, STRATEGY};
-static const struct gm_mesh_strategy given = {.kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
-static const struct gm_mesh_strategy uniform = {
+static const struct gm_mesh_strategy strategy_given = {
+    .kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
+static const struct gm_mesh_strategy strategy_uniform = {
     .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
 
 #define FORMULA_control                                                                                      \
@@ -403,18 +404,13 @@ static const struct gm_mesh_strategy uniform = {
     "L of the field and of the cells"
 #define PAIR (GM_SYMMETRIC | GM_REVERSIBLE)
 
-#define STRATEGY_control control
-#define STRATEGY_uniform uniform
-#define STRATEGY_given given
-#define STRATEGY_free free_nodes
-
 /* The strategy, its stages, its title, the order, what it claims, and the reference. */
 #define ROW(by, stages_of, words, degree, claimed, source)                                                   \
     {                                                                                                        \
         .name = #by "-" #stages_of, .title = #by " " words, .formula = FORMULA_##by, .reference = source,    \
         .family = &gm_family_control,                                                                        \
         .coefficients =                                                                                      \
-            &(const struct gm_mesh_row){.strategy = &STRATEGY_##by, .tableau = &gm_tableau_##stages_of},     \
+            &(const struct gm_mesh_row){.strategy = &strategy_##by, .tableau = &gm_tableau_##stages_of},     \
         .order = degree, .claims = claimed                                                                   \
     }
 #define UNIFORM(stages_of, words, degree, claimed)                                                           \

@@ -21,6 +21,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/linear/iteration.h"
 #include "core/scheme.h"
 
 /* ---- the workspace ---- */
@@ -129,34 +130,23 @@ static void find_held(struct gm_collocation *work, const struct gm_form *form)
     }
 }
 
-/* A^-1 by Gauss and Jordan, without exchanges: the minors of A are those of a positive quadrature. */
 static void invert(struct gm_collocation *work)
 {
+    enum { MOST = GM_COLLOCATION_STAGES * GM_COLLOCATION_STAGES };
     const size_t r = work->r;
-    double a[GM_COLLOCATION_STAGES][2 * GM_COLLOCATION_STAGES] = {{0}};
+    double a[MOST], inverse[MOST] = {0};
     for (size_t i = 0; i < r; i++) {
-        memcpy(a[i], work->tableau->a[i], r * sizeof(double));
-        a[i][r + i] = 1;
+        memcpy(a + i * r, work->tableau->a[i], r * sizeof *a);
+        inverse[i * r + i] = 1;
     }
-    for (size_t p = 0; p < r; p++) {
-        const double over = 1 / a[p][p];
-        for (size_t j = 0; j < 2 * r; j++) {
-            a[p][j] *= over;
-        }
-        for (size_t i = 0; i < r; i++) {
-            const double factor = i == p ? 0 : a[i][p];
-            for (size_t j = 0; j < 2 * r; j++) {
-                a[i][j] -= factor * a[p][j];
-            }
-        }
-    }
+    gm_eliminate_columns(r, a, r, inverse);
     work->rest = 1;
     for (size_t i = 0; i < r; i++) {
         for (size_t j = 0; j < r; j++) {
-            work->inverse[i][j] = a[i][r + j];
-            work->sums[i] += a[i][r + j];
-            work->weights[j] += work->tableau->b[i] * a[i][r + j];
-            work->rest -= work->tableau->b[i] * a[i][r + j];
+            work->inverse[i][j] = inverse[j * r + i];
+            work->sums[i] += inverse[j * r + i];
+            work->weights[j] += work->tableau->b[i] * inverse[j * r + i];
+            work->rest -= work->tableau->b[i] * inverse[j * r + i];
         }
     }
     /* 1 - rho is (-1)^r, and has to be that to the last digit */
