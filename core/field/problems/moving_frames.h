@@ -61,8 +61,8 @@ static inline bool gm_frame_rests(const struct gm_framed *framed, const struct g
 /* Returns the exact value at time t at the node that starts at x and moves with this speed. */
 double gm_frame_exact(const struct gm_framed *framed, double speed, double x, double t);
 
-/* The exact values that the first and the last node hold, if they move with this speed; those of many steps are computed
-   together. */
+/* The exact values that the first and the last node hold, if they move with this speed. Values of many steps are
+   computed together. */
 enum { GM_ENDS_BLOCK = 64 };
 struct gm_frame_ends {
     double speed;
