@@ -373,13 +373,12 @@ static void note_kept(struct gm_certificate *certificate, enum gm_claim claim, s
 
 /* ---- on the program's own equations ---- */
 
-/* dx sum of u in the original frame */
+/* dx sum of u */
 static double kdv_mass(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_kdv *kdv = gm_kdv_of(problem);
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        sum += y[i] - kdv->framed.lambda / kdv->eta;
+        sum += y[i];
     }
     return problem->line.dx * sum;
 }
