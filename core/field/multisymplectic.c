@@ -104,6 +104,28 @@ void gm_law_differentiate(const struct gm_law *law, const double *y, const doubl
     }
 }
 
+void gm_law_differentiate_levels(const struct gm_law *law, size_t count, const double *const from[],
+                                 const double *const along[], double *const to[])
+{
+    const size_t n = law->problem->n, points = law->problem->line.points, all = n + 2 * points;
+    const size_t first[] = {0, points, n, n + points};
+    double *start = gm_arena_take(law->arena, 3 * all, sizeof *start), *direction = start + all,
+           *slope = direction + all;
+    for (size_t k = 0; k < count; k++) {
+        memcpy(start + first[k], from[k], points * sizeof *start);
+        memcpy(direction + first[k], along[k], points * sizeof *start);
+    }
+    if (n == gm_wave_size(points)) {
+        start[2 * points] = -law->dt;
+    }
+    gm_law_differentiate(law, start, count > 2 ? start + n : NULL, direction, slope);
+    for (size_t k = 0; k < count; k++) {
+        if (to[k]) {
+            memcpy(to[k], slope + first[k], points * sizeof *slope);
+        }
+    }
+}
+
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells)
 {
     const size_t d = gm_field_of(law->problem)->form->dimension;

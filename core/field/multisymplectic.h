@@ -53,6 +53,11 @@ bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const
 void gm_law_differentiate(const struct gm_law *law, const double *y, const double *memory,
                           const double *direction, double *slope);
 
+/* The same for schemes of two levels: along `count` arrays of points, the two of the state and, of 4, two of the memory,
+   of which those in `to` that are not NULL receive the derivative. The levels of a two-step scheme are dt apart. */
+void gm_law_differentiate_levels(const struct gm_law *law, size_t count, const double *const from[],
+                                 const double *const along[], double *const to[]);
+
 /* The faces of one tangent, all 0, of the arena. */
 struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
 

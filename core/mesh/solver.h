@@ -3,7 +3,6 @@
 #define GM_CORE_MESH_SOLVER_H
 
 #include "core/mesh/nodes.h"
-#include "core/mesh/tableau.h"
 #include "core/scheme.h"
 
 /* The steps of all schemes on meshes: the same number of unknowns at every node, node by node, so that
@@ -21,6 +20,7 @@ struct gm_mesh_strategy {
     const struct gm_mesh_strategy
         *relaxed;     /* instead of it where the mesh is smoothed in time; NULL: never */
     bool free;        /* nothing holds the mesh: the strategy's end has velocities, not momenta */
+    bool multiplied;  /* multipliers hold the mesh: a slack and one less than stages at every node */
     size_t unknowns;  /* unknowns per node and stage */
     size_t projected; /* unknowns per node in gm_nodes_project */
     /* weight of a change of a node's unknown in the test of convergence; NULL: 1 */
@@ -35,6 +35,18 @@ struct gm_mesh_strategy {
        multiplier. NULL: the mesh is tangled. */
     struct gm_elements *(*end)(struct gm_mesh_solver *solver, double *multiplier);
 };
+
+/* Partitioned Runge-Kutta coefficients: a for places, abar for momenta, the same weights b
+   (Hairer, Lubich & Wanner 2006, chapters II and IV; Hairer & Wanner 1996, IV.5). */
+enum { GM_STAGES = 3 };
+struct gm_mesh_tableau {
+    size_t stages;
+    bool stiffly_accurate; /* the last stage is the end of the step, for places */
+    double a[GM_STAGES][GM_STAGES], abar[GM_STAGES][GM_STAGES], b[GM_STAGES];
+};
+
+extern const struct gm_mesh_tableau gm_tableau_gauss2, gm_tableau_gauss4, gm_tableau_lobatto2,
+    gm_tableau_lobatto4, gm_tableau_radau3, gm_tableau_radau5;
 
 /* A row of the families: a strategy, and the coefficients of its stages. */
 struct gm_mesh_row {

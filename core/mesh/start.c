@@ -139,30 +139,27 @@ struct field {
     double *x, *y, *slope, *rate;
 };
 
-static void field_at(const struct field *field, double x, double *value, double *slope, double *rate)
+/* gm_mesh_profile */
+static void field_at(const void *context, const double *x, size_t count, double *value, double *slope,
+                     double *rate)
 {
-    size_t low = 0, high = field->count - 1;
-    while (high - low > 1) {
-        const size_t middle = (low + high) / 2;
-        if (field->x[middle] <= x) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    const double d = field->x[high] - field->x[low], s = (x - field->x[low]) / d, r = 1 - s;
-    const double leave = d * field->slope[low], arrive = d * field->slope[high];
-    const double rise = field->y[high] - field->y[low];
-    *value = field->y[low] + s * s * (3 - 2 * s) * rise + s * r * (r * leave - s * arrive);
-    *slope = (6 * s * r * rise + r * (1 - 3 * s) * leave + s * (3 * s - 2) * arrive) / d;
-    *rate = r * field->rate[low] + s * field->rate[high];
-}
-
-static void fields_at(const void *context, const double *x, size_t count, double *value, double *slope,
-                      double *rate)
-{
+    const struct field *field = context;
     for (size_t i = 0; i < count; i++) {
-        field_at(context, x[i], &value[i], &slope[i], &rate[i]);
+        size_t low = 0, high = field->count - 1;
+        while (high - low > 1) {
+            const size_t middle = (low + high) / 2;
+            if (field->x[middle] <= x[i]) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        const double d = field->x[high] - field->x[low], s = (x[i] - field->x[low]) / d, r = 1 - s;
+        const double leave = d * field->slope[low], arrive = d * field->slope[high];
+        const double rise = field->y[high] - field->y[low];
+        value[i] = field->y[low] + s * s * (3 - 2 * s) * rise + s * r * (r * leave - s * arrive);
+        slope[i] = (6 * s * r * rise + r * (1 - 3 * s) * leave + s * (3 * s - 2) * arrive) / d;
+        rate[i] = r * field->rate[low] + s * field->rate[high];
     }
 }
 
@@ -219,7 +216,7 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
         for (size_t k = 0; k < points + 2; k++) {
             field.rate[k] = stage.u[k] - field.slope[k] * stage.v[k];
         }
-        good = gm_mesh_start(mesh, kind, fields_at, &field, out);
+        good = gm_mesh_start(mesh, kind, field_at, &field, out);
     }
     free(memory);
     gm_elements_close(&stage);

@@ -23,20 +23,6 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
         GM_OBSERVABLE("crest", crest, "x where u is highest")
 
-static struct gm_grid1 ring(double half_length, long points)
-{
-    return (struct gm_grid1){
-        .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
-}
-
-static struct gm_grid1 between_walls(double half_length, long points)
-{
-    return (struct gm_grid1){.points = 2 * ((size_t)points - 1),
-                             .dx = 2 * half_length / (double)(points - 1),
-                             .first = -half_length,
-                             .walls = true};
-}
-
 /* The scale is 1: the momentum of a breather is 0, of a sine-Gordon kink its mass 8 times its velocity. */
 static double unit_momentum(const struct gm_view *view)
 {
@@ -79,10 +65,12 @@ static double left_of(const struct gm_system_lane *lane)
 
 struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane)
 {
-    struct gm_grid1 grid =
-        (lane->grid.walls ? between_walls : ring)(gm_system_half_length(lane), lane->grid.points);
-    grid.first = lane->grid.walls ? grid.first : left_of(lane);
-    return grid;
+    const double half_length = gm_system_half_length(lane);
+    const size_t points = (size_t)lane->grid.points, cells = lane->grid.walls ? points - 1 : points;
+    return (struct gm_grid1){.points = lane->grid.walls ? 2 * cells : points,
+                             .dx = 2 * half_length / (double)cells,
+                             .first = lane->grid.walls ? -half_length : left_of(lane),
+                             .walls = lane->grid.walls};
 }
 
 static bool open_wave(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values)
@@ -225,14 +213,13 @@ static const struct gm_parameter mesh_rows[] = {
     GM_REAL_ROW(GM_FIELD_LANE, grid.relax, "relax", "0", 0, 1e6,
                 "time T in which nodes tend to their places, for control- schemes; 0: they are there"),
 };
-static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES},
-                                  mesh_errors[] = {GM_MESH_ERRORS};
+static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES};
 static const char *const strategies[] = {"multiplier-lobatto4", "control-gauss4", "uniform-gauss4", NULL};
 
 const struct gm_field_kind gm_field_moving_waves = {
     GM_FIELD_ROWS(mesh_rows),
     GM_FIELD_OBSERVABLES(of_mesh),
-    GM_FIELD_ERRORS(mesh_errors),
+    GM_FIELD_ERRORS(gm_mesh_errors),
     .no_walls = "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u",
     .schemes = strategies,
     .open = open_mesh,

@@ -6,11 +6,12 @@
 
 enum { STENCIL = 5 /* nodes, the one that is stepped in the middle */, MIDDLE = STENCIL / 2 };
 
-/* Events relative to the node in the middle, which the frame's translations carry to t = x = 0: the nodes at
-   the current level, then at the next one, where only their positions count. */
+/* Points of the picture, as the lane sees them and as the frame carries them, relative to the node in the middle, which its
+   translations carry to t = x = 0: the nodes at the current level, then at the next one, in units of h and k, and the values
+   at the current level. */
 struct stencil {
     bool known; /* there is a frame */
-    struct gm_event seen[2 * STENCIL], carried[2 * STENCIL];
+    double nodes[2][4 * STENCIL], values[2][2 * STENCIL];
 };
 
 /* Texts and properties of one equation. */
@@ -126,32 +127,32 @@ static size_t middle_node(const struct gm_lane *lane, const struct gm_view *view
     return (size_t)fmax(MIDDLE, fmin(last, nearest));
 }
 
-static struct stencil stencil_of(const struct gm_lane *lane, const struct look *look, double h)
+static struct stencil stencil_of(const struct gm_lane *lane, const struct look *look, double h, double k)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_framed *framed = gm_framed_of(view.problem);
     const double sigma = gm_frame_rests(framed, view.scheme) ? 0 : framed->lambda * view.dt;
     const size_t j = middle_node(lane, &view);
-    struct stencil made;
+    const struct gm_moving_frames *frames = gm_moving_frames_of(view.problem);
+    struct gm_point_symmetry frame;
+    struct stencil made = {.known = frames->find(view.problem, view.scheme, view.dt, view.state, j, &frame)};
+    frame.scale = look->scaled ? h / view.problem->line.dx : frame.scale;
     for (size_t e = 0; e < 2 * STENCIL; e++) {
         const size_t i = j + e % STENCIL - MIDDLE;
         const bool next = e >= STENCIL;
-        made.seen[e] = (struct gm_event){
+        const struct gm_event seen = {
             .t = next ? view.dt : 0,
             .x = ((double)i - (double)j) * view.problem->line.dx + (next ? sigma : 0),
-            .u = view.state[i],
+            .u = view.state[i] / (look->logarithmic ? view.state[j] : 1),
         };
-    }
-    const struct gm_moving_frames *frames = gm_moving_frames_of(view.problem);
-    struct gm_point_symmetry frame;
-    made.known = frames->find(view.problem, view.scheme, view.dt, view.state, j, &frame);
-    frame.scale = look->scaled ? h / view.problem->line.dx : frame.scale;
-    for (size_t e = 0; e < 2 * STENCIL; e++) {
-        made.seen[e].u /= look->logarithmic ? view.state[j] : 1;
-        made.carried[e] = frames->carry(framed, &frame, made.seen[e]);
-        if (look->logarithmic) {
-            made.carried[e].u = log(made.carried[e].u);
-            made.seen[e].u = log(made.seen[e].u);
+        const struct gm_event both[2] = {seen, frames->carry(framed, &frame, seen)};
+        for (size_t c = 0; c < 2; c++) {
+            made.nodes[c][2 * e] = both[c].x / h;
+            made.nodes[c][2 * e + 1] = both[c].t / k;
+            if (!next) { /* at the next level only positions count */
+                made.values[c][2 * e] = both[c].x / h;
+                made.values[c][2 * e + 1] = look->logarithmic ? log(both[c].u) : both[c].u;
+            }
         }
     }
     return made;
@@ -175,6 +176,14 @@ static struct gm_panel *add(struct gm_picture *picture, const char *title, const
     return panel;
 }
 
+static void hold(struct gm_panel *panel, const double *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
+        gm_range_add(&panel->y.low, &panel->y.high, points[2 * i + 1]);
+    }
+}
+
 /* Later lanes are thinner, so that coinciding lanes are all seen. */
 static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t count)
 {
@@ -190,11 +199,7 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
         carried ? add(picture, "the same nodes, carried by the frame", "x̂ / h", "t̂ / k")
                 : add(picture, "a node and its neighbours, from each frame", "(x − xⱼ) / h", "(t − tⁿ) / k");
     for (size_t i = 0; i < count; i++) {
-        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
-        for (size_t e = 0; stencils[i].known && e < 2 * STENCIL; e++) {
-            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
-            gm_range_add(&panel->y.low, &panel->y.high, events[e].t / drawn->k);
-        }
+        hold(panel, stencils[i].nodes[carried], stencils[i].known ? (size_t)2 * STENCIL : 0);
     }
     if (!(panel->x.high > panel->x.low)) {
         panel->x = (struct gm_axis){.label = panel->x.label, .low = -2, .high = 2};
@@ -204,14 +209,9 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
     finish(&panel->x, 0.08);
     finish(&panel->y, 0.2);
     for (size_t i = 0; i < count; i++) {
-        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        const double *points = stencils[i].nodes[carried];
         if (!stencils[i].known) {
             continue;
-        }
-        double points[2 * 2 * STENCIL];
-        for (size_t e = 0; e < 2 * STENCIL; e++) {
-            points[2 * e] = events[e].x / drawn->h;
-            points[2 * e + 1] = events[e].t / drawn->k;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
         gm_mark_line(picture, panel, style, points, STENCIL, false);
@@ -240,11 +240,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     gm_range_add(&panel->x.low, &panel->x.high, -MIDDLE);
     gm_range_add(&panel->x.low, &panel->x.high, MIDDLE);
     for (size_t i = 0; i < count; i++) {
-        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
-        for (size_t e = 0; stencils[i].known && e < STENCIL; e++) {
-            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
-            gm_range_add(&panel->y.low, &panel->y.high, events[e].u);
-        }
+        hold(panel, stencils[i].values[carried], stencils[i].known ? STENCIL : 0);
     }
     finish(&panel->x, 0.08);
     if (!(panel->y.high >= panel->y.low)) {
@@ -257,14 +253,9 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
         gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.5, GM_LONG_DASH}, section, 2, false);
     }
     for (size_t i = 0; i < count; i++) {
-        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        const double *points = stencils[i].values[carried];
         if (!stencils[i].known) {
             continue;
-        }
-        double points[2 * STENCIL];
-        for (size_t e = 0; e < STENCIL; e++) {
-            points[2 * e] = events[e].x / drawn->h;
-            points[2 * e + 1] = events[e].u;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
         gm_mark_line(picture, panel, style, points, STENCIL, false);
@@ -300,7 +291,7 @@ void gm_draw_moving_frame(const struct gm_lane *const *lanes, size_t count, stru
         gm_picture_text(picture, "the node nearest to x = %g%s,  h = %.3g,  k = %s%s", place_of(lanes[0]),
                         constant, drawn.h, gm_step_text(picture, drawn.k), look->note);
     for (size_t i = 0; stencils && i < count; i++) {
-        stencils[i] = stencil_of(lanes[i], look, drawn.h);
+        stencils[i] = stencil_of(lanes[i], look, drawn.h, drawn.k);
     }
     if (stencils) {
         picture->state_columns = 2;

@@ -45,7 +45,7 @@ static bool moves(const struct gm_view *view)
     return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
 }
 
-double gm_view_mesh_error(const struct gm_view *view)
+static double mesh_error(const struct gm_view *view)
 {
     const size_t points = view->problem->n / 4;
     double largest = 0;
@@ -60,7 +60,7 @@ double gm_view_mesh_error(const struct gm_view *view)
 /* Returns the time by which the exact solution has to be shifted to fit the nodes best (least squares, by
    Gauss and Newton's iteration): positive if the numerical one is ahead. NaN if no shift below 1 is found, as
    at a bounce, where the field is at rest, or if no exact solution is known. */
-double gm_view_lead(const struct gm_view *view)
+static double lead(const struct gm_view *view)
 {
     enum { MOST_ITERATIONS = 6 };
     const double near = 1e-5, close_enough = 1e-4;
@@ -82,6 +82,12 @@ double gm_view_lead(const struct gm_view *view)
     }
     return fabs(shift) < 1 ? shift : NAN;
 }
+
+const struct gm_observable gm_mesh_errors[2] = {
+    GM_LOG_OBSERVABLE("solution_error", mesh_error, "error  max |u − exact| at the nodes"),
+    GM_OBSERVABLE("lead", lead, "time ahead of the exact solution",
+                  .missing = "no shift in time brings the exact solution near"),
+};
 
 /* The mesh with the cells' Lagrangian if the scheme integrates it. */
 static struct gm_mesh integrated(const struct gm_view *view)

@@ -14,8 +14,6 @@ double gm_mesh_exact(const struct gm_view *view, double x, double t);
    linear between them. */
 double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer);
 
-double gm_view_mesh_error(const struct gm_view *view);
-double gm_view_lead(const struct gm_view *view);
 double gm_view_mesh_energy(const struct gm_view *view);
 double gm_view_field_energy(const struct gm_view *view);
 /* Observables that are computed on request. */
@@ -26,11 +24,8 @@ double gm_view_smallest_cell(const struct gm_view *view);
 double gm_view_newton_iterations(const struct gm_view *view);
 double gm_view_factorisations(const struct gm_view *view);
 
-/* The first rows need an exact solution, the others do not. */
-#define GM_MESH_ERRORS                                                                                       \
-    GM_LOG_OBSERVABLE("solution_error", gm_view_mesh_error, "error  max |u − exact| at the nodes"),          \
-        GM_OBSERVABLE("lead", gm_view_lead, "time ahead of the exact solution",                              \
-                      .missing = "no shift in time brings the exact solution near")
+/* Observables against an exact solution, and of every run. */
+extern const struct gm_observable gm_mesh_errors[2];
 #define GM_MESH_ENERGIES                                                                                     \
     GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),                                         \
         GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),                        \

@@ -294,7 +294,8 @@ static void typed_densities_are_derived(void **unused)
                                      "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)",
                                      sentence, sizeof sentence));
     densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
-    gm_user_density_close(&density);
+    gm_tape_close(&density.tape);
+    gm_tape_close(&density.itself);
     free(values);
     close_typed(&typed);
 }

@@ -373,13 +373,12 @@ static void note_kept(struct gm_certificate *certificate, enum gm_claim claim, s
 
 /* ---- on the program's own equations ---- */
 
-/* dx sum of u in the original frame */
+/* dx sum of u */
 static double kdv_mass(const struct gm_problem *problem, const double *y)
 {
-    const struct gm_kdv *kdv = gm_kdv_of(problem);
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        sum += y[i] - kdv->framed.lambda / kdv->eta;
+        sum += y[i];
     }
     return problem->line.dx * sum;
 }
@@ -503,16 +502,14 @@ struct opened {
     struct gm_user_form form;
     struct gm_user_equation equation;
     struct gm_problem problem;
+    void (*close)(struct gm_problem *problem);
     double *start;
 };
 
 static void close_equation(struct opened *opened)
 {
-    const enum gm_system_kind kind = opened->system.kind;
-    if (opened->problem.kind) {
-        (kind == GM_FIELD      ? gm_user_wave_close
-         : kind == GM_MATRICES ? gm_user_form_close
-                               : gm_user_equation_close)(&opened->problem);
+    if (opened->close) {
+        opened->close(&opened->problem);
     }
     gm_system_close(&opened->system);
     free(opened->start);
@@ -523,12 +520,15 @@ static bool open_problem(struct opened *opened, const struct gm_grid1 *line, con
     struct gm_user_system *system = &opened->system;
     switch (system->kind) {
     case GM_FIELD:
+        opened->close = gm_user_wave_close;
         return gm_user_wave_derive(&opened->wave, system) &&
                gm_user_wave_open(&opened->problem, &opened->wave, values, line);
     case GM_MATRICES:
+        opened->close = gm_user_form_close;
         return gm_user_form_derive(&opened->form, system) &&
                gm_user_form_open(&opened->problem, &opened->form, values, line);
     default:
+        opened->close = gm_user_equation_close;
         return gm_user_equation_derive(&opened->equation, system) &&
                gm_user_equation_open(&opened->problem, &opened->equation, values, line);
     }

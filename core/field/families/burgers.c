@@ -262,11 +262,11 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
 struct run {
     double **level;
     double lambda, speed, shift; /* of the frame and of its nodes; what the exact values are larger by */
-    double ends[2 * GM_ENDS_BLOCK];
+    struct gm_frame_ends ends;
 };
 
-/* One step of a level to its other half, number `made` of `some`, with the exact values at both ends. */
-static enum gm_status make_step(const struct gm_task *task, struct run *run, size_t made, size_t some,
+/* Makes step k of a level to its other half, with the exact values at both ends. */
+static enum gm_status make_step(const struct gm_task *task, struct run *run, int64_t k,
                                 struct gm_progress *progress)
 {
     const struct gm_two_step_work *work = task->workspace;
@@ -285,8 +285,9 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
         .above = work->guess,
         .right = work->cells,
     };
-    level[1][0] = run->ends[made] - run->shift;
-    level[1][grid->points - 1] = run->ends[some + made] - run->shift;
+    gm_frame_ends_set(&run->ends, task, k, level[1]);
+    level[1][0] -= run->shift;
+    level[1][grid->points - 1] -= run->shift;
     enum gm_status status = method->make(&step, progress);
     if (status == GM_OK && !within(level[1], grid->points, run->lambda, task->limit)) {
         status = GM_BLOW_UP;
@@ -305,31 +306,23 @@ static struct gm_progress advance(const struct gm_task *task)
     const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t points = work->points, size = points * sizeof(double);
     const double lambda = framed->lambda, speed = gm_frame_rests(framed, task->scheme) ? 0 : lambda;
-    struct run run = {.level = work->level, .lambda = lambda, .speed = speed};
-    struct run companion = {.level = work->rate, .shift = lambda};
+    struct run run = {.level = work->level, .lambda = lambda, .speed = speed, .ends.speed = speed};
+    /* its nodes are those that move along */
+    struct run companion = {.level = work->rate, .shift = lambda, .ends.speed = lambda};
     const bool has_companion = lambda != 0;
     bool accompanied = has_companion && task->y[2 * points] != 0;
     struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
-    size_t made = 0, some = 0;
     memcpy(work->level[0], task->y, size);
     if (has_companion) {
         memcpy(companion.level[0], task->y + points, size);
     }
-    for (int64_t k = 0; k < task->steps; k++, made++) {
-        if (made == some) {
-            made = 0;
-            some = task->steps - k < GM_ENDS_BLOCK ? (size_t)(task->steps - k) : GM_ENDS_BLOCK;
-            gm_frame_ends(task, speed, k, some, run.ends);
-            if (accompanied) { /* its nodes are those that move along */
-                gm_frame_ends(task, lambda, k, some, companion.ends);
-            }
-        }
-        progress.status = make_step(task, &run, made, some, &progress);
+    for (int64_t k = 0; k < task->steps; k++) {
+        progress.status = make_step(task, &run, k, &progress);
         if (progress.status != GM_OK) {
             return progress;
         }
         /* a companion that fails stands still: its failure is not this run's */
-        accompanied = accompanied && make_step(task, &companion, made, some, &uncounted) == GM_OK;
+        accompanied = accompanied && make_step(task, &companion, k, &uncounted) == GM_OK;
         progress.done++;
     }
     memcpy(task->out, work->level[0], size);

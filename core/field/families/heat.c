@@ -141,10 +141,8 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_two_step_work *work = task->workspace;
     const struct row *row = task->scheme->coefficients;
     const struct gm_framed *framed = gm_framed_of(task->problem);
-    const size_t last = work->points - 1;
     const double speed = gm_frame_rests(framed, task->scheme) ? 0 : framed->lambda;
-    double ends[2 * GM_ENDS_BLOCK];
-    size_t made = 0, some = 0;
+    struct gm_frame_ends ends = {.speed = speed};
     struct gm_progress progress = {.status = GM_OK};
     struct step step = {
         .points = work->points,
@@ -154,16 +152,10 @@ static struct gm_progress advance(const struct gm_task *task)
         .sigma = speed * task->dt,
     };
     memcpy(work->level[0], task->y, work->points * sizeof(double));
-    for (int64_t i = 0; i < task->steps; i++, made++) {
-        if (made == some) {
-            made = 0;
-            some = task->steps - i < GM_ENDS_BLOCK ? (size_t)(task->steps - i) : GM_ENDS_BLOCK;
-            gm_frame_ends(task, speed, i, some, ends);
-        }
+    for (int64_t i = 0; i < task->steps; i++) {
         step.u = work->level[i % 2];
         step.v = work->level[(i + 1) % 2];
-        step.v[0] = ends[made];
-        step.v[last] = ends[some + made];
+        gm_frame_ends_set(&ends, task, i, step.v);
         row->make(&step);
         progress.evaluations++;
         if (!gm_field_stepped(task, &progress, step.v, work->points)) {

@@ -42,8 +42,8 @@ struct stages {
     enum rule rule;
     enum gm_mesh_kind kind;
     double t; /* the middle of the step */
-    struct gm_elements before,
-        after; /* at the ends of a step, or both in its middle, with its mean velocity */
+    /* at the start and the end of a step, or both in its middle, with its mean velocity */
+    struct gm_elements at[2];
 };
 
 struct law {
@@ -55,47 +55,25 @@ struct law {
 static bool place(const struct gm_mesh_subject *subject, struct stages *stages, const double *from,
                   const double *to, double h)
 {
-    const size_t points = subject->mesh.points;
-    double mean[2][4 * POINTS];
-    memcpy(mean[0], from, 2 * points * sizeof *from);
-    memcpy(mean[1], to, 2 * points * sizeof *to);
-    for (size_t i = 0; i < 2 * points; i++) {
-        mean[0][2 * points + i] = mean[1][2 * points + i] = (to[i] - from[i]) / h;
-        if (stages->rule == MIDPOINT) {
-            mean[0][i] = mean[1][i] = (from[i] + to[i]) / 2;
+    const size_t half = 2 * subject->mesh.points;
+    for (size_t side = 0; side < 2; side++) {
+        struct gm_elements *at = &stages->at[side];
+        double mean[4 * POINTS];
+        for (size_t i = 0; i < half; i++) {
+            const double end = side ? to[i] : from[i];
+            mean[i] = stages->rule == MIDPOINT ? (from[i] + to[i]) / 2 : end;
+            mean[half + i] = (to[i] - from[i]) / h;
+        }
+        gm_elements_place(at, mean);
+        if (stages->kind == GM_MESH_GIVEN) {
+            gm_mesh_known(&subject->mesh, stages->kind, stages->t, at);
+        }
+        if (!gm_elements_evaluate(at, &subject->mesh)) {
+            return false;
         }
     }
-    gm_elements_place(&stages->before, mean[0]);
-    gm_elements_place(&stages->after, mean[1]);
-    if (stages->kind == GM_MESH_GIVEN) {
-        gm_mesh_known(&subject->mesh, stages->kind, stages->t, &stages->before);
-        gm_mesh_known(&subject->mesh, stages->kind, stages->t, &stages->after);
-    }
-    if (!gm_elements_evaluate(&stages->before, &subject->mesh) ||
-        !gm_elements_evaluate(&stages->after, &subject->mesh)) {
-        return false;
-    }
-    gm_elements_constrain(&stages->before, &subject->mesh);
+    gm_elements_constrain(&stages->at[0], &subject->mesh);
     return true;
-}
-
-/* h/2 times the derivative of l at `at` by the place of end `end` of an element, and the mean momentum
-   there */
-static void parts(const struct stages *stages, const struct gm_elements *at, double h, size_t e, size_t end,
-                  double force[2], double momentum[2])
-{
-    const struct gm_elements *both[2] = {&stages->before, &stages->after};
-    force[0] = h / 2 * (end ? at->force_y1[e] : at->force_y0[e]);
-    force[1] = h / 2 * (end ? at->force_d[e] : -at->force_d[e]);
-    momentum[0] = momentum[1] = 0;
-    for (int i = 0; i < 2; i++) {
-        const double u = end ? both[i]->momentum_u1[e] : both[i]->momentum_u0[e];
-        momentum[0] += u / 2;
-        momentum[1] -= both[i]->slope[e] * u / 2;
-        if (at->cells) {
-            momentum[1] += (end ? both[i]->cell_v1 : both[i]->cell_v0)[e] / 2;
-        }
-    }
 }
 
 /* Multipliers with which the Euler-Lagrange equations hold best: least squares of Dg^T lambda = rest. */
@@ -124,19 +102,28 @@ static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2
     return gm_eliminate(POINTS, normal, lambda + 1);
 }
 
-/* dL_e/dq' and dL_e/dq at both ends of all elements */
+/* dL_e/dq' and dL_e/dq at both ends of all elements: h/2 times the derivative of l by the place there, and the mean
+   momentum. */
 static void differentiate(const struct stages *stages, double h, double push[ELEMENTS][2][2],
                           double pull[ELEMENTS][2][2])
 {
-    double force[2], momentum[2];
-    for (size_t e = 0; e < ELEMENTS; e++) {
-        for (size_t end = 0; end < 2; end++) {
-            parts(stages, &stages->after, h, e, end, force, momentum);
-            push[e][end][0] = force[0] + momentum[0];
-            push[e][end][1] = force[1] + momentum[1];
-            parts(stages, &stages->before, h, e, end, force, momentum);
-            pull[e][end][0] = force[0] - momentum[0];
-            pull[e][end][1] = force[1] - momentum[1];
+    for (size_t i = 0; i < 2 * ELEMENTS; i++) {
+        const size_t e = i / 2, end = i % 2;
+        double force[2][2], momentum[2] = {0};
+        for (size_t side = 0; side < 2; side++) {
+            const struct gm_elements *at = &stages->at[side];
+            const double u = (end ? at->momentum_u1 : at->momentum_u0)[e];
+            momentum[0] += u / 2;
+            momentum[1] -= at->slope[e] * u / 2;
+            if (at->cells) {
+                momentum[1] += (end ? at->cell_v1 : at->cell_v0)[e] / 2;
+            }
+            force[side][0] = h / 2 * (end ? at->force_y1 : at->force_y0)[e];
+            force[side][1] = h / 2 * (end ? at->force_d[e] : -at->force_d[e]);
+        }
+        for (size_t c = 0; c < 2; c++) {
+            push[e][end][c] = force[1][c] + momentum[c];
+            pull[e][end][c] = force[0][c] - momentum[c];
         }
     }
 }
@@ -146,7 +133,7 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
 {
     *motion = (struct motion){0};
     const double h = law->step.dt;
-    const struct gm_elements *at = &stages->before;
+    const struct gm_elements *at = &stages->at[0];
     double push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
     stages->t = subject->mesh.t + h / 2;
     if (!place(subject, stages, states[0], states[1], h)) {
@@ -192,23 +179,18 @@ static bool observe(const struct gm_mesh_subject *subject, const void *context, 
     const struct gm_mesh_step *step = &law->step;
     double states[3][4 * POINTS];
     struct stages stages = {.rule = law->rule, .kind = law->kind};
-    memcpy(states[0], state, sizeof states[0]);
-    if (!gm_elements_open(&stages.before, &subject->mesh)) {
-        return false;
-    }
-    if (!gm_elements_open(&stages.after, &subject->mesh)) {
-        gm_elements_close(&stages.before);
-        return false;
-    }
     struct motion motion;
-    const bool good = gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, states[0], states[1]) &&
+    memcpy(states[0], state, sizeof states[0]);
+    const bool good = gm_elements_open(&stages.at[0], &subject->mesh) &&
+                      gm_elements_open(&stages.at[1], &subject->mesh) &&
+                      gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, states[0], states[1]) &&
                       gm_mesh_subject_advance(subject, step->scheme, step->dt, 2, states[0], states[2]) &&
                       measure(subject, law, &stages, states, &motion);
     if (good) {
         memcpy(values, &motion, sizeof motion);
     }
-    gm_elements_close(&stages.before);
-    gm_elements_close(&stages.after);
+    gm_elements_close(&stages.at[0]);
+    gm_elements_close(&stages.at[1]);
     return good;
 }
 

@@ -136,18 +136,14 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
     if (kind != GM_MESH_MOVING) {
         return true;
     }
-    struct gm_elements stage;
-    struct gm_banded matrix;
+    struct gm_elements stage = {0};
+    struct gm_banded matrix = {0};
     double change[GM_MESH_SUBJECT_POINTS];
-    if (!gm_elements_open(&stage, &subject->mesh)) {
-        return false;
+    bool good = gm_elements_open(&stage, &subject->mesh) && gm_banded_open(&matrix, points, 1);
+    if (good) {
+        gm_elements_place(&stage, state);
+        good = gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
     }
-    if (!gm_banded_open(&matrix, points, 1)) {
-        gm_elements_close(&stage);
-        return false;
-    }
-    gm_elements_place(&stage, state);
-    bool good = gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
     if (good) {
         /* dX/dt for dy/dt given: no slope, the rate is dy/dt */
         memcpy(state + points, stage.x + 1, points * sizeof *state);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Partitioned Runge-Kutta methods for the field on a mesh whose equation is one of four. At the stages i
+/* Partitioned Runge-Kutta methods for the field on a mesh whose equation is one of five. At the stages i
        Y_i = y_n + h sum_j a_ij Ydot_j
        P_i = p_n + h sum_j abar_ij F_j
        P_i = dL/dydot(Y_i, Q_i, Ydot_i, Qdot_i),   F_j = dL/dy(Y_j, Q_j, Ydot_j, Qdot_j)
@@ -10,6 +10,7 @@
                  the same smoothed in time: with density 1 the slowest mode of the mesh decays as exp(-pi^2 t / T)
        free      dL/dXdot at the stages is p_n + h sum_j abar_ij dL/dX, as that of y, and so is Q_i: nothing holds the
                  mesh, whose cells may have a Lagrangian of their own (section 3.3, remarks 1 to 4)
+       multiplied   the same with the mesh held by Lagrange multipliers, whose equations multiplier.c states
        known     Q_i = F(x, t_n + c_i h),   Qdot_i = F_t(x, t_n + c_i h);   uniform: F = x
    The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not conserve
    its energy. On a known mesh the midpoint rule (gauss2) comes from a discrete Lagrangian of the elements, and on the
@@ -20,17 +21,29 @@
 
 #include "core/mesh/families/families.h"
 
-/* Unknowns at a node, stage by stage: dy/dt, then X of a mesh that is held, then dX/dt unless it is known. */
+/* Unknowns at a node, stage by stage: dy/dt, then X of a mesh that is held, then dX/dt unless it is known; and behind all
+   stages, if the constraint has multipliers, the slack W and Lambda_1 ... Lambda_{s-1}. */
 struct layout {
-    size_t per_stage, rate;           /* the number of dX/dt; 0: it is known */
-    bool held, drifts, relaxed, free; /* drifts: X follows from dX/dt, as y from dy/dt */
+    size_t per_stage, rate; /* the number of dX/dt; 0: it is known */
+    size_t slack;           /* the number of W; 0: there are no multipliers */
+    bool held, drifts;      /* drifts: X follows from dX/dt, as y from dy/dt */
+    bool relaxed, pushed;   /* pushed: X has momenta, as y */
+    bool constrained;       /* the density takes part */
 };
 
 static struct layout layout_of(const struct gm_mesh_solver *solver)
 {
-    const size_t per_stage = solver->strategy->unknowns;
-    const bool free = solver->strategy->free, drifts = per_stage == 2;
-    return (struct layout){per_stage, per_stage - 1, per_stage == 3, drifts, drifts && !free, free};
+    const struct gm_mesh_strategy *strategy = solver->strategy;
+    const size_t per_stage = strategy->multiplied ? 2 : strategy->unknowns;
+    const bool drifts = per_stage == 2, pushed = strategy->free || strategy->multiplied;
+    return (struct layout){.per_stage = per_stage,
+                           .rate = per_stage - 1,
+                           .slack = strategy->multiplied ? 2 * solver->stages : 0,
+                           .held = per_stage == 3,
+                           .drifts = drifts,
+                           .relaxed = drifts && !pushed,
+                           .pushed = pushed,
+                           .constrained = per_stage > 1 && !strategy->free};
 }
 
 /* E of a mesh that is smoothed in time */
@@ -54,6 +67,48 @@ static void guess(const struct gm_mesh_solver *solver, double *unknowns)
                 at[of.rate] = solver->state[3 * points + k];
             }
         }
+        for (size_t i = 0; i < solver->stages && of.slack > 0; i++) {
+            unknowns[k * solver->per_node + of.slack + i] = 0;
+        }
+    }
+}
+
+/* force = d/dq [l + omega ell-dot - Lambda ell] at the nodes */
+static void force(const struct gm_elements *stage, const double *restrict slack, double kappa,
+                  const double *restrict share, size_t points, double *restrict out)
+{
+    double *const *bend = stage->bend, *const *by = stage->gradient;
+    double y_left = 0, x_left = 0;
+    for (size_t e = 0; e <= points; e++) {
+        const double omega = kappa * slack[e], lambda = share ? share[e] : 0;
+        if (e > 0) {
+            out[2 * e - 2] = y_left + stage->force_y0[e] + omega * bend[0][e] - lambda * by[0][e];
+            out[2 * e - 1] = x_left - stage->force_d[e] + omega * bend[1][e] - lambda * by[1][e];
+        }
+        y_left = stage->force_y1[e] + omega * bend[2][e] - lambda * by[2][e];
+        x_left = stage->force_d[e] + omega * bend[3][e] - lambda * by[3][e];
+    }
+}
+
+/* The forces at the nodes at stage i, of which X takes part in those of y alone if it has no momenta. */
+static void find_forces(struct gm_mesh_solver *solver, const struct layout *of, const double *unknowns,
+                        size_t i)
+{
+    const struct gm_elements *stage = &solver->stage[i];
+    const size_t points = solver->mesh.points;
+    double *out = solver->forces[i];
+    if (of->slack > 0) {
+        const bool has_multiplier = i + 1 < solver->stages;
+        if (has_multiplier) {
+            gm_nodes_spread(unknowns, points, solver->per_node, of->slack + 1 + i, solver->share[i]);
+        }
+        force(stage, solver->slack, solver->row->kappa[i], has_multiplier ? solver->share[i] : NULL, points,
+              out);
+        return;
+    }
+    for (size_t k = 1; k <= points; k++) {
+        out[2 * k - 2] = gm_force_y(stage, k);
+        out[2 * k - 1] = of->pushed ? gm_force_x(stage, k) : 0;
     }
 }
 
@@ -62,49 +117,67 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
     const struct layout of = layout_of(solver);
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
     const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
+    const size_t acting = of.slack > 0 ? stages - 1 : stages; /* the last column of abar is zero then */
+    const double h = solver->h, *state = solver->state, *momenta = solver->momenta;
+    if (of.slack > 0) {
+        gm_nodes_spread(unknowns, points, per_node, of.slack, solver->slack);
+    }
     for (size_t i = 0; i < stages; i++) {
         struct gm_elements *stage = &solver->stage[i];
+        const double *a = tableau->a[i];
         for (size_t k = 0; k < points; k++) {
             const double *at = unknowns + k * per_node, *here = at + i * of.per_stage;
             double rise = 0, shift = 0;
             for (size_t j = 0; j < stages; j++) {
-                rise += tableau->a[i][j] * at[j * of.per_stage];
+                rise += a[j] * at[j * of.per_stage];
+                shift += of.drifts ? a[j] * at[j * of.per_stage + 1] : 0;
             }
-            for (size_t j = 0; of.drifts && j < stages; j++) {
-                shift += tableau->a[i][j] * at[j * of.per_stage + 1];
-            }
-            stage->y[k + 1] = solver->state[k] + solver->h * rise;
+            stage->y[k + 1] = state[k] + h * rise;
             stage->u[k + 1] = here[0];
             if (of.rate > 0) {
-                stage->x[k + 1] = of.held ? here[1] : solver->state[points + k] + solver->h * shift;
+                stage->x[k + 1] = of.held ? here[1] : state[points + k] + h * shift;
                 stage->v[k + 1] = here[of.rate];
             }
         }
         if (!gm_elements_evaluate(stage, &solver->mesh)) {
             return false;
         }
-        if (of.rate > 0 && !of.free) {
+        if (of.constrained) {
             gm_elements_constrain(stage, &solver->mesh);
         }
+        find_forces(solver, &of, unknowns, i);
     }
-    const double resists = friction(&solver->mesh);
+    const double resists = friction(&solver->mesh), *slack = solver->slack;
     for (size_t i = 0; i < stages; i++) {
         const struct gm_elements *stage = &solver->stage[i];
+        const double kappa = solver->row->kappa[i], left = solver->row->left[i], *abar = tableau->abar[i];
+        double *const *by = stage->gradient;
         for (size_t k = 1; k <= points; k++) {
-            double *at = out + (k - 1) * per_node + i * of.per_stage;
-            double sum = 0, sum_x = 0;
-            for (size_t j = 0; j < stages; j++) {
-                sum += tableau->abar[i][j] * gm_force_y(&solver->stage[j], k);
-                sum_x += of.free ? tableau->abar[i][j] * gm_force_x(&solver->stage[j], k) : 0;
+            double *node = out + (k - 1) * per_node, *at = node + i * of.per_stage;
+            double sum = 0, sum_x = 0, p_y = gm_momentum_u(stage, k),
+                   p_x = of.pushed ? gm_momentum_v(stage, k) : 0;
+            for (size_t j = 0; j < acting; j++) {
+                sum += abar[j] * solver->forces[j][2 * k - 2];
+                sum_x += abar[j] * solver->forces[j][2 * k - 1];
             }
-            at[0] = gm_momentum_u(stage, k) - solver->momenta[2 * k - 2] - solver->h * sum;
+            if (of.slack > 0) {
+                const double before = kappa * slack[k - 1], after = kappa * slack[k],
+                             hidden = left * gm_jump(stage->rate, k);
+                p_y = p_y + before * by[2][k - 1] + after * by[0][k];
+                p_x = p_x + before * by[3][k - 1] + after * by[1][k];
+                node[of.slack] = i == 0 ? hidden : node[of.slack] + hidden;
+                if (i > 0) {
+                    node[of.slack + i] = gm_jump(stage->ell, k);
+                }
+            }
+            at[0] = p_y - momenta[2 * k - 2] - h * sum;
             if (of.held) {
                 at[1] = gm_jump(stage->ell, k);
                 at[2] = gm_jump(stage->rate, k);
             } else if (of.relaxed) {
                 at[1] = resists * stage->v[k] - gm_jump(stage->ell, k);
-            } else if (of.free) {
-                at[1] = gm_momentum_v(stage, k) - solver->momenta[2 * k - 1] - solver->h * sum_x;
+            } else if (of.pushed) {
+                at[1] = p_x - momenta[2 * k - 1] - h * sum_x;
             }
         }
     }
@@ -129,6 +202,35 @@ static struct follows follow(const struct gm_mesh_solver *solver, size_t m, size
     return made;
 }
 
+/* Adds what the slack and the multipliers do to the derivatives of momenta and forces, and their columns. */
+static void add_multipliers(const struct gm_mesh_solver *solver, const struct gm_assembly *assembly,
+                            struct gm_element_matrices at[GM_STAGES])
+{
+    const struct gm_mesh_row *row = solver->row;
+    const size_t e = assembly->element, stages = solver->stages;
+    for (size_t i = 0; i < stages; i++) {
+        const double omega = row->kappa[i] * solver->slack[e],
+                     lambda = i + 1 < stages ? solver->share[i][e] : 0;
+        const double *abar = row->tableau->abar[i];
+        const struct gm_places rows = {2 * i, 2 * i + 1};
+        double by_slack[4];
+        for (size_t a = 0; a < 4; a++) {
+            for (size_t b = 0; b < 4; b++) {
+                at[i].mixed[a][b] += omega * at[i].hessian[a][b];
+                at[i].stiff[a][b] -= lambda * at[i].hessian[a][b];
+            }
+            by_slack[a] = row->kappa[i] * at[i].gradient[a];
+            for (size_t j = 0; j < stages; j++) {
+                by_slack[a] -= solver->h * abar[j] * row->kappa[j] * at[j].bend[a];
+            }
+        }
+        gm_nodes_add_column(assembly, rows, 2 * stages, 1, by_slack);
+        for (size_t j = 0; j + 1 < stages; j++) {
+            gm_nodes_add_column(assembly, rows, 2 * stages + 1 + j, solver->h * abar[j], at[j].gradient);
+        }
+    }
+}
+
 static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *assembly)
 {
     const struct layout of = layout_of(solver);
@@ -137,8 +239,10 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
     const double share = friction(&solver->mesh) / 2; /* a node is in two elements */
     struct gm_element_matrices at[GM_STAGES] = {0};
     for (size_t i = 0; i < stages; i++) {
-        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, of.rate > 0 && !of.free,
-                             &at[i]);
+        gm_elements_matrices(&solver->stage[i], &solver->mesh, assembly->element, of.constrained, &at[i]);
+    }
+    if (of.slack > 0) {
+        add_multipliers(solver, assembly, at);
     }
     /* the columns of dy/dt and the next unknown together, then those of dX/dt where X is held */
     for (size_t k = 0; k < stages * (1 + of.held); k++) {
@@ -161,12 +265,16 @@ static void jacobian(struct gm_mesh_solver *solver, const struct gm_assembly *as
                         place[i] * at[i].mixed[a][b] + own[i] * at[i].mass[a][b] - solver->h * pushed;
                 }
                 resists[b][b] = share * own[i];
-                ell[b] = (of.held ? 1 : -1) * place[i] * at[i].gradient[b];
-                rate[b] = place[i] * at[i].bend[b] + own[i] * at[i].gradient[b];
+                ell[b] = (of.relaxed ? -1 : 1) * place[i] * at[i].gradient[b];
+                rate[b] = (of.slack > 0 ? solver->row->left[i] : 1) *
+                          (place[i] * at[i].bend[b] + own[i] * at[i].gradient[b]);
             }
-            gm_nodes_add(assembly, (struct gm_places){row, of.free ? row + 1 : GM_NOWHERE}, columns, block);
-            if (of.rate > 0 && !last && !of.free) {
-                gm_nodes_add_row(assembly, row + 1, columns, ell);
+            gm_nodes_add(assembly, (struct gm_places){row, of.pushed ? row + 1 : GM_NOWHERE}, columns, block);
+            if (of.slack > 0) {
+                gm_nodes_add_row(assembly, of.slack, columns, rate);
+            }
+            if (of.constrained && !last && !(of.slack > 0 && i == 0)) {
+                gm_nodes_add_row(assembly, of.slack > 0 ? of.slack + i : row + 1, columns, ell);
             }
             if (of.held) {
                 gm_nodes_add_row(assembly, row + 2, columns, rate);
@@ -218,9 +326,8 @@ static bool set_free(struct gm_mesh_solver *solver, struct gm_elements *ends, co
 
 static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier)
 {
-    (void)multiplier;
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
-    const size_t points = solver->mesh.points, stages = solver->stages;
+    const size_t points = solver->mesh.points, stages = solver->stages, moves = solver->strategy->projected;
     const struct layout of = layout_of(solver);
     struct gm_elements *ends = &solver->ends;
     for (size_t k = 1; k <= points; k++) {
@@ -229,19 +336,18 @@ static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier
             const struct gm_elements *stage = &solver->stage[i];
             rise += tableau->b[i] * stage->u[k];
             shift += tableau->b[i] * stage->v[k];
-            force += tableau->b[i] * gm_force_y(stage, k);
-            force_x += tableau->b[i] * gm_force_x(stage, k);
+            force += tableau->b[i] * solver->forces[i][2 * k - 2];
+            force_x += tableau->b[i] * solver->forces[i][2 * k - 1];
         }
         ends->y[k] = solver->state[k - 1] + solver->h * rise;
         ends->x[k] = tableau->stiffly_accurate ? solver->stage[stages - 1].x[k]
                                                : solver->state[points + k - 1] + solver->h * shift;
-        solver->motion[solver->strategy->projected * (k - 1)] =
-            solver->momenta[2 * k - 2] + solver->h * force;
-        if (of.free) {
-            solver->motion[2 * k - 1] = solver->momenta[2 * k - 1] + solver->h * force_x;
+        solver->motion[moves * (k - 1)] = solver->momenta[2 * k - 2] + solver->h * force;
+        if (of.pushed) {
+            solver->motion[moves * (k - 1) + 1] = solver->momenta[2 * k - 1] + solver->h * force_x;
         }
     }
-    if (of.free) {
+    if (solver->strategy->free) {
         const bool found = set_free(solver, ends, solver->motion);
         for (size_t k = 0; k < points; k++) {
             solver->motion[2 * k] = ends->u[k + 1];
@@ -253,6 +359,9 @@ static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier
         gm_mesh_known(&solver->mesh, solver->strategy->kind, solver->t + solver->h, ends);
         return gm_elements_measure(ends, &solver->mesh) ? ends : NULL;
     }
+    if (of.slack > 0) {
+        *multiplier = gm_mesh_largest(solver, of.slack + 1);
+    }
     const bool good =
         of.held && !tableau->stiffly_accurate
             ? gm_nodes_equidistribute(ends, &solver->mesh, NULL, NULL, &solver->places, solver->trial)
@@ -263,15 +372,24 @@ static struct gm_elements *end(struct gm_mesh_solver *solver, double *multiplier
     return good ? ends : NULL;
 }
 
+/* Multipliers of constraints on places carry round-off divided by the squared step. */
+static double weight(size_t stages, size_t unknown, double step)
+{
+    return unknown > 2 * stages ? step : 1;
+}
+
 #define STRATEGY .guess = guess, .residual = residual, .jacobian = jacobian, .end = end
 static const struct gm_mesh_strategy relaxed = {
     .kind = GM_MESH_FREE, .unknowns = 2, .projected = 1, STRATEGY};
-static const struct gm_mesh_strategy control = {
+static const struct gm_mesh_strategy strategy_control = {
     .kind = GM_MESH_MOVING, .unknowns = 3, .projected = 2, .relaxed = &relaxed, STRATEGY};
-static const struct gm_mesh_strategy free_nodes = {
+static const struct gm_mesh_strategy strategy_free = {
     .kind = GM_MESH_FREE, .free = true, .unknowns = 2, .projected = 2, STRATEGY};
-static const struct gm_mesh_strategy given = {.kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
-static const struct gm_mesh_strategy uniform = {
+const struct gm_mesh_strategy gm_mesh_multiplied = {
+    .kind = GM_MESH_MOVING, .multiplied = true, .unknowns = 3, .projected = 3, .weight = weight, STRATEGY};
+static const struct gm_mesh_strategy strategy_given = {
+    .kind = GM_MESH_GIVEN, .unknowns = 1, .projected = 1, STRATEGY};
+static const struct gm_mesh_strategy strategy_uniform = {
     .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
 
 #define FORMULA_control                                                                                      \
@@ -286,18 +404,13 @@ static const struct gm_mesh_strategy uniform = {
     "L of the field and of the cells"
 #define PAIR (GM_SYMMETRIC | GM_REVERSIBLE)
 
-#define STRATEGY_control control
-#define STRATEGY_uniform uniform
-#define STRATEGY_given given
-#define STRATEGY_free free_nodes
-
 /* The strategy, its stages, its title, the order, what it claims, and the reference. */
 #define ROW(by, stages_of, words, degree, claimed, source)                                                   \
     {                                                                                                        \
         .name = #by "-" #stages_of, .title = #by " " words, .formula = FORMULA_##by, .reference = source,    \
         .family = &gm_family_control,                                                                        \
         .coefficients =                                                                                      \
-            &(const struct gm_mesh_row){.strategy = &STRATEGY_##by, .tableau = &gm_tableau_##stages_of},     \
+            &(const struct gm_mesh_row){.strategy = &strategy_##by, .tableau = &gm_tableau_##stages_of},     \
         .order = degree, .claims = claimed                                                                   \
     }
 #define UNIFORM(stages_of, words, degree, claimed)                                                           \

@@ -10,7 +10,9 @@
 #include "core/mesh/families/families.def"
 #undef GM_FAMILY
 
-/* The multiplier strategy with the stages of Lobatto's order 4. */
+/* The mesh held by multipliers at the stages. */
+extern const struct gm_mesh_strategy gm_mesh_multiplied;
+/* The same with the stages of Lobatto's order 4. */
 extern const struct gm_mesh_row gm_mesh_multiplier4;
 
 /* The common fields of all families; each adds only its array of schemes. */

@@ -223,12 +223,6 @@ bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_
     return good;
 }
 
-void gm_user_density_close(struct gm_user_density *density)
-{
-    gm_tape_close(&density->tape);
-    gm_tape_close(&density->itself);
-}
-
 enum { LABEL, TIME, OF_MAP, ROOM = 128 };
 
 static void places(const struct gm_mesh_map *map, const double *label, size_t count, double t, double *x,

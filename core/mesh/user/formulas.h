@@ -46,9 +46,9 @@ struct gm_user_cell {
 bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
                        char *sentence, size_t size);
 
-/* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. To be closed in both cases. */
+/* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. The caller closes both tapes
+   in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
                           const char *text, char *sentence, size_t size);
-void gm_user_density_close(struct gm_user_density *density);
 
 #endif

@@ -268,9 +268,9 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->means,    &self->bend,          &self->known,
-                                         &self->map.tape, &self->cell.by_first, &self->cell.by_second};
-        gm_user_density_close(&self->density);
+        struct gm_tape *const tapes[] = {&self->density.tape,  &self->density.itself, &self->means,
+                                         &self->bend,          &self->known,          &self->map.tape,
+                                         &self->cell.by_first, &self->cell.by_second};
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);

@@ -21,6 +21,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/linear/iteration.h"
 #include "core/scheme.h"
 
 /* ---- the workspace ---- */
@@ -116,34 +117,36 @@ static void find_range(struct gm_collocation *work, const struct gm_form *form)
     }
 }
 
-/* A^-1 by Gauss and Jordan, without exchanges: the minors of A are those of a positive quadrature. */
+/* The sides of potentials, each of which is one vector of the basis that has no other component. */
+static void find_held(struct gm_collocation *work, const struct gm_form *form)
+{
+    for (size_t at = 0; at < form->potential_count * work->r; at++) {
+        const double *row = work->basis[form->potentials[at / work->r].component];
+        size_t place = 0;
+        for (size_t a = 0; a < work->rank; a++) {
+            place = fabs(row[a]) > fabs(row[place]) ? a : place;
+        }
+        work->held[work->held_count++] = at % work->r * work->rank + place;
+    }
+}
+
 static void invert(struct gm_collocation *work)
 {
+    enum { MOST = GM_COLLOCATION_STAGES * GM_COLLOCATION_STAGES };
     const size_t r = work->r;
-    double a[GM_COLLOCATION_STAGES][2 * GM_COLLOCATION_STAGES] = {{0}};
+    double a[MOST], inverse[MOST] = {0};
     for (size_t i = 0; i < r; i++) {
-        memcpy(a[i], work->tableau->a[i], r * sizeof(double));
-        a[i][r + i] = 1;
+        memcpy(a + i * r, work->tableau->a[i], r * sizeof *a);
+        inverse[i * r + i] = 1;
     }
-    for (size_t p = 0; p < r; p++) {
-        const double over = 1 / a[p][p];
-        for (size_t j = 0; j < 2 * r; j++) {
-            a[p][j] *= over;
-        }
-        for (size_t i = 0; i < r; i++) {
-            const double factor = i == p ? 0 : a[i][p];
-            for (size_t j = 0; j < 2 * r; j++) {
-                a[i][j] -= factor * a[p][j];
-            }
-        }
-    }
+    gm_eliminate_columns(r, a, r, inverse);
     work->rest = 1;
     for (size_t i = 0; i < r; i++) {
         for (size_t j = 0; j < r; j++) {
-            work->inverse[i][j] = a[i][r + j];
-            work->sums[i] += a[i][r + j];
-            work->weights[j] += work->tableau->b[i] * a[i][r + j];
-            work->rest -= work->tableau->b[i] * a[i][r + j];
+            work->inverse[i][j] = inverse[j * r + i];
+            work->sums[i] += inverse[j * r + i];
+            work->weights[j] += work->tableau->b[i] * inverse[j * r + i];
+            work->rest -= work->tableau->b[i] * inverse[j * r + i];
         }
     }
     /* 1 - rho is (-1)^r, and has to be that to the last digit */
@@ -205,6 +208,7 @@ void *gm_collocation_open(const struct gm_problem *problem, const struct gm_sche
         work->jump[c] = form->jump[c];
     }
     find_range(work, form);
+    find_held(work, form);
     invert(work);
     work->stages = work->d * work->r * work->r;
     work->sides = work->r * work->rank;
@@ -388,40 +392,22 @@ static void subtract_hessian(const struct gm_collocation *work, const double *he
     }
 }
 
-/* The index of a potential's vector in the basis, which has no other component. */
-static size_t place_of(const struct gm_collocation *work, size_t component)
-{
-    size_t place = 0;
-    for (size_t a = 0; a < work->rank; a++) {
-        place = fabs(work->basis[component][a]) > fabs(work->basis[component][place]) ? a : place;
-    }
-    return place;
-}
-
 /* The constant of a potential is free, and its closure around the ring follows from the other equations.
    Instead of that equation, the first side in the last cell keeps the guess. */
 static void hold_potentials(const struct gm_collocation *work, double *matrix)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t columns = work->stages + 2 * work->sides;
-    for (size_t p = 0; p < form->potential_count; p++) {
-        for (size_t j = 0; j < work->r; j++) {
-            const size_t side = j * work->rank + place_of(work, form->potentials[p].component);
-            double *row = matrix + (work->stages + side) * columns;
-            memset(row, 0, columns * sizeof *row);
-            row[work->stages + work->sides + side] = weight_of_sides(work);
-        }
+    for (size_t h = 0; h < work->held_count; h++) {
+        double *row = matrix + (work->stages + work->held[h]) * columns;
+        memset(row, 0, columns * sizeof *row);
+        row[work->stages + work->sides + work->held[h]] = weight_of_sides(work);
     }
 }
 
 static void hold_right(struct gm_collocation *work)
 {
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    for (size_t p = 0; p < form->potential_count; p++) {
-        for (size_t j = 0; j < work->r; j++) {
-            const size_t side = j * work->rank + place_of(work, form->potentials[p].component);
-            work->right[(work->stages + side) * work->points + work->points - 1] = 0;
-        }
+    for (size_t h = 0; h < work->held_count; h++) {
+        work->right[(work->stages + work->held[h]) * work->points + work->points - 1] = 0;
     }
 }
 

@@ -40,7 +40,8 @@ struct gm_collocation {
     double jump[GM_MOST_OF_FORM]; /* s(x + the ring) - s(x) */
     double basis[GM_MOST_OF_FORM]
                 [GM_MOST_OF_FORM]; /* [component][k], k < rank: of the range of K, orthonormal */
-    double slopes[GM_MOST_OF_FORM][GM_MOST_OF_FORM]; /* K basis */
+    double slopes[GM_MOST_OF_FORM][GM_MOST_OF_FORM];                  /* K basis */
+    size_t held[GM_MOST_OF_FORM * GM_COLLOCATION_STAGES], held_count; /* sides of potentials */
     double inverse[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES],
         sums[GM_COLLOCATION_STAGES];             /* A^-1, A^-1 1 */
     double weights[GM_COLLOCATION_STAGES], rest; /* b' A^-1, and 1 - b' A^-1 1 */

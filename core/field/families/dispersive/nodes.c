@@ -139,23 +139,6 @@ struct tangent {
     double *first[3], *second[3];
 };
 
-/* The derivative of a step along the two arrays of `direction`, at u of the current and the past level or
-   at p and q: the first array of the next state, or both. */
-static void by_own_steps(const struct base *base, const double *first, const double *second,
-                         const double *direction, double *slope)
-{
-    const size_t n = base->law->problem->n, points = base->law->problem->line.points;
-    double *from = gm_arena_take(base->law->arena, 3 * n, sizeof *from), *along = from + n, *to = along + n;
-    memcpy(from, first, points * sizeof *from);
-    memcpy(from + points, second, points * sizeof *from);
-    memcpy(along, direction, 2 * points * sizeof *along);
-    if (base->kdv) {
-        from[2 * points] = -base->law->dt;
-    }
-    gm_law_differentiate(base->law, from, NULL, along, to);
-    memcpy(slope, to, (base->kdv ? 1 : 2) * points * sizeof *slope);
-}
-
 /* phi from D u = ..., around the ring, or both rings of every other node. */
 static void integrate(const struct base *base, const double *u, double *phi)
 {
@@ -180,10 +163,8 @@ static void advance_kdv(const struct base *base, double phase, double waves, con
     gm_tangent_start(u[0], points, waves, phase);
     gm_tangent_start(u[1], points, waves, 2 * phase - M_PI / 2);
     if (base->law->by_differences) {
-        double *direction = gm_arena_take(base->law->arena, 2 * points, sizeof *direction);
-        memcpy(direction, u[1], points * sizeof *direction);
-        memcpy(direction + points, u[0], points * sizeof *direction);
-        by_own_steps(base, base->now, base->past, direction, u[2]);
+        const double *const from[] = {base->now, base->past}, *const along[] = {u[1], u[0]};
+        gm_law_differentiate_levels(base->law, 2, from, along, (double *const[]){u[2], NULL});
     } else {
         kdv_nodes_step(base->law->problem, base->centred, base->law->dt, base->now, u[0], u[1], u[2], phi[0]);
     }
@@ -219,24 +200,23 @@ static void complete_kdv(const void *tangent, size_t node, double *levels)
 static void advance_nls(const struct base *base, double phase, double waves, const struct tangent *a)
 {
     const size_t points = base->law->problem->line.points, size = points * sizeof(double);
-    double *direction = gm_arena_take(base->law->arena, 6 * points, sizeof *direction);
-    double *from = direction + 2 * points, *made = direction + 4 * points;
+    double *const *p = a->first, *const *q = a->second;
+    gm_tangent_start(p[0], points, waves, phase);
+    gm_tangent_start(q[1], points, waves, phase + 1);
+    if (base->law->by_differences) {
+        const double *const from[] = {base->past, base->now}, *const along[] = {p[0], q[1]};
+        gm_law_differentiate_levels(base->law, 2, from, along, (double *const[]){p[1], q[2]});
+        return;
+    }
+    double *from = gm_arena_take(base->law->arena, 4 * points, sizeof *from), *made = from + 2 * points;
     memcpy(from, base->past, size);
     memcpy(from + points, base->now, size);
-    gm_tangent_start(direction, points, waves, phase);
-    gm_tangent_start(direction + points, points, waves, phase + 1);
-    memcpy(a->first[0], direction, size);
-    memcpy(a->second[1], direction + points, size);
-    if (base->law->by_differences) {
-        by_own_steps(base, base->past, base->now, direction, made);
-        memcpy(direction, made, 2 * size);
-    } else if (gm_law_step(base->law, 1, from, NULL, made, NULL)) { /* p^n comes first */
-        nls_nodes_tangent(base->law->problem, base->law->dt, made, base->now, direction, direction + points);
-    } else {
+    memcpy(p[1], p[0], size);
+    memcpy(q[2], q[1], size);
+    if (!gm_law_step(base->law, 1, from, NULL, made, NULL)) { /* p^n comes first */
         gm_arena_leave(base->law->arena);
     }
-    memcpy(a->first[1], direction, size);
-    memcpy(a->second[2], direction + points, size);
+    nls_nodes_tangent(base->law->problem, base->law->dt, made, base->now, p[1], q[2]);
 }
 
 static void complete_nls(const void *tangent, size_t node, double *levels)

@@ -4,11 +4,10 @@
 #include "core/field/families/laws/form.h"
 
 #include <stdlib.h>
-#include <string.h>
 
+#include "core/certify.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
-#include "core/run.h"
 
 /* s at a node of one level, or of both in the middle, further by the jump around the ring. */
 static void at_node(const struct gm_problem *problem, const double *y, const double *other, size_t i,
@@ -68,22 +67,6 @@ double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme
     return gm_any_form_integral(problem, scheme, memory, momentum_density);
 }
 
-/* The level after a step; NULL if it fails, or when out of memory. */
-static double *next_level(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                          const double *y)
-{
-    static const struct gm_settings no_settings;
-    struct gm_run *run = gm_run_open(problem, scheme, &no_settings, 0, dt, y);
-    double *next = run && gm_run_advance(run, 1) == GM_OK ? malloc(problem->n * sizeof *next) : NULL;
-    if (next) {
-        memcpy(next, gm_run_state(run), problem->n * sizeof *next);
-    }
-    if (run) {
-        gm_run_close(run);
-    }
-    return next;
-}
-
 bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                   const double *y, enum gm_local_law law, double *residual)
 {
@@ -93,8 +76,11 @@ bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *sche
         ((const struct gm_collocation_tableau *)scheme->coefficients)->r != 1) {
         return false;
     }
-    double *next = next_level(problem, scheme, dt, y);
-    for (size_t i = 0; next && i < problem->line.points; i++) {
+    static const struct gm_settings no_settings;
+    const struct gm_trial trial = {problem, scheme, &no_settings, dt, 1};
+    double *next = malloc(problem->n * sizeof *next);
+    const bool good = next && gm_trial_advance(&trial, y, next);
+    for (size_t i = 0; good && i < problem->line.points; i++) {
         double a[GM_MOST_OF_FORM], b[GM_MOST_OF_FORM], middle[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
         if (law == GM_LAW_OF_ENERGY) {
             in_cell(problem, y, i, a, slope);
@@ -113,7 +99,6 @@ bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *sche
         }
         residual[i] /= law == GM_LAW_OF_ENERGY ? dt : problem->line.dx;
     }
-    const bool good = next != NULL;
     free(next);
     return good;
 }

@@ -150,21 +150,10 @@ static bool linearised_box(const struct base *base, const struct tangent *a)
 static void by_own_steps(const struct base *base, const struct tangent *a)
 {
     const struct gm_levels *of = &base->levels;
-    const size_t points = base->law->problem->line.points, n = base->law->problem->n;
-    const size_t levels = of->v_now ? 4 : 2, size = points * sizeof(double), all = n + 2 * points;
-    const double *const from_levels[] = {of->now, of->past, of->v_now, of->v_past};
-    const double *const directions[] = {a->now, a->past, a->v_now, a->v_past};
-    double *from = gm_arena_take(base->law->arena, 3 * all, sizeof *from);
-    double *direction = from + all, *slope = direction + all;
-    for (size_t k = 0; k < levels; k++) {
-        const size_t at = k < 2 ? k * points : n + (k - 2) * points;
-        memcpy(from + at, from_levels[k], size);
-        memcpy(direction + at, directions[k], size);
-    }
-    from[2 * points] = -base->law->dt;
-    gm_law_differentiate(base->law, from, of->v_now ? from + n : NULL, direction, slope);
-    memcpy(a->next, slope, size);
-    memcpy(a->v_next, slope + n, levels == 4 ? size : 0);
+    const double *const from[] = {of->now, of->past, of->v_now, of->v_past};
+    const double *const along[] = {a->now, a->past, a->v_now, a->v_past};
+    double *const to[] = {a->next, NULL, a->v_next, NULL};
+    gm_law_differentiate_levels(base->law, of->v_now ? 4 : 2, from, along, to);
 }
 
 struct nodes {
