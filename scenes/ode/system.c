@@ -29,14 +29,7 @@
 #include "scenes/common/trails.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/optional.h"
-#include "scenes/ode/system/aim.h"
-#include "scenes/ode/system/curves.h"
-#include "scenes/ode/system/draw.h"
-#include "scenes/ode/system/failure.h"
-#include "scenes/ode/system/levels.h"
-#include "scenes/ode/system/observed.h"
-#include "scenes/ode/system/phase.h"
-#include "scenes/ode/system/sights.h"
+#include "scenes/ode/system/parts.h"
 
 enum { DT, UNTIL };
 enum {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Quantities over time: names are found among components, velocities, the energy, and what the file observes or
    conserves. */
-#include "scenes/ode/system/curves.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,12 +8,7 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
-#include "scenes/ode/system/curves.h"
-#include "scenes/ode/system/draw.h"
-#include "scenes/ode/system/levels.h"
-#include "scenes/ode/system/phase.h"
-#include "scenes/ode/system/shapes.h"
-#include "scenes/ode/system/space.h"
+#include "scenes/ode/system/parts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Observables of a user-defined system: its energy, the quantities that its file names, the area of a disc of
    members, the distance from the exact solution. */
-#include "scenes/ode/system/observed.h"
+#include "scenes/ode/system/parts.h"
 #include "scenes/common/system/hook.h"
 
 #include <math.h>
