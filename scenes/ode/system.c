@@ -28,7 +28,7 @@
 #include "scenes/common/system/variants.h"
 #include "scenes/common/trails.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/optional.h"
+#include "scenes/ode/system/optional.h"
 #include "scenes/ode/system/parts.h"
 
 enum { DT, UNTIL };

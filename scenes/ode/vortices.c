@@ -19,7 +19,7 @@
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
 #include "scenes/common/trails.h"
-#include "scenes/ode/optional.h"
+#include "scenes/ode/system/optional.h"
 
 extern const struct gm_scene gm_scene_vortices;
 

@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-
 enum {
     DRAWN = 1024,    /* most points of a curved edge */
     TURN = 12,       /* earlier shapes: older ones have faded */
