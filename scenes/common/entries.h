@@ -47,4 +47,11 @@ void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
    made. */
 void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run);
 
+/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
+   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
+   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
+   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
+double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
+                        double *state);
+
 #endif

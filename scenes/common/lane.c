@@ -10,7 +10,6 @@
 #include "core/kind.h"
 #include "core/memory.h"
 #include "core/schemes.h"
-#include "scenes/common/crossing.h"
 
 static const struct gm_timing *timing(const struct gm_lane *lane)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_ODE_VORTICES_START_H
-#define GM_SCENES_ODE_VORTICES_START_H
+#ifndef GM_SCENES_ODE_VORTICES_H
+#define GM_SCENES_ODE_VORTICES_H
 
 #include "scenes/common/scene.h"
 
-/* Point vortices as the parameters of scenes/ode/vortices.c arrange them. */
+/* Point vortices as the parameters of scenes/ode/vortices.c arrange them, and their pictures. */
 
 enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_VORTEX_COLLISION, GM_PATCHES };
 
@@ -20,10 +20,10 @@ struct gm_vortices {
 /* Returns the number of vortices in the state: two of the reduced system, whose images are z -> -z. */
 size_t gm_vortices_carried(const struct gm_vortices *vortices);
 
-/* Returns true if two vortices start at one point, where they would have no velocity. */
-bool gm_vortices_coincide(const struct gm_vortices *vortices);
+/* tracks: radii of vortex 1 in the section; positions, x and y in turn, recent ones and all since the
+   start */
+enum { GM_SECTION, GM_TRAIL, GM_PAST };
 
-/* Sets the start of struct gm_scene: vortices as configured, tracers spread over a disc. */
-void gm_vortices_start(const void *parameters, const struct gm_problem *problem, double *y);
+void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 #endif
