@@ -173,27 +173,20 @@ const char *gm_power_text(struct gm_picture *picture, double value)
                            digits[size % 10]);
 }
 
-/* The lane's first scheme, or the scheme of its switch number s - 1. */
-static const struct gm_scheme *scheme_of(const struct gm_lane *lane, size_t s)
-{
-    return s == 0 ? lane->first_scheme : lane->switches[s - 1].scheme;
-}
-
 const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count)
 {
     static const char *const words[] = {"no scheme",    "one scheme",   "two schemes", "three schemes",
                                         "four schemes", "five schemes", "six schemes"};
+    const struct gm_scheme *seen[GM_COUNT(words)];
     size_t schemes = 0;
     for (size_t i = 0; i < count; i++) {
-        for (size_t s = 0; s <= lanes[i]->switch_count; s++) {
-            const struct gm_scheme *scheme = scheme_of(lanes[i], s);
-            bool seen = false;
-            for (size_t k = 0; k <= i; k++) {
-                for (size_t r = 0; k < i ? r <= lanes[k]->switch_count : r < s; r++) {
-                    seen |= scheme_of(lanes[k], r) == scheme;
-                }
+        for (size_t s = 0; s <= lanes[i]->switch_count && schemes < GM_COUNT(words); s++) {
+            size_t k = 0;
+            seen[schemes] = gm_lane_scheme_after(lanes[i], s);
+            while (seen[k] != seen[schemes]) {
+                k++;
             }
-            schemes += seen ? 0 : 1;
+            schemes += k == schemes;
         }
     }
     return schemes < GM_COUNT(words) ? words[schemes] : "many schemes";

@@ -451,8 +451,7 @@ void gm_shown_rename(struct gm_shown *shown, const char *before, const char *aft
     }
 }
 
-/* Returns the scheme that was at work after a number of switches. */
-static const struct gm_scheme *scheme_after(const struct gm_lane *lane, size_t switches)
+const struct gm_scheme *gm_lane_scheme_after(const struct gm_lane *lane, size_t switches)
 {
     return switches > 0 ? lane->switches[switches - 1].scheme : lane->first_scheme;
 }
@@ -462,7 +461,7 @@ static const struct gm_scheme *scheme_after(const struct gm_lane *lane, size_t s
 static void name_switches(const struct gm_lane *lane, char *name, size_t size)
 {
     const size_t count = lane->switch_count;
-    const char *title = scheme_after(lane, count)->title;
+    const char *title = gm_lane_scheme_after(lane, count)->title;
     char was[sizeof lane->schemes];
     size_t length = 0;
     snprintf(was, sizeof was, "%s", name);
@@ -472,7 +471,7 @@ static void name_switches(const struct gm_lane *lane, char *name, size_t size)
                       : snprintf(name, size, "%s, %s", title, was));
     for (size_t i = count; i-- > 0 && i + 2 >= count && used < size;) {
         used += (size_t)snprintf(name + used, size - used, "%s%s", i + 1 == count ? ", after " : ", ",
-                                 scheme_after(lane, i)->title);
+                                 gm_lane_scheme_after(lane, i)->title);
     }
     if (count > 2 && used < size) {
         snprintf(name + used, size - used, " …");

@@ -103,6 +103,9 @@ void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named);
 /* Replaces the part `before` of both names by `after`; for a parameter together with its value. */
 void gm_shown_rename(struct gm_shown *shown, const char *before, const char *after, bool parameter);
 
+/* Returns the scheme that was at work after a number of switches. */
+const struct gm_scheme *gm_lane_scheme_after(const struct gm_lane *lane, size_t switches);
+
 /* Continues from the current state with another scheme. Returns false with a sentence if it does not fit or
    when out of memory. */
 bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence);
