@@ -97,13 +97,12 @@ size_t gm_active_count(const struct gm_problem *problem)
     return (problem->n - 2 * problem->passive) * problem->m;
 }
 
-bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem)
+void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem)
 {
     if (!behind->state) {
         /* the last state, slopes at both ends, an intermediate state */
-        behind->state = calloc(4 * gm_active_count(problem), sizeof *behind->state);
+        behind->state = gm_arena_take(arena, 4 * gm_active_count(problem), sizeof *behind->state);
     }
-    return behind->state != NULL;
 }
 
 bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view)
@@ -122,30 +121,19 @@ static void forget_before(struct gm_entries *entries)
     }
 }
 
-bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                     struct gm_behind *behind)
+void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
+                     const struct gm_view *view, struct gm_behind *behind)
 {
     *entries = (struct gm_entries){.every = 1, .sections = track->each ? view->problem->m : 1};
-    if (track->section && !gm_behind_open(behind, view->problem)) {
-        return false;
+    if (track->section) {
+        gm_behind_open(arena, behind, view->problem);
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
-    entries->times = malloc(track->bound * sizeof *entries->times);
-    entries->steps = malloc(track->bound * sizeof *entries->steps);
-    entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
-    entries->before = malloc(entries->sections * sizeof *entries->before);
-    if (entries->before) {
-        forget_before(entries);
-    }
-    return entries->times && entries->steps && entries->values && entries->before;
-}
-
-void gm_entries_close(struct gm_entries *entries)
-{
-    free(entries->times);
-    free(entries->steps);
-    free(entries->values);
-    free(entries->before);
+    entries->times = gm_arena_take(arena, track->bound, sizeof *entries->times);
+    entries->steps = gm_arena_take(arena, track->bound, sizeof *entries->steps);
+    entries->values = gm_arena_take(arena, track->bound * entries->width, sizeof *entries->values);
+    entries->before = gm_arena_take(arena, entries->sections, sizeof *entries->before);
+    forget_before(entries);
 }
 
 static double *entry_values(const struct gm_entries *entries, size_t index)

@@ -2,6 +2,7 @@
 #ifndef GM_SCENES_COMMON_ENTRIES_H
 #define GM_SCENES_COMMON_ENTRIES_H
 
+#include "core/arena.h"
 #include "scenes/common/scene.h"
 
 /* The entries that a track has recorded during a run. */
@@ -24,15 +25,14 @@ struct gm_behind {
     double *state; /* active components, then room for 3 times as many; NULL: no sections, no stop */
     double t;
 };
-bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem);
+/* Takes the memory, if it has none; in a body of the arena. */
+void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem);
 /* True if the last step of a view's run began in this state. */
 bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view);
 
-/* Returns false when out of memory; the caller still calls gm_entries_close. `behind` gets its memory with
-   the first section. */
-bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                     struct gm_behind *behind);
-void gm_entries_close(struct gm_entries *entries);
+/* Takes the memory of a record, and of `behind` with the first section; in a body of the arena. */
+void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
+                     const struct gm_view *view, struct gm_behind *behind);
 
 /* Returns the number of active components of a state, n * m without the passive block. */
 size_t gm_active_count(const struct gm_problem *problem);

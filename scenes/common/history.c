@@ -2,20 +2,12 @@
 /* Bins of a history: filled, merged in pairs when full, shown as they were. */
 #include "scenes/common/history.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-bool gm_history_open(struct gm_history *history, size_t series)
+void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series)
 {
     *history = (struct gm_history){.series = series, .per_bin = 1};
-    history->bins = malloc(GM_HISTORY_BINS * (series ? series : 1) * sizeof *history->bins);
-    return history->bins != NULL;
-}
-
-void gm_history_close(struct gm_history *history)
-{
-    free(history->bins);
-    *history = (struct gm_history){0};
+    history->bins = gm_arena_take(arena, GM_HISTORY_BINS * series, sizeof *history->bins);
 }
 
 static void merge_pairs(struct gm_history *history)

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/arena.h"
+
 /* The past of a few observables in bounded memory: bins with equal numbers of steps hold the least and the
    greatest value of each. When all bins are full, pairs are merged. A history can be shown as it was at an
    earlier step: later bins stay until the next sample. */
@@ -28,8 +30,8 @@ struct gm_history {
 
 enum { GM_HISTORY_BINS = 1024 };
 
-bool gm_history_open(struct gm_history *history, size_t series);
-void gm_history_close(struct gm_history *history);
+/* In a body of the arena, which holds the bins. */
+void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series);
 /* Adds one value per observable at time t, after `step` steps; the record of later steps is dropped. */
 void gm_history_add(struct gm_history *history, double t, int64_t step, const double *values);
 /* Shows the record up to `step`, which may be earlier or later than the step shown now. */

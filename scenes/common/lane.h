@@ -23,9 +23,10 @@ struct gm_switch {
 };
 
 struct gm_lane {
-    struct gm_shown shown; /* `named`, with the schemes of now and before: "Verlet, after RK4" */
-    struct gm_shown named; /* set by gm_lane_show */
-    char schemes[96];      /* titles of the schemes: "Verlet, after RK4" */
+    struct gm_arena *arena; /* holds all of this */
+    struct gm_shown shown;  /* `named`, with the schemes of now and before: "Verlet, after RK4" */
+    struct gm_shown named;  /* set by gm_lane_show */
+    char schemes[96];       /* titles of the schemes: "Verlet, after RK4" */
     const struct gm_scheme *first_scheme;
     struct gm_switch *switches; /* [switch_count], in the order of steps */
     size_t switch_count;
