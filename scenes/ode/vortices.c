@@ -11,7 +11,7 @@
    rotation of Kirchhoff's equations (30) corrected:
        figures 7, 9     four vortices on a square
        figures 8, 10    two opposite ones turned by an angle */
-#include "scenes/ode/vortices.h"
+#include "scenes/ode/vortices_draw.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -159,11 +159,6 @@ static void place(const struct gm_vortices *vortices, size_t count, double *x, d
             y[i] = pair_y[i];
         }
     }
-}
-
-size_t gm_vortices_carried(const struct gm_vortices *vortices)
-{
-    return vortices->configuration == GM_REDUCED ? 2 : (size_t)vortices->count;
 }
 
 /* Returns true if two vortices start at one point, where they would have no velocity; random ones are never

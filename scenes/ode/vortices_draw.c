@@ -5,7 +5,7 @@
 
 #include "scenes/common/graph.h"
 #include "scenes/common/trails.h"
-#include "scenes/ode/vortices.h"
+#include "scenes/ode/vortices_draw.h"
 
 /* The greatest distance from the middle that is drawn; the number of vortices from which on a dye shows them,
    and of dyed points from which on the dye is a field. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_ODE_VORTICES_H
-#define GM_SCENES_ODE_VORTICES_H
+#ifndef GM_SCENES_ODE_VORTICES_DRAW_H
+#define GM_SCENES_ODE_VORTICES_DRAW_H
 
 #include "scenes/common/scene.h"
 
@@ -18,7 +18,10 @@ struct gm_vortices {
 };
 
 /* Returns the number of vortices in the state: two of the reduced system, whose images are z -> -z. */
-size_t gm_vortices_carried(const struct gm_vortices *vortices);
+static inline size_t gm_vortices_carried(const struct gm_vortices *vortices)
+{
+    return vortices->configuration == GM_REDUCED ? 2 : (size_t)vortices->count;
+}
 
 /* tracks: radii of vortex 1 in the section; positions, x and y in turn, recent ones and all since the
    start */
