@@ -30,7 +30,7 @@ struct gm_history {
 
 enum { GM_HISTORY_BINS = 1024 };
 
-/* In a body of the arena, which holds the bins. */
+/* Takes the bins from the arena, in a body of it. */
 void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series);
 /* Adds one value per observable at time t, after `step` steps; the record of later steps is dropped. */
 void gm_history_add(struct gm_history *history, double t, int64_t step, const double *values);
