@@ -228,6 +228,15 @@ struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk 
     return panel;
 }
 
+bool gm_one_scheme(const struct gm_lane *const *lanes, size_t count)
+{
+    bool one = true;
+    for (size_t i = 1; i < count; i++) {
+        one &= lanes[i]->scheme == lanes[0]->scheme;
+    }
+    return one;
+}
+
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
 {
     bool one = true;
@@ -346,15 +355,13 @@ double gm_start_of(const struct gm_lane *lane, size_t series)
     return gm_observe(observable, &view);
 }
 
-/* True if the lane has its panel alone. */
-static bool is_alone(const struct gm_lane *const *lanes, size_t count, size_t lane)
+bool gm_lane_is_alone(const struct gm_lane *const *lanes, size_t count, const struct gm_lane *lane)
 {
+    size_t sharing = 0;
     for (size_t i = 0; i < count; i++) {
-        if (i != lane && lanes[i]->shown.panel == lanes[lane]->shown.panel) {
-            return false;
-        }
+        sharing += lanes[i]->shown.panel == lane->shown.panel;
     }
-    return true;
+    return sharing == 1;
 }
 
 /* The time of the last finite value of any lane; NAN without one. */
@@ -524,7 +531,8 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     }
     for (size_t i = 0; i < count; i++) {
         if (!graph->panel_of || lanes[i]->shown.panel == graph->panel_of->shown.panel) {
-            draw_curve(picture, panel, lanes[i], is_alone(lanes, count, i), series, graph, points);
+            draw_curve(picture, panel, lanes[i], gm_lane_is_alone(lanes, count, lanes[i]), series, graph,
+                       points);
         }
     }
 }
