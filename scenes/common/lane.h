@@ -3,7 +3,6 @@
 #define GM_SCENES_COMMON_LANE_H
 
 #include "scenes/common/entries.h"
-#include "scenes/common/history.h"
 
 /* A lane: one run of a scene, with its parameters, its start and its bounded past. */
 
