@@ -57,26 +57,6 @@ struct gm_raster {
 bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme);
 void gm_raster_close(struct gm_raster *raster);
 
-/* Clips marks to this box of the surface. */
-void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box);
-
-/* A place on the raster, in sub-pixels. */
-struct gm_raster_place {
-    double x, y;
-};
-/* Returns the place of a point (x, y) of the panel. */
-struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_axes *axes,
-                                       const double *point);
-/* Returns true if the place is finite. */
-bool gm_raster_is_place(struct gm_raster_place place);
-
-/* Covers a sub-pixel of the mask to at least `coverage` (0 to 1), if it is within the clip box. */
-void gm_raster_cover(struct gm_raster *raster, int x, int y, double coverage);
-/* Lays the mask over the raster in one colour and empties it, so that a mark that meets itself counts
-   once. */
-void gm_raster_settle(struct gm_raster *raster, struct gm_rgb colour, double alpha, enum gm_level level,
-                      enum gm_role role);
-
 /* Sub-pixels as characters. */
 
 /* The sub-pixels of a cell; `sharp`: they are only on or off. */

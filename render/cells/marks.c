@@ -1,12 +1,144 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lines, points, polygons, meshes and images on the raster beneath the character cells, and the rules and the
-   colour bar around them. Lines, points and polygons go to the mask, fields to the raster itself. */
+/* The raster beneath the character cells: sub-pixels with the level and role of their mark; and marks on it. */
 #include "render/cells/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "render/grow.h"
+
+bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme)
+{
+    size_t count = (size_t)width * (size_t)height;
+    *raster = (struct gm_raster){.width = width,
+                                 .height = height,
+                                 .unit_x = 1,
+                                 .unit_y = 1,
+                                 .scale = 1,
+                                 .theme = theme,
+                                 .at = malloc(count * sizeof *raster->at),
+                                 .mask = calloc(count, 1),
+                                 .left = width,
+                                 .top = height,
+                                 .clip_right = width,
+                                 .clip_bottom = height};
+    if (!raster->at || !raster->mask) {
+        gm_raster_close(raster);
+        return false;
+    }
+    struct gm_subpixel paper = {gm_theme_colour(theme, GM_PAPER), GM_LEVEL_PAPER, GM_PAPER};
+    for (int i = 0; i < width; i++) {
+        raster->at[i] = paper;
+    }
+    for (int row = 1; row < height; row++) {
+        memcpy(&raster->at[(size_t)row * (size_t)width], raster->at, (size_t)width * sizeof paper);
+    }
+    return true;
+}
+
+void gm_raster_close(struct gm_raster *raster)
+{
+    free(raster->at);
+    free(raster->mask);
+    raster->at = NULL;
+    raster->mask = NULL;
+}
+
+/* Clips marks to this box of the surface. */
+static void clip_to(struct gm_raster *raster, const struct gm_box *box)
+{
+    /* A sub-pixel belongs to the box if its middle does. The one after the end belongs too, so that a mark on
+       the edge is visible. */
+    raster->clip_left = gm_clamp(floor(box->x / raster->unit_x), 0, raster->width);
+    raster->clip_top = gm_clamp(floor(box->y / raster->unit_y), 0, raster->height);
+    raster->clip_right = gm_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
+    raster->clip_bottom = gm_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
+}
+
+/* A place on the raster, in sub-pixels. */
+struct place {
+    double x, y;
+};
+
+/* Returns the place of a point (x, y) of the panel. */
+static struct place place_at(const struct gm_raster *raster, const struct gm_axes *axes, const double *point)
+{
+    return (struct place){gm_axes_x(axes, point[0]) / raster->unit_x,
+                          gm_axes_y(axes, point[1]) / raster->unit_y};
+}
+
+static bool is_place(struct place place)
+{
+    return isfinite(place.x) && isfinite(place.y);
+}
+
+/* ---- the mask ---- */
+
+/* Covers a sub-pixel of the mask to at least `coverage` (0 to 1), if it is within the clip box. */
+static void cover(struct gm_raster *raster, int x, int y, double coverage)
+{
+    if (x < raster->clip_left || x >= raster->clip_right || y < raster->clip_top ||
+        y >= raster->clip_bottom) {
+        return;
+    }
+    uint8_t value = (uint8_t)(255 * (coverage < 1 ? coverage : 1));
+    uint8_t *mask = &raster->mask[(size_t)y * (size_t)raster->width + (size_t)x];
+    if (value > *mask) {
+        *mask = value;
+    }
+    raster->left = x < raster->left ? x : raster->left;
+    raster->top = y < raster->top ? y : raster->top;
+    raster->right = x + 1 > raster->right ? x + 1 : raster->right;
+    raster->bottom = y + 1 > raster->bottom ? y + 1 : raster->bottom;
+}
+
+static uint8_t mix(uint8_t from, uint8_t to, unsigned weight)
+{
+    return (uint8_t)((from * (255 - weight) + to * weight + 127) / 255);
+}
+
+static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight, enum gm_level level,
+                  enum gm_role role)
+{
+    at->colour = (struct gm_rgb){mix(at->colour.r, colour.r, weight), mix(at->colour.g, colour.g, weight),
+                                 mix(at->colour.b, colour.b, weight)};
+    if (level == GM_LEVEL_PAPER) { /* the mark covers too little of it */
+        return;
+    }
+    at->level = (uint8_t)(level == GM_LEVEL_LINE && at->level >= GM_LEVEL_FIELD ? GM_LEVEL_OVER : level);
+    at->role = (uint8_t)role;
+}
+
+/* Lays the mask over the raster in one colour and empties it, so that a mark that meets itself counts
+   once. */
+static void settle(struct gm_raster *raster, struct gm_rgb colour, double alpha, enum gm_level level,
+                   enum gm_role role)
+{
+    unsigned opacity = (unsigned)(255 * (alpha < 0 ? 0 : alpha < 1 ? alpha : 1));
+    for (int y = raster->top; y < raster->bottom; y++) {
+        size_t row = (size_t)y * (size_t)raster->width;
+        for (int x = raster->left; x < raster->right; x++) {
+            uint8_t *mask = &raster->mask[row + (size_t)x];
+            if (!*mask) {
+                continue;
+            }
+            unsigned coverage = *mask;
+            *mask = 0;
+            if (raster->sharp) {
+                coverage = coverage >= 128 ? 255 : 0;
+            }
+            unsigned weight = coverage * opacity / 255;
+            if (weight > 0) {
+                blend(&raster->at[row + (size_t)x], colour, weight, coverage >= 64 ? level : GM_LEVEL_PAPER,
+                      role);
+            }
+        }
+    }
+    raster->left = raster->width;
+    raster->top = raster->height;
+    raster->right = raster->bottom = 0;
+}
 
 /* fmin and fmax are calls, because they handle NaN; no NaN comes here. */
 static double smaller(double a, double b)
@@ -93,7 +225,7 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
         int count = (int)larger(1, round(width));
         int first = (int)floor(middle - 0.5 * (count - 1));
         for (int i = 0; i < count; i++) {
-            gm_raster_cover(raster, steep ? first + i : along, steep ? along : first + i, 1);
+            cover(raster, steep ? first + i : along, steep ? along : first + i, 1);
         }
         return;
     }
@@ -101,7 +233,7 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
     for (int i = (int)floor(low); i < high; i++) {
         double part = smaller(high, i + 1) - larger(low, i);
         if (part > 0) {
-            gm_raster_cover(raster, steep ? i : along, steep ? along : i, part);
+            cover(raster, steep ? i : along, steep ? along : i, part);
         }
     }
 }
@@ -138,10 +270,10 @@ static void draw_line(struct gm_raster *raster, const struct gm_axes *axes, cons
     double thickness = mark->style.width * raster->scale / smaller(raster->unit_x, raster->unit_y);
     double width = raster->sharp ? round(0.7 * thickness) : larger(1, thickness), length = 0;
     size_t count = mark->count + (mark->closed && mark->count > 1 ? 1 : 0);
-    struct gm_raster_place before = {NAN, NAN};
+    struct place before = {NAN, NAN};
     for (size_t i = 0; i < count; i++) {
-        struct gm_raster_place now = gm_raster_place(raster, axes, &mark->points[2 * (i % mark->count)]);
-        if (gm_raster_is_place(before) && gm_raster_is_place(now)) {
+        struct place now = place_at(raster, axes, &mark->points[2 * (i % mark->count)]);
+        if (is_place(before) && is_place(now)) {
             /* a point within a quarter of a sub-pixel adds only work */
             if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
                 continue;
@@ -160,19 +292,19 @@ static void draw_points(struct gm_raster *raster, const struct gm_axes *axes, co
     double radius = 0.5 * mark->style.width * raster->scale;
     double radius_x = larger(radius / raster->unit_x, 0.5), radius_y = larger(radius / raster->unit_y, 0.5);
     for (size_t i = 0; i < mark->count; i++) {
-        struct gm_raster_place middle = gm_raster_place(raster, axes, &mark->points[2 * i]);
-        if (!gm_raster_is_place(middle) || middle.x < raster->clip_left - radius_x ||
+        struct place middle = place_at(raster, axes, &mark->points[2 * i]);
+        if (!is_place(middle) || middle.x < raster->clip_left - radius_x ||
             middle.y < raster->clip_top - radius_y || middle.x > raster->clip_right + radius_x ||
             middle.y > raster->clip_bottom + radius_y) {
             continue;
         }
-        gm_raster_cover(raster, (int)floor(middle.x), (int)floor(middle.y), 1);
+        cover(raster, (int)floor(middle.x), (int)floor(middle.y), 1);
         for (int y = (int)floor(middle.y - radius_y); y <= middle.y + radius_y; y++) {
             for (int x = (int)floor(middle.x - radius_x); x <= middle.x + radius_x; x++) {
                 double dx = (x + 0.5 - middle.x) / radius_x, dy = (y + 0.5 - middle.y) / radius_y;
                 double inside = (1 - sqrt(dx * dx + dy * dy)) * smaller(radius_x, radius_y) + 0.5;
                 if (inside > 0) {
-                    gm_raster_cover(raster, x, y, inside);
+                    cover(raster, x, y, inside);
                 }
             }
         }
@@ -206,8 +338,7 @@ struct scan {
     bool failed;
 };
 
-static void add_edge(const struct gm_raster *raster, struct scan *scan, struct gm_raster_place a,
-                     struct gm_raster_place b)
+static void add_edge(const struct gm_raster *raster, struct scan *scan, struct place a, struct place b)
 {
     double low = smaller(a.y, b.y) * scan->fine - 0.5, high = larger(a.y, b.y) * scan->fine - 0.5;
     int first = gm_clamp(ceil(low), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
@@ -255,7 +386,7 @@ static void fill_crossings(struct gm_raster *raster, const struct scan *scan, do
         int end = gm_clamp(ceil(right), raster->clip_left, raster->clip_right);
         for (int x = gm_clamp(floor(left), raster->clip_left, raster->clip_right); x < end; x++) {
             if (row[x] > 0) {
-                gm_raster_cover(raster, x, y, row[x]);
+                cover(raster, x, y, row[x]);
             }
             row[x] = 0;
         }
@@ -266,16 +397,16 @@ static bool draw_polygon(struct gm_raster *raster, const struct gm_axes *axes, c
 {
     double *row = calloc((size_t)raster->width + 1, sizeof *row);
     struct scan scan = {.fine = raster->sharp ? 1 : SCANS};
-    struct gm_raster_place first = {NAN, NAN}, before = first;
+    struct place first = {NAN, NAN}, before = first;
     if (!row) {
         return false;
     }
     for (size_t i = 0; i < mark->count; i++) {
-        struct gm_raster_place now = gm_raster_place(raster, axes, &mark->points[2 * i]);
-        if (!gm_raster_is_place(now)) {
+        struct place now = place_at(raster, axes, &mark->points[2 * i]);
+        if (!is_place(now)) {
             continue;
         }
-        if (!gm_raster_is_place(before)) {
+        if (!is_place(before)) {
             first = now;
         } else if (fabs(now.x - before.x) + fabs(now.y - before.y) < 0.2) {
             continue;
@@ -284,7 +415,7 @@ static bool draw_polygon(struct gm_raster *raster, const struct gm_axes *axes, c
         }
         before = now;
     }
-    if (gm_raster_is_place(before)) {
+    if (is_place(before)) {
         add_edge(raster, &scan, before, first);
     }
     if (scan.count > 0 && !scan.failed) {
@@ -322,10 +453,10 @@ static void draw_mesh(struct gm_raster *raster, const struct gm_axes *axes, cons
 
 static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
 {
-    struct gm_raster_place low = gm_raster_place(raster, axes, &mark->points[0]);
-    struct gm_raster_place high = gm_raster_place(raster, axes, &mark->points[2]);
-    if (mark->rows == 0 || mark->columns == 0 || !gm_raster_is_place(low) || !gm_raster_is_place(high) ||
-        low.x == high.x || low.y == high.y) {
+    struct place low = place_at(raster, axes, &mark->points[0]);
+    struct place high = place_at(raster, axes, &mark->points[2]);
+    if (mark->rows == 0 || mark->columns == 0 || !is_place(low) || !is_place(high) || low.x == high.x ||
+        low.y == high.y) {
         return;
     }
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
@@ -358,20 +489,19 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
         !gm_mark_is_shown(mark, axes->box.width / raster->unit_x, axes->box.height / raster->unit_y)) {
         return true;
     }
-    gm_raster_clip(raster, &axes->box);
+    clip_to(raster, &axes->box);
     switch (mark->kind) {
     case GM_MARK_LINE:
         draw_line(raster, axes, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE,
-                         mark->style.role);
+        settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE, mark->style.role);
         return true;
     case GM_MARK_POINTS:
         draw_points(raster, axes, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
+        settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
         return true;
     case GM_MARK_POLYGON: {
         bool ok = draw_polygon(raster, axes, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
+        settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
         return ok;
     }
     case GM_MARK_MESH:
@@ -399,15 +529,15 @@ void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_ro
     int across = (int)floor(upright ? x0 / raster->unit_x : y0 / raster->unit_y);
     for (int along = from; along <= to; along++) {
         if (along % gap == 0) {
-            gm_raster_cover(raster, upright ? across : along, upright ? along : across, 1);
+            cover(raster, upright ? across : along, upright ? along : across, 1);
         }
     }
-    gm_raster_settle(raster, gm_theme_colour(raster->theme, role), 1, GM_LEVEL_GRID, role);
+    settle(raster, gm_theme_colour(raster->theme, role), 1, GM_LEVEL_GRID, role);
 }
 
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map)
 {
-    gm_raster_clip(raster, box);
+    clip_to(raster, box);
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
         double position = 1 - ((y + 0.5) * raster->unit_y - box->y) / box->height;
         for (int x = raster->clip_left; x < raster->clip_right; x++) {

@@ -100,7 +100,7 @@ struct gm_pen {
 };
 
 /* The painter draws a layout with any pen: sizes of letters and strokes, the look, and buffers reused for
-   every frame. Each function has its own file. */
+   every frame. */
 struct gm_painter {
     const struct gm_pen *pen;
     void *self; /* state of the pen */
@@ -116,12 +116,7 @@ struct gm_painter {
 /* marks.c: everything of a panel's data except its texts. */
 void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes);
 
-/* axes.c: grid, marks, axes and colour bar. */
-void gm_paint_axes(struct gm_painter *painter, const struct gm_axes *axes);
-
-/* text.c: every label of the layout, labels among the marks on plates of paper. The metrics are the layout's
-   view of the fonts; the painter is their self. */
-void gm_paint_labels(struct gm_painter *painter, const struct gm_layout *layout);
+/* The layout's view of the fonts; the painter is its self. */
 struct gm_metrics gm_painter_metrics(const struct gm_painter *painter);
 
 /* cells.c: the screen of a terminal. A cell has GM_CELL_WIDTH x GM_CELL_HEIGHT pixels. */

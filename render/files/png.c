@@ -1,18 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG files, made in memory. */
+/* PNG files, made in memory, and read: the texts of any file, the pixels of one that geomint wrote. Files that are read
+   are not trusted. */
 #include "render/files/images.h"
-#include "render/files/png_memory.h"
 
 #include <errno.h>
 #include <libdeflate.h>
 #include <math.h>
 #include <png.h>
+#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/files/regular_file.h"
 #include "render/files/temporary.h"
+#include "render/message.h"
+
+/* ---- memory ---- */
+
+/* libpng and libdeflate take the program's memory, where a refusal is noted. libpng's pointer is an int that a refusal
+   sets to ENOMEM, because libpng may report another reason. */
+static png_voidp take(png_structp png, png_alloc_size_t size)
+{
+    int *error = png_get_mem_ptr(png);
+    void *block = malloc(size);
+    if (!block) {
+        *error = ENOMEM;
+    }
+    return block;
+}
+
+static void give_back(png_structp png, png_voidp block)
+{
+    (void)png;
+    free(block);
+}
+
+/* The handlers of libpng's faults, whose pointer is a reason of GM_PNG_REASON bytes. The first jumps to png_jmpbuf. */
+static void note_error(png_structp png, png_const_charp text)
+{
+    snprintf(png_get_error_ptr(png), GM_PNG_REASON, "%s", text);
+    png_longjmp(png, 1);
+}
+
+static void ignore_warning(png_structp png, png_const_charp text)
+{
+    (void)png;
+    (void)text;
+}
+
+static void let_deflate_take(void)
+{
+    libdeflate_set_memory_allocator(malloc, free);
+}
+
+/* Must be called before libdeflate's first allocation. */
+static void prepare_deflate(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, let_deflate_take);
+}
+
+/* ---- writing ---- */
 
 /* The structure of the file is libpng's, the image data libdeflate's. Measured on plots of 1280x720 pixels
    (curves and text; in brackets: with a field of smooth colours), one core, milliseconds and kilobytes:
@@ -49,7 +99,7 @@ static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
     const size_t row = (size_t)image->width * (differences ? 1 : 3), height = (size_t)image->height;
     const size_t total = (row + 1) * height;
     unsigned char *rows = malloc(total);
-    gm_deflate_prepare();
+    prepare_deflate();
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(differences ? BEST : LEVEL);
     const size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, total) : 0;
     unsigned char *packed = bound ? malloc(bound) : NULL;
@@ -100,8 +150,8 @@ struct contents {
 static bool write_structure(FILE *out, const struct gm_png *image, const struct contents *contents,
                             int *error, char *reason)
 {
-    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, gm_png_note_error,
-                                                gm_png_ignore_warning, error, gm_png_take, gm_png_give_back);
+    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
+                                                error, take, give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_write_struct(&png, NULL);
@@ -181,4 +231,273 @@ bool gm_png_write(const char *path, const struct gm_png *image, char *message)
     const int error = bytes ? gm_temporary_write(path, bytes, size) : 0;
     free(bytes);
     return (bytes && error == 0) || gm_temporary_refuse(message, path, error ? strerror(error) : reason);
+}
+
+/* ---- reading ---- */
+
+enum {
+    SIGNATURE = 8, /* bytes */
+    LENGTH = 4,
+    TYPE = 4,
+    CHECKSUM = 4,
+    LARGEST = 1 << 30,     /* the largest picture that is painted has 805 MB of pixels */
+    MOST_CHUNKS = 1 << 20, /* libpng writes one for 8 kB of pixels */
+};
+
+/* A chunk's data, and the bytes that texts may still have. */
+struct chunk {
+    const unsigned char *data;
+    size_t size, limit;
+};
+
+static char *copy_of(const void *bytes, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (text) {
+        memcpy(text, bytes, size);
+        text[size] = '\0';
+    }
+    return text;
+}
+
+/* Returns a text packed in zlib's format, which the caller frees; NULL if it is damaged or too large. */
+static char *unpack(const unsigned char *packed, size_t size, size_t limit)
+{
+    prepare_deflate();
+    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
+    char *bytes = decompressor ? malloc(limit + 1) : NULL, *text = NULL;
+    size_t length = 0;
+    if (bytes &&
+        libdeflate_zlib_decompress(decompressor, packed, size, bytes, limit, &length) == LIBDEFLATE_SUCCESS) {
+        text = copy_of(bytes, length);
+        if (text && strlen(text) != length) {
+            free(text);
+            text = NULL;
+        }
+    }
+    if (decompressor) {
+        libdeflate_free_decompressor(decompressor);
+    }
+    free(bytes);
+    return text;
+}
+
+/* Returns the text after the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3), which the
+   caller frees; NULL if the chunk is damaged or the text too large. */
+static char *text_of(const struct chunk *chunk, const char *type, size_t key)
+{
+    const unsigned char *at = chunk->data + key + 1, *end = chunk->data + chunk->size;
+    bool packed = type[0] == 'z';
+    if (packed || type[0] == 'i') {
+        const ptrdiff_t front = packed ? 1 : 2; /* the method; in iTXt the flag before it */
+        if (end - at < front || at[front - 1] != 0 || (!packed && at[0] > 1)) {
+            return NULL;
+        }
+        packed = packed || at[0] == 1;
+        at += front;
+    }
+    for (int i = 0; i < 2 && type[0] == 'i'; i++) { /* skips the language and the translated key */
+        const unsigned char *zero = memchr(at, 0, (size_t)(end - at));
+        if (!zero) {
+            return NULL;
+        }
+        at = zero + 1;
+    }
+    const size_t size = (size_t)(end - at);
+    if (packed) {
+        return unpack(at, size, chunk->limit);
+    }
+    return size > chunk->limit || memchr(at, 0, size) ? NULL : copy_of(at, size);
+}
+
+/* The texts to find. */
+struct search {
+    const char *const *keys;
+    char **texts;
+    size_t count, limit;
+    bool all; /* checks all chunks, not only those of texts */
+};
+
+static bool is_text(const char *type)
+{
+    return memcmp(type, "tEXt", TYPE) == 0 || memcmp(type, "zTXt", TYPE) == 0 ||
+           memcmp(type, "iTXt", TYPE) == 0;
+}
+
+/* Returns the index of a chunk's key among those still missing; their number if it is not among them. */
+static size_t wanted(const struct search *search, const unsigned char *data, size_t size)
+{
+    size_t i = 0;
+    for (; i < search->count; i++) {
+        const size_t length = strlen(search->keys[i]) + 1;
+        if (!search->texts[i] && size >= length && memcmp(data, search->keys[i], length) == 0) {
+            break;
+        }
+    }
+    return i;
+}
+
+/* Checks a chunk, and reads its text; `length` bytes and a checksum are left of it in the file. */
+static bool take_chunk(FILE *file, const char *type, size_t length, struct search *search, char *reason)
+{
+    errno = 0;
+    unsigned char *bytes = malloc(TYPE + length + CHECKSUM);
+    bool good = bytes && fread(bytes + TYPE, 1, length + CHECKSUM, file) == length + CHECKSUM;
+    if (good) {
+        memcpy(bytes, type, TYPE);
+        const struct chunk chunk = {bytes + TYPE, length, search->limit};
+        const size_t i = is_text(type) ? wanted(search, chunk.data, length) : search->count;
+        good = libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
+        if (good && i < search->count) {
+            char *text = text_of(&chunk, type, strlen(search->keys[i]));
+            good = text != NULL;
+            search->texts[i] = text;
+            search->limit -= text ? strlen(text) : 0;
+        }
+    }
+    if (!good) {
+        snprintf(reason, GM_REGULAR_REASON, "%s",
+                 errno == ENOMEM ? strerror(ENOMEM) : "a text of it is damaged or too large");
+    }
+    free(bytes);
+    return good;
+}
+
+/* Walks over the chunks. Returns false with a reason. */
+static bool find_texts(FILE *file, size_t left, struct search *search, char *reason)
+{
+    unsigned char head[LENGTH + TYPE];
+    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of all texts as they are in the file */
+    for (long chunks = 0; left >= sizeof head + CHECKSUM && chunks < MOST_CHUNKS; chunks++) {
+        if (fread(head, 1, sizeof head, file) != sizeof head) {
+            break;
+        }
+        left -= sizeof head + CHECKSUM;
+        const size_t length = png_get_uint_32(head);
+        const char *type = (const char *)head + LENGTH;
+        if (length > left || (chunks == 0) != (memcmp(type, "IHDR", TYPE) == 0)) {
+            break;
+        }
+        left -= length;
+        const bool text = is_text(type), ends = memcmp(type, "IEND", TYPE) == 0;
+        if (text && length > unread) {
+            snprintf(reason, GM_REGULAR_REASON, "its texts have more than %d MB", GM_PNG_TEXTS_MOST >> 20);
+            return false;
+        }
+        unread -= text ? length : 0;
+        if ((text || search->all) && !take_chunk(file, type, length, search, reason)) {
+            return false;
+        }
+        if (ends) {
+            return true;
+        }
+        if (!text && !search->all && fseeko(file, (off_t)(length + CHECKSUM), SEEK_CUR) != 0) {
+            break;
+        }
+    }
+    snprintf(reason, GM_REGULAR_REASON, "it is cut short or damaged");
+    return false;
+}
+
+static bool read_texts(const char *path, struct search *search, char *message)
+{
+    char reason[GM_REGULAR_REASON] = "it is not a PNG file";
+    unsigned char signature[SIGNATURE];
+    size_t size = 0;
+    FILE *file = gm_regular_open(path, LARGEST, &size, reason);
+    const bool good = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
+                      png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
+                      find_texts(file, size - SIGNATURE, search, reason);
+    if (file) {
+        fclose(file);
+    }
+    if (!good) {
+        for (size_t i = 0; i < search->count; i++) {
+            free(search->texts[i]);
+            search->texts[i] = NULL;
+        }
+        gm_refuse(message, "cannot read %.360s: %s", path, reason);
+    }
+    return good;
+}
+
+bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
+{
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = NULL;
+    }
+    return read_texts(path, &(struct search){keys, texts, count, GM_PNG_TEXTS_MOST, false}, message);
+}
+
+char *gm_png_read_text(const char *path, const char *key, char *message)
+{
+    char *text = NULL;
+    if (gm_png_read_texts(path, &key, &text, 1, message) && !text) {
+        gm_refuse(message, "%.360s holds no text \"%.64s\"", path, key);
+    }
+    return text;
+}
+
+bool gm_png_tells(const char *path, const char *key, const char *text)
+{
+    char *found = NULL, message[GM_MESSAGE];
+    const bool told = read_texts(path, &(struct search){&key, &found, 1, GM_PNG_TEXTS_MOST, true}, message) &&
+                      found && strcmp(found, text) == 0;
+    free(found);
+    return told;
+}
+
+/* Only the two structures outlive the jump out of libpng's errors. libpng's simple reader has its own memory
+   and reports no refusal. */
+static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
+{
+    png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
+                                               error, take, give_back);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (!info) {
+        png_destroy_read_struct(&png, NULL, NULL);
+        *error = ENOMEM;
+        return false;
+    }
+    if (setjmp(png_jmpbuf(png))) {
+        png_destroy_read_struct(&png, &info, NULL);
+        return false;
+    }
+    png_init_io(png, file);
+    png_read_info(png, info);
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_strip_alpha(png);
+    png_set_gray_to_rgb(png);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    const size_t row = 3 * (size_t)width;
+    if (png_get_image_height(png, info) != (png_uint_32)height || png_get_rowbytes(png, info) != row) {
+        snprintf(reason, GM_REGULAR_REASON, "it is not a picture of %dx%d", width, height);
+        png_longjmp(png, 1);
+    }
+    for (int pass = 0; pass < passes; pass++) {
+        for (size_t y = 0; y < (size_t)height; y++) {
+            png_read_row(png, rgb + y * row, NULL);
+        }
+    }
+    png_read_end(png, NULL);
+    png_destroy_read_struct(&png, &info, NULL);
+    return true;
+}
+
+bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message)
+{
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    FILE *file = gm_regular_open(path, LARGEST, &size, reason);
+    int error = 0; /* errno, when memory is short */
+    const bool good = file && read_pixels(file, width, height, rgb, &error, reason);
+    if (file) {
+        fclose(file);
+    }
+    if (!good) {
+        gm_refuse(message, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
+    }
+    return good;
 }

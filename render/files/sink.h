@@ -64,8 +64,4 @@ struct gm_sink_kind {
 struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
                               char *message);
 
-/* Returns copies for gm_texts_free. */
-struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count);
-void gm_texts_free(struct gm_png_text *texts, size_t count);
-
 #endif

@@ -87,32 +87,6 @@ void gm_batch_quad(struct gm_batch *batch, const struct gm_vertex corners[4]);
    out of memory. */
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
 
-/* Polylines and discs as triangles whose edges fade over a pixel. */
-
-struct gm_rgba {
-    uint8_t colour[4];
-};
-
-/* Returns the ink with its opacity times `faint`. */
-struct gm_rgba gm_rgba_of(struct gm_ink ink, double faint);
-
-/* Returns the number of breaks. Joints at gentle turns are mitred, so that the strip covers nothing twice. At
-   the others the strip ends and begins again with round ends that overlap. */
-size_t gm_stroke_breaks(const struct gm_polyline *line, float half);
-
-/* Draws a line of half width `half` with round joints and ends. */
-void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_rgba ink);
-
-void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_rgba ink);
-
-/* Draws an upright rectangle with sharp edges. */
-void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
-                   struct gm_rgba ink);
-
-/* Fills the inside of a closed line (even-odd). Convex polygons have fading edges; the others are painted
-   through the stencil. */
-void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink);
-
 /* The pen that makes a batch, with buffers reused for every frame. */
 struct gm_brush {
     struct gm_batch batch;

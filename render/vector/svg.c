@@ -38,19 +38,32 @@ static long hundredths(double value)
     return lround(100.0 * fmin(fmax(value, -far), far));
 }
 
-/* Writes a number in its shortest form, in any locale: "12.5", "-.25". */
-static void put_hundredths(FILE *out, long value)
+/* A number in its shortest form, in any locale: "12.5", "-.25". */
+struct number {
+    char text[32];
+};
+
+static struct number number_of(long value)
 {
     const long whole = labs(value) / 100, part = labs(value) % 100;
-    if (value < 0) {
-        putc('-', out);
-    }
-    if (whole > 0 || part == 0) {
-        fprintf(out, "%ld", whole);
-    }
+    const char *sign = value < 0 ? "-" : "";
+    struct number made;
+    char *to = made.text;
+    to += whole > 0 || part == 0 ? sprintf(to, "%s%ld", sign, whole) : sprintf(to, "%s", sign);
     if (part > 0) {
-        fprintf(out, part % 10 ? ".%02ld" : ".%ld", part % 10 ? part : part / 10);
+        sprintf(to, part % 10 ? ".%02ld" : ".%ld", part % 10 ? part : part / 10);
     }
+    return made;
+}
+
+static struct number number(double value)
+{
+    return number_of(hundredths(value));
+}
+
+static void put_hundredths(FILE *out, long value)
+{
+    fputs(number_of(value).text, out);
 }
 
 /* Writes a number after another one, with a blank if they would merge. */
@@ -62,20 +75,11 @@ static void put_next(FILE *out, long value)
     put_hundredths(out, value);
 }
 
-static void put_attribute(FILE *out, const char *name, double value)
-{
-    fprintf(out, " %s=\"", name);
-    put_hundredths(out, hundredths(value));
-    putc('"', out);
-}
-
 static void put_ink(FILE *out, const char *name, struct gm_ink ink)
 {
     fprintf(out, " %s=\"#%02x%02x%02x\"", name, ink.colour.r, ink.colour.g, ink.colour.b);
     if (ink.alpha < 1.0) {
-        char opacity[32];
-        snprintf(opacity, sizeof opacity, "%s-opacity", name);
-        put_attribute(out, opacity, fmax(ink.alpha, 0.0));
+        fprintf(out, " %s-opacity=\"%s\"", name, number(fmax(ink.alpha, 0.0)).text);
     }
 }
 
@@ -177,10 +181,10 @@ static void begin_shapes(struct gm_svg *svg, enum shape shape, const struct gm_s
     if (shape == LINES) {
         fputs(" fill=\"none\"", svg->out);
         put_ink(svg->out, "stroke", stroke->ink);
-        put_attribute(svg->out, "stroke-width", stroke->width);
+        fprintf(svg->out, " stroke-width=\"%s\"", number(stroke->width).text);
         for (size_t i = 0; i < stroke->parts; i++) {
-            fputs(i == 0 ? " stroke-dasharray=\"" : " ", svg->out);
-            put_hundredths(svg->out, hundredths(fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width)));
+            fprintf(svg->out, "%s%s", i == 0 ? " stroke-dasharray=\"" : " ",
+                    number(fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width)).text);
         }
         fputs(stroke->parts > 0 ? "\"" : "", svg->out);
     } else {
@@ -234,11 +238,8 @@ static void disc(void *self, struct gm_point centre, float width, struct gm_ink 
 {
     struct gm_svg *svg = self;
     begin_shapes(svg, DISCS, &(struct gm_stroke){.width = width, .ink = ink});
-    fputs("<circle", svg->out);
-    put_attribute(svg->out, "cx", centre.x);
-    put_attribute(svg->out, "cy", centre.y);
-    put_attribute(svg->out, "r", 0.5 * width);
-    fputs("/>\n", svg->out);
+    fprintf(svg->out, "<circle cx=\"%s\" cy=\"%s\" r=\"%s\"/>\n", number(centre.x).text,
+            number(centre.y).text, number(0.5 * width).text);
 }
 
 static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
@@ -299,7 +300,7 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
     fprintf(svg->out, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" preserveAspectRatio=\"none\"",
             image->left, image->top, image->width, image->height);
     if (alpha < 1.0) {
-        put_attribute(svg->out, "opacity", alpha);
+        fprintf(svg->out, " opacity=\"%s\"", number(alpha).text);
     }
     fputs(" xlink:href=\"data:image/png;base64,", svg->out);
     put_base64(svg, png, size);
@@ -331,19 +332,16 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
         fprintf(svg->out, "<linearGradient id=\"m%d\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n", map);
         for (int i = 0; i <= STOPS; i++) {
             const struct gm_rgb rgb = gm_colour_map_at(map, svg->painter.look.theme, (double)i / STOPS);
-            fputs("<stop", svg->out);
-            fprintf(svg->out, " offset=\"%d.%04d\" stop-color=\"#%02x%02x%02x\"/>\n", i / STOPS,
+            fprintf(svg->out, "<stop offset=\"%d.%04d\" stop-color=\"#%02x%02x%02x\"/>\n", i / STOPS,
                     i % STOPS * 10000 / STOPS, rgb.r, rgb.g, rgb.b);
         }
         fputs("</linearGradient>\n", svg->out);
         svg->ramps[map] = true;
     }
-    fputs("<rect", svg->out);
-    put_attribute(svg->out, "x", floor(box.x + 0.5));
-    put_attribute(svg->out, "y", floor(box.y + 0.5));
-    put_attribute(svg->out, "width", floor(box.x + box.width + 0.5) - floor(box.x + 0.5));
-    put_attribute(svg->out, "height", floor(box.y + box.height + 0.5) - floor(box.y + 0.5));
-    fprintf(svg->out, " fill=\"url(#m%d)\"/>\n", map);
+    const double left = floor(box.x + 0.5), top = floor(box.y + 0.5);
+    fprintf(svg->out, "<rect x=\"%s\" y=\"%s\" width=\"%s\" height=\"%s\" fill=\"url(#m%d)\"/>\n",
+            number(left).text, number(top).text, number(floor(box.x + box.width + 0.5) - left).text,
+            number(floor(box.y + box.height + 0.5) - top).text, map);
 }
 
 /* ---- letters ---- */
@@ -365,17 +363,9 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
     const double x = writing->upwards ? floor(writing->x + 0.5) : writing->x + before;
     const double y = writing->upwards ? writing->y - before : floor(writing->y + 0.5);
     end_shapes(svg);
-    fputs("<text", svg->out);
-    if (writing->upwards) {
-        fputs(" transform=\"translate(", svg->out);
-        put_hundredths(svg->out, hundredths(x));
-        putc(',', svg->out);
-        put_hundredths(svg->out, hundredths(y));
-        fputs(") rotate(-90)\"", svg->out);
-    } else {
-        put_attribute(svg->out, "x", x);
-        put_attribute(svg->out, "y", y);
-    }
+    fprintf(svg->out,
+            writing->upwards ? "<text transform=\"translate(%s,%s) rotate(-90)\"" : "<text x=\"%s\" y=\"%s\"",
+            number(x).text, number(y).text);
     fprintf(svg->out, " font-size=\"%d\"", writing->letters);
     const bool bold = writing->font == GM_FONT_BOLD || writing->font == GM_FONT_MONO_BOLD;
     fputs(bold ? " font-weight=\"bold\"" : "", svg->out);
@@ -412,11 +402,10 @@ static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const
           "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
           svg->out);
     const double unit = look->dpi > 0.0 && !paged ? 96.0 / look->dpi : 1.0;
-    fputs(" width=\"", svg->out);
-    put_hundredths(svg->out, hundredths(paged ? look->page_width : unit * look->width));
-    fputs(paged ? "mm\" height=\"" : "\" height=\"", svg->out);
-    put_hundredths(svg->out, hundredths(paged ? look->page_height : unit * look->height));
-    fprintf(svg->out, "%s\" viewBox=\"0 0 %d %d\"", paged ? "mm" : "", look->width, look->height);
+    const char *length = paged ? "mm" : "";
+    fprintf(svg->out, " width=\"%s%s\" height=\"%s%s\" viewBox=\"0 0 %d %d\"",
+            number(paged ? look->page_width : unit * look->width).text, length,
+            number(paged ? look->page_height : unit * look->height).text, length, look->width, look->height);
     put_family(svg, look->screen ? GM_FONT_MONO : GM_FONT_SANS);
     fputs(" stroke-linecap=\"round\" stroke-linejoin=\"round\" xml:space=\"preserve\">\n<title>", svg->out);
     put_text(svg->out, look->title ? look->title : picture->title);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The times of entries, the thinning of a full record, and the crossings of a section between two steps. */
+/* The records of a lane: entries of tracks, thinned when full, crossings of a section between two steps, and histories. */
 #include "scenes/common/entries.h"
 
 #include <math.h>
@@ -8,20 +8,101 @@
 
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
-#include "scenes/common/crossing.h"
+
+/* ---- the zero of a value along a step that is repeated with other lengths: T. R. Chandrupatla, Adv. Eng. Software 28
+   (1997) 145, inverse quadratic interpolation if it is safe, else bisection ---- */
+
+/* A fraction of the step, and its value. */
+struct place {
+    double s, value;
+};
+
+struct step {
+    struct gm_view view; /* view of the last place evaluated */
+    double (*value)(const struct gm_view *view);
+    double begin, h;
+    double *storage; /* storage of gm_run_part */
+    bool failed;
+};
+
+static struct place place_at(struct step *step, double s)
+{
+    const struct gm_run *run = step->view.run;
+    if (s > 0) {
+        step->failed |= !gm_run_part(run, s, step->storage);
+    } else {
+        memcpy(step->storage, gm_run_before(run), run->problem->n * run->problem->m * sizeof *step->storage);
+    }
+    step->view.t = step->begin + s * step->h;
+    const double value = step->failed ? NAN : step->value(&step->view);
+    step->failed |= isnan(value);
+    return (struct place){s, value};
+}
+
+/* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
+   before. */
+static double next_share(struct place newest, struct place other, struct place third)
+{
+    const double xi = (newest.s - other.s) / (third.s - other.s),
+                 phi = (newest.value - other.value) / (third.value - other.value);
+    if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) {
+        return 0.5;
+    }
+    return newest.value / (other.value - newest.value) * third.value / (other.value - third.value) +
+           (third.s - newest.s) / (other.s - newest.s) * newest.value / (third.value - newest.value) *
+               other.value / (third.value - other.value);
+}
+
+double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
+                        double *state)
+{
+    enum { MOST = 60, ALIGNMENT = 128 };
+    const double tolerance = 2.2e-16;
+    const size_t size = view->problem->n * view->problem->m * sizeof *state;
+    struct step step = {.view = *view, .value = value, .begin = view->t - view->dt, .h = view->dt};
+    step.storage = gm_run_repeats(view->run)
+                       ? aligned_alloc(ALIGNMENT, (2 * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
+                       : NULL;
+    if (!step.storage) {
+        return NAN;
+    }
+    step.view.state = step.storage;
+    struct place other = place_at(&step, 0), newest = place_at(&step, 1), third = other;
+    const bool below = newest.value < 0; /* sign at the end of the step */
+    step.failed |= (other.value < 0) == below;
+    double t = 0.5;
+    for (int i = 0; i < MOST && !step.failed && fabs(newest.s - other.s) > 2 * tolerance; i++) {
+        const struct place next = place_at(&step, newest.s + t * (other.s - newest.s));
+        if ((next.value < 0) == (newest.value < 0)) {
+            third = newest;
+        } else {
+            third = other;
+            other = newest;
+        }
+        newest = next;
+        const double least = tolerance / fabs(other.s - newest.s);
+        t = fmin(fmax(next_share(newest, other, third), least), 1 - least);
+    }
+    const struct place beyond = (newest.value < 0) == below ? newest : other;
+    place_at(&step, beyond.s);
+    memcpy(state, step.storage, size);
+    free(step.storage);
+    return step.failed ? NAN : beyond.s;
+}
+
+/* ---- entries ---- */
 
 size_t gm_active_count(const struct gm_problem *problem)
 {
     return (problem->n - 2 * problem->passive) * problem->m;
 }
 
-bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem)
+void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem)
 {
     if (!behind->state) {
         /* the last state, slopes at both ends, an intermediate state */
-        behind->state = calloc(4 * gm_active_count(problem), sizeof *behind->state);
+        behind->state = gm_arena_take(arena, 4 * gm_active_count(problem), sizeof *behind->state);
     }
-    return behind->state != NULL;
 }
 
 bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view)
@@ -40,30 +121,19 @@ static void forget_before(struct gm_entries *entries)
     }
 }
 
-bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                     struct gm_behind *behind)
+void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
+                     const struct gm_view *view, struct gm_behind *behind)
 {
     *entries = (struct gm_entries){.every = 1, .sections = track->each ? view->problem->m : 1};
-    if (track->section && !gm_behind_open(behind, view->problem)) {
-        return false;
+    if (track->section) {
+        gm_behind_open(arena, behind, view->problem);
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
-    entries->times = malloc(track->bound * sizeof *entries->times);
-    entries->steps = malloc(track->bound * sizeof *entries->steps);
-    entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
-    entries->before = malloc(entries->sections * sizeof *entries->before);
-    if (entries->before) {
-        forget_before(entries);
-    }
-    return entries->times && entries->steps && entries->values && entries->before;
-}
-
-void gm_entries_close(struct gm_entries *entries)
-{
-    free(entries->times);
-    free(entries->steps);
-    free(entries->values);
-    free(entries->before);
+    entries->times = gm_arena_take(arena, track->bound, sizeof *entries->times);
+    entries->steps = gm_arena_take(arena, track->bound, sizeof *entries->steps);
+    entries->values = gm_arena_take(arena, track->bound * entries->width, sizeof *entries->values);
+    entries->before = gm_arena_take(arena, entries->sections, sizeof *entries->before);
+    forget_before(entries);
 }
 
 static double *entry_values(const struct gm_entries *entries, size_t index)
@@ -262,4 +332,71 @@ void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, c
         unwind(entries, run->t);
     }
     forget_before(entries);
+}
+
+/* ---- bins of a history: filled, merged in pairs when full, shown as they were ---- */
+
+void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series)
+{
+    *history = (struct gm_history){.series = series, .per_bin = 1};
+    history->bins = gm_arena_take(arena, GM_HISTORY_BINS * series, sizeof *history->bins);
+}
+
+static void merge_pairs(struct gm_history *history)
+{
+    for (size_t pair = 0; pair < GM_HISTORY_BINS / 2; pair++) {
+        for (size_t s = 0; s < history->series; s++) {
+            const struct gm_bin *first = &history->bins[2 * pair * history->series + s];
+            const struct gm_bin *second = &history->bins[(2 * pair + 1) * history->series + s];
+            history->bins[pair * history->series + s] = (struct gm_bin){
+                .t = second->t,
+                .step = second->step,
+                .low = first->low < second->low ? first->low : second->low,
+                .high = first->high > second->high ? first->high : second->high,
+                .last = second->last,
+            };
+        }
+    }
+    history->count = GM_HISTORY_BINS / 2;
+    history->per_bin *= 2;
+    history->in_last = history->per_bin;
+}
+
+void gm_history_add(struct gm_history *history, double t, int64_t step, const double *values)
+{
+    if (history->count == GM_HISTORY_BINS && history->in_last == history->per_bin) {
+        merge_pairs(history);
+    }
+    const bool fresh = history->count == 0 || history->in_last >= history->per_bin;
+    if (fresh) {
+        history->count++;
+        history->in_last = 0;
+    }
+    struct gm_bin *bin = &history->bins[(history->count - 1) * history->series];
+    for (size_t s = 0; s < history->series; s++) {
+        const double value = values[s];
+        if (fresh) {
+            bin[s] = (struct gm_bin){.low = value, .high = value};
+        }
+        bin[s].t = t;
+        bin[s].step = step;
+        bin[s].low = value < bin[s].low ? value : bin[s].low;
+        bin[s].high = value > bin[s].high ? value : bin[s].high;
+        bin[s].last = value;
+    }
+    history->in_kept = ++history->in_last;
+    history->kept = history->count;
+}
+
+void gm_history_show(struct gm_history *history, int64_t step)
+{
+    if (history->series == 0) {
+        return;
+    }
+    history->count = history->kept;
+    while (history->count > 0 && history->bins[(history->count - 1) * history->series].step > step) {
+        history->count--;
+    }
+    /* every bin but the last one is full */
+    history->in_last = history->count == history->kept ? history->in_kept : history->per_bin;
 }

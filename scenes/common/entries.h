@@ -2,6 +2,9 @@
 #ifndef GM_SCENES_COMMON_ENTRIES_H
 #define GM_SCENES_COMMON_ENTRIES_H
 
+#include <stdint.h>
+
+#include "core/arena.h"
 #include "scenes/common/scene.h"
 
 /* The entries that a track has recorded during a run. */
@@ -24,15 +27,14 @@ struct gm_behind {
     double *state; /* active components, then room for 3 times as many; NULL: no sections, no stop */
     double t;
 };
-bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem);
+/* Takes the memory, if it has none; in a body of the arena. */
+void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem);
 /* True if the last step of a view's run began in this state. */
 bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view);
 
-/* Returns false when out of memory; the caller still calls gm_entries_close. `behind` gets its memory with
-   the first section. */
-bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                     struct gm_behind *behind);
-void gm_entries_close(struct gm_entries *entries);
+/* Takes the memory of a record, and of `behind` with the first section; in a body of the arena. */
+void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
+                     const struct gm_view *view, struct gm_behind *behind);
 
 /* Returns the number of active components of a state, n * m without the passive block. */
 size_t gm_active_count(const struct gm_problem *problem);
@@ -46,5 +48,41 @@ void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
 /* Shows the record up to the current step of the run; later entries stay in memory until the next one is
    made. */
 void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run);
+
+/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
+   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
+   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
+   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
+double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
+                        double *state);
+
+/* The past of a few observables in bounded memory: bins with equal numbers of steps hold the least and the
+   greatest value of each. When all bins are full, pairs are merged. A history can be shown as it was at an
+   earlier step: later bins stay until the next sample. */
+
+struct gm_bin {
+    double t;     /* time of the bin's last sample */
+    int64_t step; /* step of the bin's last sample */
+    double low, high, last;
+};
+
+struct gm_history {
+    size_t series;       /* number of observables */
+    size_t count;        /* bins in use; the last one may still be filling */
+    int64_t per_bin;     /* samples a full bin holds */
+    int64_t in_last;     /* samples in the last bin */
+    size_t kept;         /* bins in memory; count is less while an earlier step is shown */
+    int64_t in_kept;     /* samples in the last bin in memory */
+    struct gm_bin *bins; /* [bin * series + observable] */
+};
+
+enum { GM_HISTORY_BINS = 1024 };
+
+/* Takes the bins from the arena, in a body of it. */
+void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series);
+/* Adds one value per observable at time t, after `step` steps; the record of later steps is dropped. */
+void gm_history_add(struct gm_history *history, double t, int64_t step, const double *values);
+/* Shows the record up to `step`, which may be earlier or later than the step shown now. */
+void gm_history_show(struct gm_history *history, int64_t step);
 
 #endif

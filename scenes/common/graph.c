@@ -173,27 +173,20 @@ const char *gm_power_text(struct gm_picture *picture, double value)
                            digits[size % 10]);
 }
 
-/* The lane's first scheme, or the scheme of its switch number s - 1. */
-static const struct gm_scheme *scheme_of(const struct gm_lane *lane, size_t s)
-{
-    return s == 0 ? lane->first_scheme : lane->switches[s - 1].scheme;
-}
-
 const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count)
 {
     static const char *const words[] = {"no scheme",    "one scheme",   "two schemes", "three schemes",
                                         "four schemes", "five schemes", "six schemes"};
+    const struct gm_scheme *seen[GM_COUNT(words)];
     size_t schemes = 0;
     for (size_t i = 0; i < count; i++) {
-        for (size_t s = 0; s <= lanes[i]->switch_count; s++) {
-            const struct gm_scheme *scheme = scheme_of(lanes[i], s);
-            bool seen = false;
-            for (size_t k = 0; k <= i; k++) {
-                for (size_t r = 0; k < i ? r <= lanes[k]->switch_count : r < s; r++) {
-                    seen |= scheme_of(lanes[k], r) == scheme;
-                }
+        for (size_t s = 0; s <= lanes[i]->switch_count && schemes < GM_COUNT(words); s++) {
+            size_t k = 0;
+            seen[schemes] = gm_lane_scheme_after(lanes[i], s);
+            while (seen[k] != seen[schemes]) {
+                k++;
             }
-            schemes += seen ? 0 : 1;
+            schemes += k == schemes;
         }
     }
     return schemes < GM_COUNT(words) ? words[schemes] : "many schemes";
@@ -233,6 +226,15 @@ struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk 
     panel->note = failure[0] ? failure : otherwise;
     name_lanes(picture, panel, walk->lanes, walk->count, walk->panel);
     return panel;
+}
+
+bool gm_one_scheme(const struct gm_lane *const *lanes, size_t count)
+{
+    bool one = true;
+    for (size_t i = 1; i < count; i++) {
+        one &= lanes[i]->scheme == lanes[0]->scheme;
+    }
+    return one;
 }
 
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
@@ -353,15 +355,13 @@ double gm_start_of(const struct gm_lane *lane, size_t series)
     return gm_observe(observable, &view);
 }
 
-/* True if the lane has its panel alone. */
-static bool is_alone(const struct gm_lane *const *lanes, size_t count, size_t lane)
+bool gm_lane_is_alone(const struct gm_lane *const *lanes, size_t count, const struct gm_lane *lane)
 {
+    size_t sharing = 0;
     for (size_t i = 0; i < count; i++) {
-        if (i != lane && lanes[i]->shown.panel == lanes[lane]->shown.panel) {
-            return false;
-        }
+        sharing += lanes[i]->shown.panel == lane->shown.panel;
     }
-    return true;
+    return sharing == 1;
 }
 
 /* The time of the last finite value of any lane; NAN without one. */
@@ -531,7 +531,8 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     }
     for (size_t i = 0; i < count; i++) {
         if (!graph->panel_of || lanes[i]->shown.panel == graph->panel_of->shown.panel) {
-            draw_curve(picture, panel, lanes[i], is_alone(lanes, count, i), series, graph, points);
+            draw_curve(picture, panel, lanes[i], gm_lane_is_alone(lanes, count, lanes[i]), series, graph,
+                       points);
         }
     }
 }

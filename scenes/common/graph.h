@@ -59,8 +59,12 @@ bool gm_walk_next(struct gm_walk *walk);
    else `otherwise`; lanes that share the panel are named instead. */
 struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *otherwise);
 
-/* True if all lanes have the time step of the first. */
+/* True if all lanes have the time step, or the scheme, of the first. */
 bool gm_one_step(const struct gm_lane *const *lanes, size_t count);
+bool gm_one_scheme(const struct gm_lane *const *lanes, size_t count);
+
+/* True if no other lane is in the panel of this one. */
+bool gm_lane_is_alone(const struct gm_lane *const *lanes, size_t count, const struct gm_lane *lane);
 
 /* A time axis for the histories of these lanes. */
 void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count);

@@ -10,7 +10,6 @@
 #include "core/kind.h"
 #include "core/memory.h"
 #include "core/schemes.h"
-#include "scenes/common/crossing.h"
 
 static const struct gm_timing *timing(const struct gm_lane *lane)
 {
@@ -452,8 +451,7 @@ void gm_shown_rename(struct gm_shown *shown, const char *before, const char *aft
     }
 }
 
-/* Returns the scheme that was at work after a number of switches. */
-static const struct gm_scheme *scheme_after(const struct gm_lane *lane, size_t switches)
+const struct gm_scheme *gm_lane_scheme_after(const struct gm_lane *lane, size_t switches)
 {
     return switches > 0 ? lane->switches[switches - 1].scheme : lane->first_scheme;
 }
@@ -463,7 +461,7 @@ static const struct gm_scheme *scheme_after(const struct gm_lane *lane, size_t s
 static void name_switches(const struct gm_lane *lane, char *name, size_t size)
 {
     const size_t count = lane->switch_count;
-    const char *title = scheme_after(lane, count)->title;
+    const char *title = gm_lane_scheme_after(lane, count)->title;
     char was[sizeof lane->schemes];
     size_t length = 0;
     snprintf(was, sizeof was, "%s", name);
@@ -473,7 +471,7 @@ static void name_switches(const struct gm_lane *lane, char *name, size_t size)
                       : snprintf(name, size, "%s, %s", title, was));
     for (size_t i = count; i-- > 0 && i + 2 >= count && used < size;) {
         used += (size_t)snprintf(name + used, size - used, "%s%s", i + 1 == count ? ", after " : ", ",
-                                 scheme_after(lane, i)->title);
+                                 gm_lane_scheme_after(lane, i)->title);
     }
     if (count > 2 && used < size) {
         snprintf(name + used, size - used, " …");
@@ -506,7 +504,8 @@ void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named)
 static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
 {
     const int64_t step = lane->run->steps;
-    struct gm_switch *longer = realloc(lane->switches, (lane->switch_count + 1) * sizeof *lane->switches);
+    struct gm_switch *longer =
+        gm_arena_resize(lane->arena, lane->switches, lane->switch_count + 1, sizeof *lane->switches);
     if (!longer) {
         return false;
     }
@@ -537,16 +536,13 @@ static void show_switches(struct gm_lane *lane, int64_t step)
 
 static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
 {
-    const size_t size = from->switch_count * sizeof *from->switches;
-    struct gm_switch *copy = malloc(size ? size : 1);
-    if (!copy) {
+    lane->switches = gm_arena_take(lane->arena, from->switch_count + 1, sizeof *from->switches);
+    if (!lane->switches) {
         return false;
     }
-    if (size > 0) {
-        memcpy(copy, from->switches, size);
+    for (size_t i = 0; i < from->switch_count; i++) {
+        lane->switches[i] = from->switches[i];
     }
-    free(lane->switches);
-    lane->switches = copy;
     lane->switch_count = lane->switches_kept = from->switch_count;
     lane->first_scheme = from->first_scheme;
     gm_lane_show(lane, &from->named);
@@ -557,48 +553,24 @@ static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
 
 void gm_lane_close(struct gm_lane *lane)
 {
-    if (!lane) {
-        return;
+    if (lane) {
+        gm_arena_close(lane->arena);
     }
-    for (size_t i = 0; lane->entries && i < lane->scene->track_count; i++) {
-        gm_entries_close(&lane->entries[i]);
-    }
-    free(lane->entries);
-    free(lane->angles);
-    free(lane->behind.state);
-    gm_history_close(&lane->history);
-    for (size_t i = 0; lane->worked && i < GM_WORKED; i++) {
+}
+
+/* Closes what is not memory of the arena. */
+static void close_parts(void *thing)
+{
+    struct gm_lane *lane = thing;
+    for (size_t i = 0; i < GM_WORKED; i++) {
         if (lane->worked[i].data) {
             lane->worked[i].forget(lane->worked[i].data);
         }
     }
-    free(lane->worked);
-    free(lane->initials);
     gm_run_close(lane->run);
     if (lane->scene->close) {
         lane->scene->close(&lane->problem);
     }
-    free(lane->switches);
-    free(lane->start);
-    free(lane->parameters);
-    free(lane);
-}
-
-static bool open_tracks(struct gm_lane *lane)
-{
-    const struct gm_scene *scene = lane->scene;
-    lane->entries = calloc(scene->track_count ? scene->track_count : 1, sizeof *lane->entries);
-    lane->angles = calloc(scene->observable_count ? scene->observable_count : 1, sizeof *lane->angles);
-    if (!lane->entries || !lane->angles) {
-        return false;
-    }
-    const struct gm_view view = gm_lane_view(lane);
-    for (size_t i = 0; i < scene->track_count; i++) {
-        if (!gm_entries_open(&lane->entries[i], &scene->tracks[i], &view, &lane->behind)) {
-            return false;
-        }
-    }
-    return true;
 }
 
 static bool check_fit(const struct gm_scene *scene, const struct gm_problem *problem,
@@ -612,64 +584,85 @@ static bool check_fit(const struct gm_scene *scene, const struct gm_problem *pro
                      scene->name, lacks ? lacks : "a structure", problem->name);
 }
 
-static void *copy_of(const void *source, size_t size)
-{
-    void *copy = malloc(size);
-    if (copy) {
-        memcpy(copy, source, size);
-    }
-    return copy;
-}
+/* The arguments of a lane that is being opened. */
+struct opening {
+    const struct gm_scene *scene;
+    const void *parameters;
+    const struct gm_settings *settings;
+    const struct gm_scheme *scheme;
+    char *sentence;
+    struct gm_lane *lane;
+};
 
-/* Opens a lane up to its run, at the start of its scene. */
-static bool prepare(struct gm_lane *lane, char *sentence)
+/* Opens the problem and its start. */
+static void open_start(struct gm_arena *arena, struct gm_lane *lane, char *sentence)
 {
     const struct gm_scene *scene = lane->scene;
-    if (!lane->parameters) {
-        return gm_refuse(sentence, "not enough memory");
-    }
-    if (scene->observable_count + scene->asked_count > GM_MOST_OBSERVABLES) {
-        return gm_refuse(sentence, "%zu observables, and a scene has at most %d",
-                         scene->observable_count + scene->asked_count, GM_MOST_OBSERVABLES);
-    }
-    if (scene->resolve) {
-        scene->resolve(lane->parameters);
-    }
-    if (!scene->setup(lane->parameters, &lane->problem, sentence) ||
-        !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
-        return false;
-    }
+    gm_arena_check(arena,
+                   scene->setup(lane->parameters, &lane->problem, sentence) &&
+                       check_fit(scene, &lane->problem, lane->scheme, sentence),
+                   sentence);
     if (scene->chosen) {
         scene->chosen(&lane->problem, lane->parameters);
     }
     lane->t0 = gm_scene_t0(scene, lane->parameters);
-    lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
-    if (!lane->start) {
-        return gm_refuse(sentence, "not enough memory");
-    }
+    lane->start = gm_arena_take(arena, lane->problem.n * lane->problem.m, sizeof *lane->start);
     if (!scene->start_with) {
         scene->start(lane->parameters, &lane->problem, lane->start);
-    } else if (!scene->start_with(lane->parameters, &lane->problem, lane->scheme, lane->start, sentence)) {
-        return false;
+    } else {
+        gm_arena_check(
+            arena, scene->start_with(lane->parameters, &lane->problem, lane->scheme, lane->start, sentence),
+            sentence);
     }
+}
+
+static void open_records(struct gm_arena *arena, struct gm_lane *lane)
+{
+    const struct gm_scene *scene = lane->scene;
+    lane->initials = gm_arena_take(arena, 2 * scene->observable_count, sizeof *lane->initials);
+    lane->cancelled = lane->initials + scene->observable_count;
+    gm_history_open(arena, &lane->history, scene->observable_count + scene->asked_count);
+    lane->entries = gm_arena_take(arena, scene->track_count, sizeof *lane->entries);
+    lane->angles = gm_arena_take(arena, scene->observable_count, sizeof *lane->angles);
+    const struct gm_view view = gm_lane_view(lane);
+    for (size_t i = 0; i < scene->track_count; i++) {
+        gm_entries_open(arena, &lane->entries[i], &scene->tracks[i], &view, &lane->behind);
+    }
+}
+
+static void open_lane(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    struct gm_lane *lane = opening->lane = gm_arena_keep(arena, calloc(1, sizeof *lane), free);
+    const struct gm_scene *scene =
+        opening->scene->variant ? opening->scene->variant(opening->parameters) : opening->scene;
+    const size_t observables = scene->observable_count + scene->asked_count;
+    lane->arena = arena;
+    lane->scene = scene;
+    lane->settings = *opening->settings;
+    lane->scheme = lane->first_scheme = opening->scheme;
+    gm_lane_show(lane, &(const struct gm_shown){0});
+    lane->parameters = gm_arena_take(arena, 1, opening->scene->size);
+    memcpy(lane->parameters, opening->parameters, opening->scene->size);
+    lane->worked = gm_arena_take(arena, GM_WORKED, sizeof *lane->worked);
+    gm_arena_keep(arena, lane, close_parts);
+    if (observables > GM_MOST_OBSERVABLES) {
+        gm_arena_refuse(arena, "%zu observables, and a scene has at most %d", observables,
+                        GM_MOST_OBSERVABLES);
+    }
+    open_start(arena, lane, opening->sentence);
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
-    lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
-    lane->initials = calloc(2 * scene->observable_count + 1, sizeof *lane->initials);
-    if (!lane->run || !lane->worked || !lane->initials ||
-        !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
-        !open_tracks(lane)) {
-        return gm_refuse(sentence, "not enough memory");
-    }
-    lane->cancelled = lane->initials + scene->observable_count;
+    gm_arena_need(arena, lane->run);
+    open_records(arena, lane);
     look_at_start(lane);
     if (scene->stop) {
         lane->run->looks_back = true;
         const struct gm_view view = gm_lane_view(lane);
         lane->side = side_of(scene->stop(&view));
-        return gm_behind_open(&lane->behind, &lane->problem) || gm_refuse(sentence, "not enough memory");
+        gm_behind_open(arena, &lane->behind, &lane->problem);
     }
-    return true;
+    gm_lane_record(lane);
 }
 
 struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
@@ -677,29 +670,17 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
                              char *sentence)
 {
     const unsigned long refusals = gm_memory_refusals();
-    struct gm_lane *lane = calloc(1, sizeof *lane);
-    if (!lane) {
-        gm_refuse(sentence, "not enough memory");
-        return NULL;
-    }
-    lane->scene = scene->variant ? scene->variant(parameters) : scene;
-    lane->settings = *settings;
-    lane->scheme = lane->first_scheme = scheme;
-    gm_lane_show(lane, &(const struct gm_shown){0});
-    lane->parameters = copy_of(parameters, scene->size);
-    bool good = prepare(lane, sentence);
-    if (good) {
-        gm_lane_record(lane);
-    }
+    struct gm_arena *arena = gm_arena_open();
+    struct opening opening = {scene, parameters, settings, scheme, sentence, NULL};
+    bool good = gm_arena_run(arena, open_lane, &opening) || gm_refuse(sentence, "%s", gm_arena_reason(arena));
     if (gm_memory_refusals() != refusals) {
         /* some failures go unreported: a start, an observable, or a search for a mesh */
         good = gm_refuse(sentence, "not enough memory");
     }
     if (!good) {
-        gm_lane_close(lane);
-        return NULL;
+        gm_arena_close(arena);
     }
-    return lane;
+    return good ? opening.lane : NULL;
 }
 
 bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence)
@@ -725,10 +706,11 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
 struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
 {
     char sentence[GM_MESSAGE];
-    struct gm_timing *forwards = copy_of(lane->parameters, lane->scene->size);
+    struct gm_timing *forwards = malloc(lane->scene->size);
     if (!forwards) {
         return NULL;
     }
+    memcpy(forwards, lane->parameters, lane->scene->size);
     forwards->dt = fabs(forwards->dt); /* a start belongs to a forward run */
     struct gm_lane *other = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
     free(forwards);

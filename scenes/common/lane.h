@@ -3,7 +3,6 @@
 #define GM_SCENES_COMMON_LANE_H
 
 #include "scenes/common/entries.h"
-#include "scenes/common/history.h"
 
 /* A lane: one run of a scene, with its parameters, its start and its bounded past. */
 
@@ -23,9 +22,10 @@ struct gm_switch {
 };
 
 struct gm_lane {
-    struct gm_shown shown; /* `named`, with the schemes of now and before: "Verlet, after RK4" */
-    struct gm_shown named; /* set by gm_lane_show */
-    char schemes[96];      /* titles of the schemes: "Verlet, after RK4" */
+    struct gm_arena *arena; /* holds all of this */
+    struct gm_shown shown;  /* `named`, with the schemes of now and before: "Verlet, after RK4" */
+    struct gm_shown named;  /* set by gm_lane_show */
+    char schemes[96];       /* titles of the schemes: "Verlet, after RK4" */
     const struct gm_scheme *first_scheme;
     struct gm_switch *switches; /* [switch_count], in the order of steps */
     size_t switch_count;
@@ -102,6 +102,9 @@ void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named);
 
 /* Replaces the part `before` of both names by `after`; for a parameter together with its value. */
 void gm_shown_rename(struct gm_shown *shown, const char *before, const char *after, bool parameter);
+
+/* Returns the scheme that was at work after a number of switches. */
+const struct gm_scheme *gm_lane_scheme_after(const struct gm_lane *lane, size_t switches);
 
 /* Continues from the current state with another scheme. Returns false with a sentence if it does not fit or
    when out of memory. */

@@ -16,21 +16,26 @@ struct walk {
     bool damaged;
 };
 
+/* Returns the place of the next bytes; NULL when measuring, or behind the end. */
+static unsigned char *take(struct walk *walk, size_t size)
+{
+    unsigned char *place = NULL;
+    if (walk->direction != MEASURE) {
+        walk->damaged = walk->damaged || size > walk->size - walk->used;
+        place = walk->damaged ? NULL : walk->bytes + walk->used;
+    }
+    walk->used += place || walk->direction == MEASURE ? size : 0;
+    return place;
+}
+
 static void pass(struct walk *walk, void *data, size_t size)
 {
-    if (walk->direction != MEASURE) {
-        if (walk->damaged || size > walk->size - walk->used) {
-            walk->damaged = true;
-            return;
-        }
-        unsigned char *place = walk->bytes + walk->used;
-        if (walk->direction == PACK) {
-            memcpy(place, data, size);
-        } else {
-            memcpy(data, place, size);
-        }
+    unsigned char *place = take(walk, size);
+    if (place && walk->direction == PACK) {
+        memcpy(place, data, size);
+    } else if (place) {
+        memcpy(data, place, size);
     }
-    walk->used += size;
 }
 
 /* Passes the number of elements that follow; `bound` is the room for them. */
@@ -47,21 +52,12 @@ static void pass_count(struct walk *walk, size_t *count, size_t bound)
 
 static void pass_run(struct walk *walk, struct gm_run *run)
 {
-    const size_t size = gm_run_snapshot_size(run);
-    if (walk->direction == MEASURE) {
-        walk->used += size;
-        return;
+    unsigned char *place = take(walk, gm_run_snapshot_size(run));
+    if (place && walk->direction == PACK) {
+        gm_run_save(run, place);
+    } else if (place) {
+        walk->damaged = !gm_run_load(run, place);
     }
-    if (walk->damaged || size > walk->size - walk->used) {
-        walk->damaged = true;
-        return;
-    }
-    if (walk->direction == PACK) {
-        gm_run_save(run, walk->bytes + walk->used);
-    } else {
-        walk->damaged = !gm_run_load(run, walk->bytes + walk->used);
-    }
-    walk->used += size;
 }
 
 /* True if the steps of a record ascend and none exceeds `last`; `stride` is in bytes. */

@@ -16,7 +16,7 @@
 #include "core/expression/lines.h"
 #include "core/files/files.h"
 
-/* What the files hold, with room for more: reading them takes no memory that could be refused. */
+/* The contents of the files, with room for more: reading them takes no memory that could be refused. */
 static struct {
     struct gm_document documents[8];
     struct gm_published figures[64];
@@ -38,7 +38,7 @@ static const char *keep_words(const char *text, struct gm_span value)
     char *const words = store.texts + store.used, *to = words;
     for (size_t i = value.begin; i < value.end; i++) {
         const char letter = text[i] == '\n' ? ' ' : text[i];
-        if (letter != ' ' || text[i - 1] != '\n') { /* a line that goes on begins with a blank */
+        if (letter != ' ' || text[i - 1] != '\n') { /* a continued line begins with a blank */
             *to++ = letter;
         }
     }

@@ -210,8 +210,6 @@ struct gm_scene {
     /* True if an unfit scheme fits the scene's text on another kind of grid: a word that requests it makes
        another scene. NULL: no other grid. */
     bool (*elsewhere)(const struct gm_scheme *scheme);
-    /* Sets the parameters "auto" in the lane's own copy; NULL: the scene has none. */
-    void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters. Returns false with a sentence if they
        contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);

@@ -28,15 +28,8 @@
 #include "scenes/common/system/variants.h"
 #include "scenes/common/trails.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/optional.h"
-#include "scenes/ode/system/aim.h"
-#include "scenes/ode/system/curves.h"
-#include "scenes/ode/system/draw.h"
-#include "scenes/ode/system/failure.h"
-#include "scenes/ode/system/levels.h"
-#include "scenes/ode/system/observed.h"
-#include "scenes/ode/system/phase.h"
-#include "scenes/ode/system/sights.h"
+#include "scenes/ode/system/optional.h"
+#include "scenes/ode/system/parts.h"
 
 enum { DT, UNTIL };
 enum {
@@ -499,35 +492,34 @@ static void make_shows(struct gm_system_scene *system_scene)
 
 static void make_tracks(struct gm_system_scene *system_scene)
 {
+    static const struct gm_track tracks[GM_SYSTEM_TRACKS] = {
+        [GM_TRACK_PAST] = {.key = "past", .interval = step_of, .bound = 8192, .record = record_state},
+        [GM_TRACK_TRAIL] = {.key = "trail", .bound = 2048, .recent = true, .record = record_state},
+        [GM_TRACK_SHAPES] = {.key = "shapes",
+                             .width = shape_width,
+                             .interval = shape_interval,
+                             .bound = 96,
+                             .record = record_shape},
+        [GM_TRACK_MEMBERS] = {.key = "members",
+                              .width = members_width,
+                              .interval = step_of,
+                              .bound = MOST_FOLLOWED_STATES,
+                              .record = record_members},
+        [GM_TRACK_SECTION] = {.key = "section",
+                              .numbers = 2,
+                              .section = section,
+                              .admits = is_admitted,
+                              .again = true,
+                              .bound = CROSSINGS,
+                              .record = record_crossing},
+    };
     const size_t n = system_scene->system.n, bound = 2 + MOST_RECORDED / n;
-    system_scene->tracks[GM_TRACK_PAST] = (struct gm_track){.key = "past",
-                                                            .numbers = n,
-                                                            .interval = step_of,
-                                                            .bound = bound < 8192 ? bound : 8192,
-                                                            .record = record_state};
-    system_scene->tracks[GM_TRACK_TRAIL] = (struct gm_track){.key = "trail",
-                                                             .numbers = n,
-                                                             .bound = bound < 2048 ? bound : 2048,
-                                                             .recent = true,
-                                                             .record = record_state};
-    system_scene->tracks[GM_TRACK_SHAPES] = (struct gm_track){.key = "shapes",
-                                                              .width = shape_width,
-                                                              .interval = shape_interval,
-                                                              .bound = 96,
-                                                              .record = record_shape};
-    system_scene->tracks[GM_TRACK_MEMBERS] = (struct gm_track){.key = "members",
-                                                               .width = members_width,
-                                                               .interval = step_of,
-                                                               .bound = MOST_FOLLOWED_STATES,
-                                                               .record = record_members};
-    system_scene->tracks[GM_TRACK_SECTION] = (struct gm_track){.key = "section",
-                                                               .numbers = 2,
-                                                               .section = section,
-                                                               .admits = is_admitted,
-                                                               .again = true,
-                                                               .each = !system_scene->hook,
-                                                               .bound = CROSSINGS,
-                                                               .record = record_crossing};
+    memcpy(system_scene->tracks, tracks, sizeof tracks);
+    for (size_t i = GM_TRACK_PAST; i <= GM_TRACK_TRAIL; i++) {
+        system_scene->tracks[i].numbers = n;
+        system_scene->tracks[i].bound = bound < tracks[i].bound ? bound : tracks[i].bound;
+    }
+    system_scene->tracks[GM_TRACK_SECTION].each = !system_scene->hook;
     system_scene->scene.tracks = system_scene->tracks;
     system_scene->scene.track_count = system_scene->has_section ? GM_SYSTEM_TRACKS : GM_TRACK_SECTION;
     system_scene->scene.follow = system_scene->has_section ? 1 : 0;

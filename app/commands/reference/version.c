@@ -5,6 +5,7 @@
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include <cairo.h>
 #include <gsl/gsl_version.h>
 #include <libdeflate.h>
 #include <png.h>
@@ -17,7 +18,6 @@
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/cairo.h"
 #include "render/vector/vector.h"
 
 static void print_libraries(void)

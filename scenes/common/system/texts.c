@@ -194,17 +194,14 @@ bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm
 static struct values values_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                size_t i, const struct gm_system_item *item)
 {
-    bool one_scheme = true;
-    for (size_t k = 1; k < count; k++) {
-        one_scheme = one_scheme && lanes[k]->scheme == lanes[0]->scheme;
-    }
     const struct gm_view view = gm_lane_view(lanes[i]);
     double *numbers = gm_picture_memory(picture, (item->count + 1) * sizeof *numbers);
     if (numbers) {
         gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, gm_system_centre(&view), numbers);
     }
-    return (struct values){numbers, lanes[i]->parameters,
-                           one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count), "−"};
+    return (struct values){
+        numbers, lanes[i]->parameters,
+        gm_one_scheme(lanes, count) ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count), "−"};
 }
 
 const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A start from a point of the picture: the formulas of a body are solved for the coordinates. */
-#include "scenes/ode/system/aim.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Quantities over time: names are found among components, velocities, the energy, and what the file observes or
    conserves. */
-#include "scenes/ode/system/curves.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -282,22 +282,13 @@ static size_t draw_curve(struct gm_picture *picture, struct gm_panel *panel, con
     return count;
 }
 
-/* Returns true if the current lane of a walk has its panel alone. */
-static bool is_alone(const struct gm_walk *walk)
-{
-    size_t sharing = 0;
-    for (size_t i = 0; i < walk->count; i++) {
-        sharing += walk->lanes[i]->shown.panel == walk->lane->shown.panel;
-    }
-    return sharing == 1;
-}
-
 void gm_system_draw_curves(struct gm_picture *picture, struct gm_panel *panel, const struct gm_walk *walk,
                            const struct gm_paths *paths, const double *now)
 {
     const struct gm_lane *lane = walk->lane;
     const struct gm_sight *sight = paths->sight;
-    const bool several = sight->curves && sight->bodies > 1, alone = is_alone(walk), leads = walk->first;
+    const bool several = sight->curves && sight->bodies > 1,
+               alone = gm_lane_is_alone(walk->lanes, walk->count, walk->lane), leads = walk->first;
     double *points = gm_picture_memory(
         picture, 2 * (lane->entries[GM_TRACK_PAST].count + lane->entries[GM_TRACK_MEMBERS].count + 1) *
                      sizeof *points);

@@ -8,12 +8,7 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
-#include "scenes/ode/system/curves.h"
-#include "scenes/ode/system/draw.h"
-#include "scenes/ode/system/levels.h"
-#include "scenes/ode/system/phase.h"
-#include "scenes/ode/system/shapes.h"
-#include "scenes/ode/system/space.h"
+#include "scenes/ode/system/parts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
 
@@ -437,23 +432,13 @@ static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const 
     panel->equal = is_equal(sight, panel);
 }
 
-static bool has_one_scheme(const struct gm_lane *const *lanes, size_t count)
-{
-    for (size_t i = 1; i < count; i++) {
-        if (lanes[i]->scheme != lanes[0]->scheme) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Adds the panel of the walk; a panel of all lanes has the name of their scheme. */
 static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *note)
 {
     struct gm_panel *panel = gm_walk_panel(picture, walk, note);
     const bool all = walk->count > 1 && gm_panel_count(walk->lanes, walk->count) == 1;
-    panel->title = all && has_one_scheme(walk->lanes, walk->count) ? walk->lane->scheme->title
-                                                                   : typeset_name(picture, panel->title);
+    panel->title = all && gm_one_scheme(walk->lanes, walk->count) ? walk->lane->scheme->title
+                                                                  : typeset_name(picture, panel->title);
     return panel;
 }
 
@@ -730,7 +715,7 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const struct gm_system_scene *system_scene = lane->owner;
     const struct gm_system_item *alone = gm_system_alone(lane);
     const bool graph_alone = alone && alone->word == GM_WORD_GRAPH;
-    const bool one_scheme = has_one_scheme(lanes, count);
+    const bool one_scheme = gm_one_scheme(lanes, count);
     const bool only_section =
         system_scene->has_section && strcmp(lane->show, system_scene->section.name) == 0;
     const char *name = gm_system_title(&system_scene->system)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reasons after the status of a run that ended: a part of a formula that is not finite, momenta without
    velocities, a monitor that falls. */
-#include "scenes/ode/system/failure.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,6 @@
 
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "scenes/common/system/look.h"
 
 /* Writes a formula that is not finite: "log(x) is not finite where x = -0.3". */
 static void tell_node(const struct gm_user_system *system, gm_node_id node, const double *values, char *text,

@@ -2,13 +2,12 @@
 /* Curves F = 0 of the values of F at the corners of a grid. The range of a curve is the range of its closed
    part around the start: the search follows cells with the curve from the start's cell, or, if the start is
    inside, cells of one sign up to them. */
-#include "scenes/ode/system/levels.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/common/graph.h"
 #include "scenes/common/system/pieces.h"
 
 enum {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Observables of a user-defined system: its energy, the quantities that its file names, the area of a disc of
    members, the distance from the exact solution. */
-#include "scenes/ode/system/observed.h"
 #include "scenes/common/system/hook.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include "core/schemes.h"
 #include "scenes/common/rows.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/ode/optional.h"
+#include "scenes/ode/system/optional.h"
 
 /* ---- formulas during the run ---- */
 

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The phase portrait: arrows of the field's direction, nullclines, equilibria. */
-#include "scenes/ode/system/phase.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
-#include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
-#include "scenes/ode/system/levels.h"
 
 static const char chosen[] = "auto"; /* the window that the picture chooses */
 

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shapes of a disc of members. If these carry two tangents, the arc between two of them is a cubic. */
-#include "scenes/ode/system/shapes.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
-
-#include "scenes/common/graph.h"
 
 enum {
     DRAWN = 1024,    /* most points of a curved edge */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sights of a user-defined system: bodies and rods from its file, the planes of two components, the
    section; names of their axes, and which of them are angles. */
-#include "scenes/ode/system/sights.h"
+#include "scenes/ode/system/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

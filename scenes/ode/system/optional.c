@@ -2,7 +2,7 @@
 /* The observables on request of ordinary differential equations, which cost time only when they are asked for. For the
    growth of distances and volumes a copy of the orbit runs with vectors along it, by the same scheme from the same
    start; the lane's own run is unchanged. The modified Hamiltonian is derived once and stored by the lane. */
-#include "scenes/ode/optional.h"
+#include "scenes/ode/system/optional.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The observables that every scene of ordinary differential equations computes on request. */
-#ifndef GM_SCENES_ODE_OPTIONAL_H
-#define GM_SCENES_ODE_OPTIONAL_H
+#ifndef GM_SCENES_ODE_SYSTEM_OPTIONAL_H
+#define GM_SCENES_ODE_SYSTEM_OPTIONAL_H
 
 #include "scenes/common/lane.h"
 
