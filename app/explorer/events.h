@@ -8,8 +8,8 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share. explorer.c has start, loop, screen and end, actions.c handles keys and the
-   mouse, list.c the list of scenes, open.c scenes and typed lines. script.c is the explorer without a terminal. */
+/* The state that the explorer's files share. explorer.c has start, loop and end, actions.c handles keys and the mouse,
+   list.c the list of scenes and the screen, open.c scenes and typed lines. script.c is the explorer without a terminal. */
 
 enum { GM_NAME = 256 };
 
