@@ -82,18 +82,6 @@ static uint64_t head_place(const struct gm_npz_entry *entry)
     return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
 }
 
-static void write_local(struct gm_npz *npz, const struct gm_npz_entry *entry)
-{
-    const size_t name = strlen(entry->name);
-    struct bytes bytes = {.count = 0}, extra = {.count = 0};
-    put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
-    put_entry(&bytes, entry, true, EXTRA_LOCAL);
-    put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
-    gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place);
-    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL);
-    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name);
-}
-
 static void emit_central(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     const bool wide = entry->size >= most_32 || entry->place >= most_32;
@@ -203,7 +191,14 @@ static struct gm_npz_entry reserve(struct gm_npz *npz, const char *name, const s
 static void settle(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     char head[NPY_HEAD];
-    write_local(npz, entry);
+    const size_t name = strlen(entry->name);
+    struct bytes bytes = {.count = 0}, extra = {.count = 0};
+    put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
+    put_entry(&bytes, entry, true, EXTRA_LOCAL);
+    put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
+    gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place);
+    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL);
+    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name);
     gm_bytes_write(npz->file, head, head_of(entry, head, entry->head), head_place(entry));
 }
 

@@ -471,15 +471,6 @@ static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event
     pointer->row = event->row;
 }
 
-/* Handles the wheel: zooms a picture in space, else scrolls a list or changes the speed. */
-static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
-{
-    const bool up = event->kind == GM_MOUSE_UP;
-    const bool space =
-        !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
-    gm_explorer_key(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
-}
-
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
@@ -536,8 +527,10 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
 
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
-                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    const bool up = event->kind == GM_MOUSE_UP;
+    const bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
+                       explorer->face.choosing != GM_CHOOSE_NOTHING;
     explorer->dirty = true;
     switch (event->kind) {
     case GM_MOUSE_PRESS:
@@ -555,7 +548,14 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         break;
     case GM_MOUSE_UP:
     case GM_MOUSE_DOWN:
-        turn_wheel(explorer, event, lists);
+        /* the wheel scrolls a list, zooms a picture in space, or changes the speed */
+        if (lists) {
+            gm_explorer_key(explorer, up ? KEY_UP : KEY_DOWN);
+        } else if (is_in_space(explorer, hit)) {
+            gm_explorer_key(explorer, up ? 'z' : 'Z');
+        } else {
+            gm_explorer_key(explorer, up ? ']' : '[');
+        }
         break;
     }
 }

@@ -112,23 +112,18 @@ static size_t place_of(const char *line, int word, size_t offset)
     return at;
 }
 
-/* Returns true if blanks or quotes would split or change the word. */
-static bool needs_quotes(const char *word)
-{
-    struct gm_arguments alone = {0};
-    const bool same = gm_typed_split(&alone, word) && alone.count == 1 && strcmp(alone.words[0], word) == 0;
-    gm_arguments_close(&alone);
-    return !same;
-}
-
 char *gm_typed_join(const struct gm_arguments *words)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     for (int i = 0; stream && i < words->count; i++) {
-        const char *word = words->words[i];
-        const char *quote = !needs_quotes(word) ? "" : strchr(word, '\'') ? "\"" : "'";
+        const char *word = words->words[i], *quote = strchr(word, '\'') ? "\"" : "'";
+        struct gm_arguments alone = {0}; /* blanks or quotes may split or change the word */
+        const bool same =
+            gm_typed_split(&alone, word) && alone.count == 1 && strcmp(alone.words[0], word) == 0;
+        gm_arguments_close(&alone);
+        quote = same ? "" : quote;
         fprintf(stream, "%s%s%s%s", i > 0 ? " " : "", quote, word, quote);
     }
     return stream && fclose(stream) == 0 ? text : NULL;
