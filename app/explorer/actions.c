@@ -41,7 +41,6 @@ static void visit(struct gm_explorer *explorer, const struct key *key)
                       (struct gm_order){.kind = GM_ORDER_VISIT, .amount = key->amount, .value = moment});
 }
 
-/* Shows or hides the phase portrait. */
 static void order_portrait(struct gm_explorer *explorer, const struct key *key)
 {
     const struct gm_parameter *row = gm_scene_parameter(explorer->open.scene, "portrait");
@@ -241,7 +240,6 @@ static void hint_at(struct gm_face *face, int key)
 
 enum { PAGE = 10 }; /* lines per press of PgUp or PgDn */
 
-/* Scrolls or closes the open page. */
 static void press_in_page(struct gm_explorer *explorer, int key)
 {
     struct gm_face *face = &explorer->face;
@@ -449,7 +447,6 @@ static void click_study(struct gm_explorer *explorer, const struct gm_mouse_even
     free(words);
 }
 
-/* Returns true if the hit is a picture in space. */
 static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
 {
     return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&

@@ -120,7 +120,6 @@ void gm_explorer_close_list(struct gm_list *list)
 
 /* ---- the choice ---- */
 
-/* Returns true if the worker plays this entry. */
 static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     const struct gm_open *open = &explorer->open;
@@ -133,7 +132,6 @@ static bool is_open(const struct gm_explorer *explorer, const struct gm_start_en
     return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
 }
 
-/* Returns true if the entry has a preview. */
 static bool can_be_looked_at(const struct gm_start_entry *entry)
 {
     return entry && !entry->tour && !gm_start_is_user(entry);

@@ -295,7 +295,6 @@ static void begin(struct build *build, const char *text, struct part part)
     }
 }
 
-/* Checks a running compilation. */
 static void look(struct build *build)
 {
     char folder[GM_CACHE_PATH], library[GM_CACHE_PATH];
@@ -469,7 +468,6 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left)
     pthread_mutex_unlock(&making);
 }
 
-/* Ends all running compilations. */
 static void stop_all(void)
 {
     char folder[GM_CACHE_PATH], sentence[GM_MESSAGE];

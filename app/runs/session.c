@@ -86,7 +86,6 @@ static void save(const struct gm_lane *lane, double gone, struct gm_moment *mome
     moment->gone = gone;
 }
 
-/* Drops snapshots later than `steps`. */
 static void forget_after(struct gm_past *past, int64_t steps)
 {
     while (past->count > 0 && past->moments[past->count - 1].steps > steps) {
@@ -154,7 +153,6 @@ static const struct gm_moment *return_to(const struct gm_past *past, struct gm_l
     return moment;
 }
 
-/* Writes a sentence and returns false. */
 static bool short_of_memory(char *message)
 {
     return gm_refuse(message, "There is not enough memory.");
@@ -283,7 +281,6 @@ double gm_session_from_start(const struct gm_session *session, size_t i)
 /* Snapshots of all lanes together take at most this. */
 enum { PAST_BUDGET = 64 << 20 };
 
-/* Shares the memory for snapshots out. */
 static void share_budget(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
@@ -393,7 +390,6 @@ static void forget_wanted(struct gm_session *session, size_t i)
     session->wanted[i] = (struct gm_lane_spec){0};
 }
 
-/* Empties place i. */
 static void clear_lane(struct gm_session *session, size_t i)
 {
     close_past(&session->pasts[i]);

@@ -67,7 +67,6 @@ static bool read_end(const char *from, const char *to, double *value)
     return gm_number_parse(text, value) && isfinite(*value);
 }
 
-/* The fault of a range, or NULL. */
 static const char *fault_of(const struct gm_range *range, bool whole)
 {
     if (!(range->first < range->last)) {

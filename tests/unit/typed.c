@@ -12,7 +12,6 @@
 #include "app/words/request.h"
 #include "app/words/system.h"
 #include "app/words/typed.h"
-#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/basics.h"
 #include "core/run.h"

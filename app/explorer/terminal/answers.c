@@ -78,7 +78,6 @@ static enum verdict judge(const char *held, size_t count)
 
 enum { NUMBERS = 16 };
 
-/* Reads the numbers between the semicolons; returns how many. */
 static int read_numbers(const char *text, int numbers[NUMBERS])
 {
     int count = 0;

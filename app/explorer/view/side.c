@@ -42,7 +42,6 @@ static int observable_rows(const struct gm_shot *shot)
     return (int)shot->measured_count + shot->turned;
 }
 
-/* Returns the plan for one section. */
 static struct plan plan_one(int rows, enum gm_side_panel side, const struct gm_shot *shot)
 {
     struct plan plan = {.lanes = side != GM_SIDE_PARAMETERS};

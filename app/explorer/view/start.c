@@ -133,7 +133,6 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
     gm_sheet_wrapped(sheet, 0, rows - below, below, watch, GM_INK);
 }
 
-/* Draws the chosen tour's description and its steps. */
 static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
 {
     int row = 0;
@@ -150,7 +149,6 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
                      "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
 }
 
-/* Draws examples for a user-defined system. */
 static void draw_own(const struct gm_sheet *sheet)
 {
     static const char *const examples[][2] = {

@@ -46,7 +46,6 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
     return true;
 }
 
-/* Returns true if a parameter has its default value. */
 static bool is_standard(const struct gm_scene *scene, const struct gm_shot_parameter *parameter)
 {
     void *owner =
@@ -192,7 +191,6 @@ bool gm_studies_look(struct gm_studies *studies)
 
 /* ---- drawing ---- */
 
-/* Draws the reason why there is no diagram. */
 static void draw_reason(const struct gm_sheet *sheet, const struct gm_study_look *look)
 {
     const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
