@@ -133,8 +133,6 @@ void gm_open_leave(struct gm_open *open);
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
-/* Returns true if the worker plays the chosen entry and it has a preview. */
-bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
 /* Opens the preview of the chosen scene once it is due. */
 void gm_explorer_look_if_due(struct gm_explorer *explorer);
 

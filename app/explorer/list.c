@@ -137,12 +137,6 @@ static bool can_be_looked_at(const struct gm_start_entry *entry)
     return entry && !entry->tour && !gm_start_is_user(entry);
 }
 
-bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
-{
-    const struct gm_start_entry *entry = chosen(explorer);
-    return can_be_looked_at(entry) && is_open(explorer, entry);
-}
-
 /* Schedules the preview of the chosen scene, unless it is open. */
 static void look_soon(struct gm_explorer *explorer)
 {
@@ -320,7 +314,8 @@ bool gm_explorer_compose(struct gm_explorer *explorer)
     struct gm_face *face = &explorer->face;
     const struct gm_shot *shot = explorer->open.shot;
     if (explorer->list.shown) {
-        bool looked = gm_explorer_is_looked_at(explorer);
+        const struct gm_start_entry *entry = chosen(explorer);
+        const bool looked = can_be_looked_at(entry) && is_open(explorer, entry);
         gm_screen_draw_start(screen, face, &explorer->list.start, looked ? shot : NULL, explorer->fresh,
                              looked ? explorer->open.said : "");
     } else if (shot) {

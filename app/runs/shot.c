@@ -94,7 +94,6 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     shot->scene = session->scene;
     shot->lane_count = session->count;
     shot->selected = selected;
-    shot->t = gm_session_time(session);
     shot->ahead = suggested_end(session);
     shot->gone = gm_session_gone(session);
     shot->reach = gm_session_reach(session);
