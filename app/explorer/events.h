@@ -5,8 +5,8 @@
 #include "app/explorer/background/background.h"
 #include "app/explorer/terminal/device.h"
 #include "app/explorer/view/view.h"
-#include "app/explorer/worker/worker.h"
-#include "app/words/typed.h"
+#include "app/explorer/worker/session.h"
+#include "app/words/request.h"
 
 /* The state that the explorer's files share. explorer.c has start, loop and end, actions.c handles keys and the mouse,
    list.c the list of scenes and the screen, open.c scenes and typed lines. script.c is the explorer without a terminal. */
@@ -138,7 +138,7 @@ void gm_explorer_look_if_due(struct gm_explorer *explorer);
 
 /* ---- typed lines ---- */
 
-/* Opens the run of a line (app/words/typed.h). If the line is wrong, returns false and fills fault; the
+/* Opens the run of a line (app/words/request.h). If the line is wrong, returns false and fills fault; the
    open scene remains. */
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
 /* Opens the prompt with the open system, the last line or an example. */

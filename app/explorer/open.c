@@ -400,8 +400,8 @@ static void take(struct gm_explorer *explorer)
     } else if (prompt->kind == GM_TYPED_MAP) {
         taken = take_map(explorer);
     } else {
-        const struct gm_scheme *scheme = gm_typed_scheme(line, &prompt->fault);
-        taken = scheme != NULL;
+        const struct gm_scheme *scheme;
+        taken = gm_typed_scheme(line, &scheme, &prompt->fault);
         if (taken) {
             take_scheme(explorer, prompt->kind == GM_TYPED_FORK, scheme);
         }

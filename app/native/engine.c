@@ -51,7 +51,6 @@ static const char *const flags[] = {
     "-D_GNU_SOURCE",
     "-DGM_PROBLEM=user",
     "-DGM_ISA=native",
-
     "-w",
     "-shared",
     "-fPIC",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A typed line as words, and its faults. */
-#include "app/words/typed.h"
+#include "app/words/request.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -239,8 +239,7 @@ static char *scheme_of(const char *line, size_t *begin)
     return strndup(line + from, to - from);
 }
 
-/* Checks a scheme, and keeps it in *kept unless that is NULL. */
-static bool read_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault)
+bool gm_typed_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault)
 {
     size_t begin = 0, at = 0;
     int status;
@@ -256,14 +255,7 @@ static bool read_scheme(const char *line, const struct gm_scheme **kept, struct 
     return known;
 }
 
-const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)
-{
-    const struct gm_scheme *scheme = NULL;
-    read_scheme(line, &scheme, fault);
-    return scheme;
-}
-
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
 {
-    return read_scheme(line, NULL, fault);
+    return gm_typed_scheme(line, NULL, fault);
 }
