@@ -163,19 +163,6 @@ static bool is_gone(void)
     return poll(&keys, 1, 0) > 0 && (ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0);
 }
 
-static void read_picture(struct gm_explorer *explorer)
-{
-    if (!gm_display_read(&explorer->display)) {
-        return;
-    }
-    explorer->dirty = true;
-    if (explorer->display.failed) { /* without a font only blocks work */
-        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
-            false;
-        explorer->face.pixels = GM_INLINE_NONE;
-    }
-}
-
 static void read_news(struct gm_explorer *explorer)
 {
     uint64_t count;
@@ -194,8 +181,13 @@ static void read_news(struct gm_explorer *explorer)
     if (gm_console_resized() || stops) {
         gm_explorer_resize(explorer);
     }
-    read_picture(explorer);
-    explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
+    const bool painted = gm_display_read(&explorer->display);
+    if (painted && explorer->display.failed) { /* without a font only blocks work */
+        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
+            false;
+        explorer->face.pixels = GM_INLINE_NONE;
+    }
+    explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty || painted;
     gm_explorer_take(explorer, explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL);
 }
 

@@ -333,21 +333,6 @@ void gm_explorer_ask_map(struct gm_explorer *explorer)
 
 /* ---- accepted lines ---- */
 
-static bool take_map(struct gm_explorer *explorer)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    struct gm_open *open = &explorer->open;
-    char *words = sweep_words(prompt->line.text);
-    const bool opened =
-        words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
-    if (!opened) {
-        snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
-                 words ? open->studies.notice : "There is not enough memory.");
-    }
-    free(words);
-    return opened;
-}
-
 static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
 {
     const enum gm_order_kind kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH;
@@ -389,6 +374,7 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
 static void take(struct gm_explorer *explorer)
 {
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    struct gm_open *open = &explorer->open;
     prompt->entered = false;
     const char *line = prompt->line.text;
     bool taken;
@@ -396,9 +382,15 @@ static void take(struct gm_explorer *explorer)
         taken = gm_explorer_open_line(explorer, line, &prompt->fault);
         const bool formula = memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") ||
                              strstr(line, " L=") || strstr(line, " rate=");
-        explorer->open.unsaved = explorer->open.unsaved || (taken && formula);
+        open->unsaved = open->unsaved || (taken && formula);
     } else if (prompt->kind == GM_TYPED_MAP) {
-        taken = take_map(explorer);
+        char *words = sweep_words(line);
+        taken = words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
+        if (!taken) {
+            snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
+                     words ? open->studies.notice : "There is not enough memory.");
+        }
+        free(words);
     } else {
         const struct gm_scheme *scheme;
         taken = gm_typed_scheme(line, &scheme, &prompt->fault);

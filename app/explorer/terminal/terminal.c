@@ -449,17 +449,6 @@ static void report_answers(const struct gm_terminal *terminal)
          "whether frames are shown at once (mode 2026)");
 }
 
-static void report_ladder(const struct gm_terminal *terminal)
-{
-    char text[GM_REASON] = "";
-    for (int i = 0; i < RUNGS; i++) {
-        if (can(terminal, i)) {
-            gm_append(text, sizeof text, "%s%s", text[0] ? ", " : "", graphics_names[i]);
-        }
-    }
-    printf("  %-12s %s\n", "key b", text);
-}
-
 /* Prints the painter in use, found with a small canvas. */
 static void report_painter(const char *what, bool live, const char *where)
 {
@@ -500,7 +489,13 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
     line("colours", colours_names[terminal.colours], terminal.colours_why);
     line("graphics", graphics_names[rung_of(terminal.graphics)], terminal.graphics_why);
-    report_ladder(&terminal);
+    char ways[GM_REASON] = "";
+    for (int i = 0; i < RUNGS; i++) {
+        if (can(&terminal, i)) {
+            gm_append(ways, sizeof ways, "%s%s", ways[0] ? ", " : "", graphics_names[i]);
+        }
+    }
+    printf("  %-12s %s\n", "key b", ways);
     line("theme", theme_names[terminal.theme == GM_THEME_LIGHT ? LIGHT : DARK], terminal.theme_why);
     if (!gm_terminal_serves(&terminal, message)) {
         printf("  %s\n", message);
