@@ -265,8 +265,13 @@ void gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
     npz->place += other->place;
 }
 
-static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
+void gm_npz_finish(struct gm_npz *npz)
 {
+    const uint64_t contents = npz->place;
+    for (size_t i = 0; i < npz->count; i++) {
+        emit_central(npz, &npz->entries[i]);
+    }
+    const uint64_t size = npz->place - contents;
     const bool wide = npz->count >= MOST_16 || contents >= most_32 || size >= most_32;
     struct bytes bytes = {.count = 0};
     if (wide) {
@@ -279,14 +284,5 @@ static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
     put(&bytes, "42222442",
         (const uint64_t[]){END, 0, 0, count, count, low(size, wide), low(contents, wide), 0});
     emit(npz, bytes.at, bytes.count);
-}
-
-void gm_npz_finish(struct gm_npz *npz)
-{
-    const uint64_t contents = npz->place;
-    for (size_t i = 0; i < npz->count; i++) {
-        emit_central(npz, &npz->entries[i]);
-    }
-    emit_end(npz, contents, npz->place - contents);
     gm_bytes_truncate(npz->file, npz->place);
 }

@@ -171,19 +171,6 @@ static const char *scheme_example(const struct gm_shot *shot)
     return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
 }
 
-static void ask_scheme(struct gm_explorer *explorer, bool fork)
-{
-    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
-    const struct gm_shot *shot = explorer->open.shot;
-    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
-    const char *last = explorer->typed_prompt.last[kind];
-    open_prompt(explorer, kind,
-                present->word ? gm_scheme_word(present)
-                : last        ? last
-                              : scheme_example(shot),
-                SIZE_MAX);
-}
-
 /* Asks for a system. If one is open, the worker first sends its command line. */
 void gm_explorer_ask_system(struct gm_explorer *explorer)
 {
@@ -342,12 +329,16 @@ static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm
 void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *scheme)
 {
     const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
+    const struct gm_shot *shot = explorer->open.shot;
     explorer->face.choosing = GM_CHOOSE_NOTHING;
-    if (scheme == &gm_chooser_user) {
-        ask_scheme(explorer, fork);
-    } else {
+    if (scheme != &gm_chooser_user) {
         take_scheme(explorer, fork, scheme);
+        return;
     }
+    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
+    const char *last = explorer->typed_prompt.last[kind], *usual = last ? last : scheme_example(shot);
+    open_prompt(explorer, kind, present->word ? gm_scheme_word(present) : usual, SIZE_MAX);
 }
 
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
