@@ -37,7 +37,7 @@ void gm_open_leave(struct gm_open *open)
     }
 }
 
-/* Replaces the open scene by lanes that a new worker plays. Returns false and fills message if there is none. */
+/* Replaces the open scene by lanes that a new worker plays. Returns false and fills message on failure. */
 static bool take_over(struct gm_open *open, const struct gm_worker_plan *plan, char *message)
 {
     struct gm_worker *worker = gm_worker_open(plan, open->wake, message);

@@ -172,7 +172,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
 
 struct gm_worker;
 
-/* The lanes to play: those of a request, or of a scene, system or room by name. */
+/* The lanes to play come from a request, or from a scene, system or room by name. */
 struct gm_worker_plan {
     const struct gm_request *request; /* NULL: the scene of this name, with its first `schemes` schemes */
     const char *name;
