@@ -143,19 +143,6 @@ void gm_terminal_size(int *columns, int *rows)
     *rows = size.ws_row ? size.ws_row : 24;
 }
 
-static void look_at_terminfo(struct gm_terminal *terminal)
-{
-    int error;
-    terminal->terminfo_colours = -1;
-    if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK) {
-        return;
-    }
-    terminal->terminfo_colours = tigetnum("colors");
-    const char *address = tigetstr("cup");
-    terminal->known = address && address != (char *)-1;
-    del_curterm(cur_term);
-}
-
 /* ---- asking the terminal ---- */
 
 void gm_terminal_cell(int *width, int *height)
@@ -341,7 +328,14 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
     setlocale(LC_CTYPE, "");
     terminal->codeset = nl_langinfo(CODESET);
     terminal->utf8 = strcasecmp(terminal->codeset, "UTF-8") == 0;
-    look_at_terminfo(terminal);
+    int error;
+    terminal->terminfo_colours = -1;
+    if (*terminal->name && setupterm(terminal->name, STDOUT_FILENO, &error) == OK) {
+        terminal->terminfo_colours = tigetnum("colors");
+        const char *address = tigetstr("cup");
+        terminal->known = address && address != (char *)-1;
+        del_curterm(cur_term);
+    }
     gm_terminal_size(&terminal->columns, &terminal->rows);
     struct winsize size = {0};
     bool asked = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
