@@ -9,7 +9,6 @@
 #include "core/arena.h"
 #include "library/handle.h"
 
-/* The scheme that an opening names. */
 static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_words *opening)
 {
     char message[GM_MESSAGE] = "the scheme is NULL";
@@ -19,7 +18,6 @@ static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_wor
     return scheme;
 }
 
-/* A stream to the text of a handle. */
 static FILE *open_text(struct gm_arena *arena, geomint *handle, size_t *size)
 {
     FILE *stream = open_memstream(&handle->text, size);

@@ -143,17 +143,6 @@ static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t
     return true;
 }
 
-/* Opens the rows saved before. */
-static void open_again(const struct gm_saving *saving, struct gm_saved *lane)
-{
-    lane->file = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
-    if (lane->file.why == 0) {
-        lane->layout = lay_out(saving, lane, &lane->file, gm_npz_length(lane->file.file));
-        errno = EILSEQ;
-        gm_bytes_note(&lane->file, lane->layout.capacity >= lane->rows);
-    }
-}
-
 enum { FEW_ROWS = 1 << 12, MORE = 4 };
 
 /* The largest number of rows for a file that already has `own` bytes of the disk. */
@@ -182,7 +171,12 @@ static void begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     const bool fresh = lane->rows == 0;
     lane->plain = is_plain(lane);
     if (!fresh) {
-        open_again(saving, lane);
+        lane->file = gm_bytes_of(gm_part_file(saving->part, lane->index, false));
+    }
+    if (!fresh && lane->file.why == 0) {
+        lane->layout = lay_out(saving, lane, &lane->file, gm_npz_length(lane->file.file));
+        errno = EILSEQ;
+        gm_bytes_note(&lane->file, lane->layout.capacity >= lane->rows);
     }
     if (lane->file.why == 0) {
         gm_bytes_note(&lane->file, make(saving, lane, capacity_of(saving, lane, expected)));

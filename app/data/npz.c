@@ -82,18 +82,6 @@ static uint64_t head_place(const struct gm_npz_entry *entry)
     return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
 }
 
-static void write_local(struct gm_npz *npz, const struct gm_npz_entry *entry)
-{
-    const size_t name = strlen(entry->name);
-    struct bytes bytes = {.count = 0}, extra = {.count = 0};
-    put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
-    put_entry(&bytes, entry, true, EXTRA_LOCAL);
-    put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
-    gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place);
-    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL);
-    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name);
-}
-
 static void emit_central(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     const bool wide = entry->size >= most_32 || entry->place >= most_32;
@@ -203,7 +191,14 @@ static struct gm_npz_entry reserve(struct gm_npz *npz, const char *name, const s
 static void settle(struct gm_npz *npz, const struct gm_npz_entry *entry)
 {
     char head[NPY_HEAD];
-    write_local(npz, entry);
+    const size_t name = strlen(entry->name);
+    struct bytes bytes = {.count = 0}, extra = {.count = 0};
+    put(&bytes, "42", (const uint64_t[]){LOCAL, ZIP_64});
+    put_entry(&bytes, entry, true, EXTRA_LOCAL);
+    put(&extra, "2288", (const uint64_t[]){1, EXTRA_LOCAL - 4, entry->size, entry->size});
+    gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place);
+    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL);
+    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name);
     gm_bytes_write(npz->file, head, head_of(entry, head, entry->head), head_place(entry));
 }
 
@@ -270,8 +265,13 @@ void gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
     npz->place += other->place;
 }
 
-static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
+void gm_npz_finish(struct gm_npz *npz)
 {
+    const uint64_t contents = npz->place;
+    for (size_t i = 0; i < npz->count; i++) {
+        emit_central(npz, &npz->entries[i]);
+    }
+    const uint64_t size = npz->place - contents;
     const bool wide = npz->count >= MOST_16 || contents >= most_32 || size >= most_32;
     struct bytes bytes = {.count = 0};
     if (wide) {
@@ -284,14 +284,5 @@ static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
     put(&bytes, "42222442",
         (const uint64_t[]){END, 0, 0, count, count, low(size, wide), low(contents, wide), 0});
     emit(npz, bytes.at, bytes.count);
-}
-
-void gm_npz_finish(struct gm_npz *npz)
-{
-    const uint64_t contents = npz->place;
-    for (size_t i = 0; i < npz->count; i++) {
-        emit_central(npz, &npz->entries[i]);
-    }
-    emit_end(npz, contents, npz->place - contents);
     gm_bytes_truncate(npz->file, npz->place);
 }

@@ -90,9 +90,6 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
 
 void gm_part_close(struct gm_part *part, bool remove)
 {
-    if (!part) {
-        return;
-    }
     if (remove) {
         empty(part);
         rmdir(part->path);

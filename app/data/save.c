@@ -298,10 +298,11 @@ static bool copy(FILE *file, const void *context)
     return bytes.why == 0;
 }
 
-/* Writes the list of all rows; without room for it, the last rows are dropped. */
-static bool publish_list(struct gm_save *save)
+/* Writes the list of all rows; without room for it, the last rows are dropped. Without a list renames the first lane's
+   file to the file, or, if that must stay for a resumed run, writes a copy. */
+static bool publish(struct gm_save *save, bool keep)
 {
-    while (!gm_temporary_make(save->saving.path, list, save)) {
+    while (save->format->list && !gm_temporary_make(save->saving.path, list, save)) {
         const int why = errno;
         const bool full = why == ENOSPC || why == EFBIG || why == EDQUOT;
         if (!full || save->saving.kept || !save->format->drop(&save->saving, present(save))) {
@@ -310,14 +311,8 @@ static bool publish_list(struct gm_save *save)
         }
         save->cut = why;
     }
-    return true;
-}
-
-/* Renames the first lane's file to the file, or, if that must stay for a resumed run, writes a copy. */
-static bool publish(struct gm_save *save, bool keep)
-{
     if (save->format->list) {
-        return publish_list(save);
+        return true;
     }
     if (keep) {
         return gm_temporary_make(save->saving.path, copy, &save);

@@ -152,15 +152,6 @@ static void write_whole(struct gm_column *out, int64_t number)
     gm_column_put(out, &number, sizeof number);
 }
 
-static void write_connectivity(const struct group *group, struct gm_column *out)
-{
-    const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
-    const double *values = group->corners ? values_of(group, group->corners) : NULL;
-    for (size_t k = 0; k < corners; k++) {
-        write_whole(out, values && !group->apart ? (int64_t)values[k] : (int64_t)k);
-    }
-}
-
 static void write_values(const struct group *group, const struct array *array, struct gm_column *out)
 {
     const struct gm_quantity *quantity = array->quantity;
@@ -184,6 +175,8 @@ static void write_array(const struct group *group, const struct array *array, st
 {
     static const unsigned char types[] = {
         [POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
+    const struct gm_quantity *corners = group->corners;
+    const double *indices = NULL;
     switch (array->content) {
     case TIME:
         gm_column_put(out, &group->run->t, sizeof group->run->t);
@@ -195,11 +188,14 @@ static void write_array(const struct group *group, const struct array *array, st
         write_places(group, out);
         break;
     case CONNECTIVITY:
-        write_connectivity(group, out);
+        indices = corners && !group->apart ? values_of(group, corners) : NULL;
+        for (size_t k = 0; k < array->tuples; k++) {
+            write_whole(out, indices ? (int64_t)indices[k] : (int64_t)k);
+        }
         break;
     case OFFSETS:
         for (size_t k = 1; k <= group->cells; k++) {
-            write_whole(out, (int64_t)(group->corners ? group->corners->width * k : group->points));
+            write_whole(out, (int64_t)(corners ? corners->width * k : group->points));
         }
         break;
     case TYPES:
@@ -510,29 +506,23 @@ static bool is_of_files(const struct gm_saving *saving)
     return strcmp(strrchr(saving->path, '.'), gm_data_format_pvd.ending) == 0;
 }
 
-static void shorten(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t rows)
-{
-    struct places places;
-    find_places(lane, NULL, &places);
-    char path[PATH];
-    rows_path_of(saving, lane, path);
-    if (rows == 0) {
-        unlink(path);
-    } else if (truncate(path, (off_t)place_of_row(&places, rows)) != 0) {
-        return; /* a file longer than its rows can still be read */
-    }
-}
-
 /* Removes the rows from `from` to `last`, which may be incomplete; the last file's folder goes too. */
 static void remove_rows(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t from,
                         uint64_t last)
 {
+    char path[PATH];
+    struct places places;
     if (!is_of_files(saving)) {
-        shorten(saving, lane, from);
+        find_places(lane, NULL, &places);
+        rows_path_of(saving, lane, path);
+        if (from == 0) {
+            unlink(path);
+        } else if (truncate(path, (off_t)place_of_row(&places, from)) != 0) {
+            return; /* a file longer than its rows can still be read */
+        }
     }
     for (uint64_t row = from; row <= last && is_of_files(saving); row++) {
         for (size_t i = 0; i < GM_COUNT(groups); i++) {
-            char path[PATH];
             unlink(path_of(saving, lane, row, groups[i].ending, path));
         }
     }

@@ -41,7 +41,6 @@ static void visit(struct gm_explorer *explorer, const struct key *key)
                       (struct gm_order){.kind = GM_ORDER_VISIT, .amount = key->amount, .value = moment});
 }
 
-/* Shows or hides the phase portrait. */
 static void order_portrait(struct gm_explorer *explorer, const struct key *key)
 {
     const struct gm_parameter *row = gm_scene_parameter(explorer->open.scene, "portrait");
@@ -241,7 +240,6 @@ static void hint_at(struct gm_face *face, int key)
 
 enum { PAGE = 10 }; /* lines per press of PgUp or PgDn */
 
-/* Scrolls or closes the open page. */
 static void press_in_page(struct gm_explorer *explorer, int key)
 {
     struct gm_face *face = &explorer->face;
@@ -449,7 +447,6 @@ static void click_study(struct gm_explorer *explorer, const struct gm_mouse_even
     free(words);
 }
 
-/* Returns true if the hit is a picture in space. */
 static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
 {
     return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&
@@ -469,15 +466,6 @@ static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event
                                                   .value = 1});
     pointer->column = event->column;
     pointer->row = event->row;
-}
-
-/* Handles the wheel: zooms a picture in space, else scrolls a list or changes the speed. */
-static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
-{
-    const bool up = event->kind == GM_MOUSE_UP;
-    const bool space =
-        !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
-    gm_explorer_key(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
 }
 
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
@@ -536,8 +524,10 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
 
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
-                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    const bool up = event->kind == GM_MOUSE_UP;
+    const bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
+                       explorer->face.choosing != GM_CHOOSE_NOTHING;
     explorer->dirty = true;
     switch (event->kind) {
     case GM_MOUSE_PRESS:
@@ -555,7 +545,14 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         break;
     case GM_MOUSE_UP:
     case GM_MOUSE_DOWN:
-        turn_wheel(explorer, event, lists);
+        /* the wheel scrolls a list, zooms a picture in space, or changes the speed */
+        if (lists) {
+            gm_explorer_key(explorer, up ? KEY_UP : KEY_DOWN);
+        } else if (is_in_space(explorer, hit)) {
+            gm_explorer_key(explorer, up ? 'z' : 'Z');
+        } else {
+            gm_explorer_key(explorer, up ? ']' : '[');
+        }
         break;
     }
 }

@@ -5,11 +5,11 @@
 #include "app/explorer/background/background.h"
 #include "app/explorer/terminal/device.h"
 #include "app/explorer/view/view.h"
-#include "app/explorer/worker/worker.h"
-#include "app/words/typed.h"
+#include "app/explorer/worker/session.h"
+#include "app/words/request.h"
 
-/* The state that the explorer's files share. explorer.c has start, loop, screen and end, actions.c handles keys and the
-   mouse, list.c the list of scenes, open.c scenes and typed lines. script.c is the explorer without a terminal. */
+/* The state that the explorer's files share. explorer.c has start, loop and end, actions.c handles keys and the mouse,
+   list.c the list of scenes and the screen, open.c scenes and typed lines. script.c is the explorer without a terminal. */
 
 enum { GM_NAME = 256 };
 
@@ -133,14 +133,12 @@ void gm_open_leave(struct gm_open *open);
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
 void gm_explorer_close_list(struct gm_list *list);
-/* Returns true if the worker plays the chosen entry and it has a preview. */
-bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
 /* Opens the preview of the chosen scene once it is due. */
 void gm_explorer_look_if_due(struct gm_explorer *explorer);
 
 /* ---- typed lines ---- */
 
-/* Opens the run of a line (app/words/typed.h). If the line is wrong, returns false and fills fault; the
+/* Opens the run of a line (app/words/request.h). If the line is wrong, returns false and fills fault; the
    open scene remains. */
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault);
 /* Opens the prompt with the open system, the last line or an example. */

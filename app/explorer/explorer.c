@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explorer's start and end, the loop that waits for keys and events, and the screen: shots of the worker are
-   taken, and a screen is composed. */
+/* The explorer's start and end, and the loop that waits for keys and events. */
 #include "app/explorer/explorer.h"
 
 #include <curses.h>
@@ -21,105 +20,6 @@
 #include "app/output/say.h"
 #include "core/basics.h"
 #include "render/clock.h"
-
-/* ---- from the state to the screen ---- */
-
-enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, LEAST_PAUSE = 5 };
-/* the part of a core up to which frames come at full pace */
-static const double FRAMES_SHARE = 1.0 / 3;
-
-bool gm_explorer_compose(struct gm_explorer *explorer)
-{
-    enum { WATCH_MILLISECONDS = 8000 };
-    struct gm_screen *screen = &explorer->screen;
-    struct gm_face *face = &explorer->face;
-    const struct gm_shot *shot = explorer->open.shot;
-    if (explorer->list.shown) {
-        bool looked = gm_explorer_is_looked_at(explorer);
-        gm_screen_draw_start(screen, face, &explorer->list.start, looked ? shot : NULL, explorer->fresh,
-                             looked ? explorer->open.said : "");
-    } else if (shot) {
-        if (face->page == GM_PAGE_HELP) {
-            face->explained = shot->lanes[shot->selected].scheme;
-        }
-        if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
-            gm_measure_ask(&explorer->measure, face->explained);
-            face->measured = gm_measure_text(&explorer->measure);
-        }
-        if (face->watched != shot->scene) { /* what to watch in a new scene is shown for some seconds */
-            face->watched = shot->scene;
-            face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
-        }
-        gm_screen_draw_scene(screen, face, shot, explorer->fresh);
-    } else {
-        return false;
-    }
-    if (face->loss) {
-        gm_screen_ask(screen, face);
-    }
-    explorer->fresh = false;
-    return true;
-}
-
-/* ---- shots of the worker ---- */
-
-/* Shows the requested command lines, and offers the first to the clipboard. */
-static void read_command(struct gm_explorer *explorer)
-{
-    const struct gm_shot *shot = explorer->open.shot;
-    if (shot->command_number == explorer->open.told) {
-        return;
-    }
-    explorer->open.told = shot->command_number;
-    explorer->face.awaited = false;
-    if (explorer->editing) {
-        gm_explorer_edit_system(explorer, shot->commands[GM_COMMAND_EXPLORER]);
-        return;
-    }
-    explorer->face.page = GM_PAGE_COMMAND;
-    explorer->face.scroll = 0;
-    explorer->face.command = GM_COMMAND_PICTURE;
-    gm_explorer_copy(explorer);
-}
-
-/* Returns the milliseconds between frames: costly ones and pictures of pixels come half as often, which
-   leaves time for steps and other processes. */
-static int period(const struct gm_explorer *explorer, const struct gm_shot *shot)
-{
-    const double affordable = 1000 * (shot->cost + explorer->draw_cost) / FRAMES_SHARE;
-    if (explorer->list.shown) {
-        return LOOK_MILLISECONDS;
-    }
-    if (explorer->face.pixels || affordable > SLOW_FRAME_MILLISECONDS) {
-        return SLOW_FRAME_MILLISECONDS;
-    }
-    return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
-}
-
-void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
-{
-    if (shot) {
-        explorer->open.shot = shot;
-        explorer->open.scene = shot->scene; /* the worker has made the scene by now */
-        explorer->open.asked = false;
-        read_command(explorer);
-        /* at an even pace, with a pause that leaves others time */
-        const int64_t next = explorer->open.next_shot + period(explorer, shot);
-        const int64_t earliest = gm_clock_milliseconds() + LEAST_PAUSE;
-        explorer->open.next_shot = next > earliest ? next : earliest;
-        explorer->dirty = true;
-        explorer->fresh = explorer->fresh || shot->drawn;
-        if (shot->drawn) {
-            explorer->display.stale = true;
-        }
-    } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
-               gm_worker_failed(explorer->open.worker, explorer->open.said)) {
-        explorer->dirty = true;
-        if (!explorer->list.shown) {
-            gm_explorer_show_start(explorer);
-        }
-    }
-}
 
 /* ---- output ---- */
 
@@ -263,19 +163,6 @@ static bool is_gone(void)
     return poll(&keys, 1, 0) > 0 && (ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0);
 }
 
-static void read_picture(struct gm_explorer *explorer)
-{
-    if (!gm_display_read(&explorer->display)) {
-        return;
-    }
-    explorer->dirty = true;
-    if (explorer->display.failed) { /* without a font only blocks work */
-        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
-            false;
-        explorer->face.pixels = GM_INLINE_NONE;
-    }
-}
-
 static void read_news(struct gm_explorer *explorer)
 {
     uint64_t count;
@@ -294,8 +181,13 @@ static void read_news(struct gm_explorer *explorer)
     if (gm_console_resized() || stops) {
         gm_explorer_resize(explorer);
     }
-    read_picture(explorer);
-    explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
+    const bool painted = gm_display_read(&explorer->display);
+    if (painted && explorer->display.failed) { /* without a font only blocks work */
+        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
+            false;
+        explorer->face.pixels = GM_INLINE_NONE;
+    }
+    explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty || painted;
     gm_explorer_take(explorer, explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL);
 }
 

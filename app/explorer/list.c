@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of scenes, and the size of the screen. */
+/* The list of scenes, and the screen. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
@@ -120,7 +120,6 @@ void gm_explorer_close_list(struct gm_list *list)
 
 /* ---- the choice ---- */
 
-/* Returns true if the worker plays this entry. */
 static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     const struct gm_open *open = &explorer->open;
@@ -133,16 +132,9 @@ static bool is_open(const struct gm_explorer *explorer, const struct gm_start_en
     return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
 }
 
-/* Returns true if the entry has a preview. */
 static bool can_be_looked_at(const struct gm_start_entry *entry)
 {
     return entry && !entry->tour && !gm_start_is_user(entry);
-}
-
-bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
-{
-    const struct gm_start_entry *entry = chosen(explorer);
-    return can_be_looked_at(entry) && is_open(explorer, entry);
 }
 
 /* Schedules the preview of the chosen scene, unless it is open. */
@@ -309,7 +301,105 @@ void gm_explorer_click_entry(struct gm_explorer *explorer, size_t entry)
     }
 }
 
-/* ---- the screen ---- */
+/* ---- the screen: shots of the worker are taken, and a screen is composed ---- */
+
+enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, LEAST_PAUSE = 5 };
+/* the part of a core up to which frames come at full pace */
+static const double FRAMES_SHARE = 1.0 / 3;
+
+bool gm_explorer_compose(struct gm_explorer *explorer)
+{
+    enum { WATCH_MILLISECONDS = 8000 };
+    struct gm_screen *screen = &explorer->screen;
+    struct gm_face *face = &explorer->face;
+    const struct gm_shot *shot = explorer->open.shot;
+    if (explorer->list.shown) {
+        const struct gm_start_entry *entry = chosen(explorer);
+        const bool looked = can_be_looked_at(entry) && is_open(explorer, entry);
+        gm_screen_draw_start(screen, face, &explorer->list.start, looked ? shot : NULL, explorer->fresh,
+                             looked ? explorer->open.said : "");
+    } else if (shot) {
+        if (face->page == GM_PAGE_HELP) {
+            face->explained = shot->lanes[shot->selected].scheme;
+        }
+        if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
+            gm_measure_ask(&explorer->measure, face->explained);
+            face->measured = gm_measure_text(&explorer->measure);
+        }
+        if (face->watched != shot->scene) { /* what to watch in a new scene is shown for some seconds */
+            face->watched = shot->scene;
+            face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
+        }
+        gm_screen_draw_scene(screen, face, shot, explorer->fresh);
+    } else {
+        return false;
+    }
+    if (face->loss) {
+        gm_screen_ask(screen, face);
+    }
+    explorer->fresh = false;
+    return true;
+}
+
+/* ---- shots of the worker ---- */
+
+/* Shows the requested command lines, and offers the first to the clipboard. */
+static void read_command(struct gm_explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    if (shot->command_number == explorer->open.told) {
+        return;
+    }
+    explorer->open.told = shot->command_number;
+    explorer->face.awaited = false;
+    if (explorer->editing) {
+        gm_explorer_edit_system(explorer, shot->commands[GM_COMMAND_EXPLORER]);
+        return;
+    }
+    explorer->face.page = GM_PAGE_COMMAND;
+    explorer->face.scroll = 0;
+    explorer->face.command = GM_COMMAND_PICTURE;
+    gm_explorer_copy(explorer);
+}
+
+/* Returns the milliseconds between frames: costly ones and pictures of pixels come half as often, which
+   leaves time for steps and other processes. */
+static int period(const struct gm_explorer *explorer, const struct gm_shot *shot)
+{
+    const double affordable = 1000 * (shot->cost + explorer->draw_cost) / FRAMES_SHARE;
+    if (explorer->list.shown) {
+        return LOOK_MILLISECONDS;
+    }
+    if (explorer->face.pixels || affordable > SLOW_FRAME_MILLISECONDS) {
+        return SLOW_FRAME_MILLISECONDS;
+    }
+    return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
+}
+
+void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
+{
+    if (shot) {
+        explorer->open.shot = shot;
+        explorer->open.scene = shot->scene; /* the worker has made the scene by now */
+        explorer->open.asked = false;
+        read_command(explorer);
+        /* at an even pace, with a pause that leaves others time */
+        const int64_t next = explorer->open.next_shot + period(explorer, shot);
+        const int64_t earliest = gm_clock_milliseconds() + LEAST_PAUSE;
+        explorer->open.next_shot = next > earliest ? next : earliest;
+        explorer->dirty = true;
+        explorer->fresh = explorer->fresh || shot->drawn;
+        if (shot->drawn) {
+            explorer->display.stale = true;
+        }
+    } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
+               gm_worker_failed(explorer->open.worker, explorer->open.said)) {
+        explorer->dirty = true;
+        if (!explorer->list.shown) {
+            gm_explorer_show_start(explorer);
+        }
+    }
+}
 
 void gm_explorer_resize(struct gm_explorer *explorer)
 {

@@ -13,7 +13,6 @@
 #include "app/explorer/view/view.h"
 #include "app/grid/grid.h"
 #include "app/words/system.h"
-#include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -38,7 +37,7 @@ void gm_open_leave(struct gm_open *open)
     }
 }
 
-/* Replaces the open scene by lanes that a new worker plays. Returns false and fills message if there is none. */
+/* Replaces the open scene by lanes that a new worker plays. Returns false and fills message on failure. */
 static bool take_over(struct gm_open *open, const struct gm_worker_plan *plan, char *message)
 {
     struct gm_worker *worker = gm_worker_open(plan, open->wake, message);
@@ -170,19 +169,6 @@ static const char *scheme_example(const struct gm_shot *shot)
         }
     }
     return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
-}
-
-static void ask_scheme(struct gm_explorer *explorer, bool fork)
-{
-    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
-    const struct gm_shot *shot = explorer->open.shot;
-    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
-    const char *last = explorer->typed_prompt.last[kind];
-    open_prompt(explorer, kind,
-                present->word ? gm_scheme_word(present)
-                : last        ? last
-                              : scheme_example(shot),
-                SIZE_MAX);
 }
 
 /* Asks for a system. If one is open, the worker first sends its command line. */
@@ -334,21 +320,6 @@ void gm_explorer_ask_map(struct gm_explorer *explorer)
 
 /* ---- accepted lines ---- */
 
-static bool take_map(struct gm_explorer *explorer)
-{
-    struct gm_typed_prompt *prompt = &explorer->typed_prompt;
-    struct gm_open *open = &explorer->open;
-    char *words = sweep_words(prompt->line.text);
-    const bool opened =
-        words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
-    if (!opened) {
-        snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
-                 words ? open->studies.notice : "There is not enough memory.");
-    }
-    free(words);
-    return opened;
-}
-
 static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
 {
     const enum gm_order_kind kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH;
@@ -358,12 +329,16 @@ static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm
 void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *scheme)
 {
     const bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    const enum gm_typed_kind kind = fork ? GM_TYPED_FORK : GM_TYPED_SWITCH;
+    const struct gm_shot *shot = explorer->open.shot;
     explorer->face.choosing = GM_CHOOSE_NOTHING;
-    if (scheme == &gm_chooser_user) {
-        ask_scheme(explorer, fork);
-    } else {
+    if (scheme != &gm_chooser_user) {
         take_scheme(explorer, fork, scheme);
+        return;
     }
+    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
+    const char *last = explorer->typed_prompt.last[kind], *usual = last ? last : scheme_example(shot);
+    open_prompt(explorer, kind, present->word ? gm_scheme_word(present) : usual, SIZE_MAX);
 }
 
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
@@ -390,6 +365,7 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
 static void take(struct gm_explorer *explorer)
 {
     struct gm_typed_prompt *prompt = &explorer->typed_prompt;
+    struct gm_open *open = &explorer->open;
     prompt->entered = false;
     const char *line = prompt->line.text;
     bool taken;
@@ -397,12 +373,18 @@ static void take(struct gm_explorer *explorer)
         taken = gm_explorer_open_line(explorer, line, &prompt->fault);
         const bool formula = memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") ||
                              strstr(line, " L=") || strstr(line, " rate=");
-        explorer->open.unsaved = explorer->open.unsaved || (taken && formula);
+        open->unsaved = open->unsaved || (taken && formula);
     } else if (prompt->kind == GM_TYPED_MAP) {
-        taken = take_map(explorer);
+        char *words = sweep_words(line);
+        taken = words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, open->scene, words, open->wake);
+        if (!taken) {
+            snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
+                     words ? open->studies.notice : "There is not enough memory.");
+        }
+        free(words);
     } else {
-        const struct gm_scheme *scheme = gm_typed_scheme(line, &prompt->fault);
-        taken = scheme != NULL;
+        const struct gm_scheme *scheme;
+        taken = gm_typed_scheme(line, &scheme, &prompt->fault);
         if (taken) {
             take_scheme(explorer, prompt->kind == GM_TYPED_FORK, scheme);
         }

@@ -113,7 +113,6 @@ int gm_cache_find(const char *folder, const struct gm_cache_key *key)
     return file;
 }
 
-/* Ends a library with its seal. */
 static bool put_seal(int file, const struct gm_cache_key *key)
 {
     struct gm_digest digest;

@@ -293,36 +293,24 @@ void gm_compilation_stop(struct gm_compilation *compilation)
     }
 }
 
-/* The program or the library that contains this function. */
-static bool find_self(char self[4096])
+/* bin/geomint, lib/libgeomint.so or lib/MACHINE/libgeomint.so, whichever contains this function, beside share/geomint,
+   wherever they have been moved together. */
+static bool beside_program(char *path, size_t size)
 {
     static const char part = 0;
     Dl_info here;
     const bool library = dladdr(&part, &here) && strstr(here.dli_fname, "libgeomint.so");
-    char *found = realpath(library ? here.dli_fname : "/proc/self/exe", NULL);
-    const bool known = found && snprintf(self, 4096, "%s", found) < 4096;
-    free(found);
-    return known;
-}
-
-/* bin/geomint, lib/libgeomint.so or lib/MACHINE/libgeomint.so beside share/geomint, wherever they have been
-   moved together. */
-static bool beside_program(char *path, size_t size)
-{
-    char self[4096];
-    if (!find_self(self)) {
-        return false;
-    }
-    char *slash = strrchr(self, '/');
-    for (int up = 0; slash && up < 3; up++) {
+    char *self = realpath(library ? here.dli_fname : "/proc/self/exe", NULL);
+    char *slash = self ? strrchr(self, '/') : NULL;
+    bool found = false;
+    for (int up = 0; slash && up < 3 && !found; up++) {
         *slash = '\0';
         const int wanted = snprintf(path, size, "%s/share/geomint/kernel", self);
-        if (up > 0 && wanted < (int)size && access(path, R_OK) == 0) {
-            return true;
-        }
+        found = up > 0 && wanted < (int)size && access(path, R_OK) == 0;
         slash = strrchr(self, '/');
     }
-    return false;
+    free(self);
+    return found;
 }
 
 const char *gm_kernel_folder(char *path, size_t size)

@@ -51,7 +51,6 @@ static const char *const flags[] = {
     "-D_GNU_SOURCE",
     "-DGM_PROBLEM=user",
     "-DGM_ISA=native",
-
     "-w",
     "-shared",
     "-fPIC",
@@ -189,15 +188,6 @@ static void load(struct build *build, const char *folder)
     close(file);
 }
 
-static bool write_text(const char *folder, const char *name, const char *text)
-{
-    char path[GM_CACHE_PATH];
-    snprintf(path, sizeof path, "%.3900s/%s", folder, name);
-    FILE *file = fopen(path, "wxe");
-    const bool written = file && fputs(text, file) >= 0;
-    return file && fclose(file) == 0 && written;
-}
-
 static void remove_aside(const char *folder, const struct build *build)
 {
     const char *const names[] = {build->text_name, build->library_name};
@@ -223,7 +213,11 @@ static void compile(struct build *build, const char *folder, const char *compile
              (int)getpid(), number);
     snprintf(kernels, sizeof kernels, "-DGM_KERNELS=\"%s\"", build->text_name);
     snprintf(source, sizeof source, "%.3900s/core/ode/compiled/over_kernels.c", kernel_folder);
-    if (!write_text(folder, build->text_name, text)) {
+    char path[GM_CACHE_PATH];
+    snprintf(path, sizeof path, "%.3900s/%s", folder, build->text_name);
+    FILE *file = fopen(path, "wxe");
+    const bool written = file && fputs(text, file) >= 0;
+    if (!file || fclose(file) != 0 || !written) {
         gm_refuse(build->sentence, "the cache could not be written: %s", strerror(errno));
         remove_aside(folder, build);
         build->state = REFUSED;
@@ -300,7 +294,6 @@ static void begin(struct build *build, const char *text, struct part part)
     }
 }
 
-/* Checks a running compilation. */
 static void look(struct build *build)
 {
     char folder[GM_CACHE_PATH], library[GM_CACHE_PATH];
@@ -365,11 +358,6 @@ static struct build *build_of(const struct gm_lane *lane)
 
 /* ---- lanes ---- */
 
-static bool same(double a, double b)
-{
-    return (isnan(a) && isnan(b)) || memcmp(&a, &b, sizeof a) == 0;
-}
-
 /* A run after some steps from a snapshot on, as another snapshot. */
 static bool try_steps(struct gm_run *run, const void *before, void *after)
 {
@@ -402,7 +390,8 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
         const double *numbers = (const double *)(const void *)(one + head),
                      *others = (const double *)(const void *)(other + head);
         for (size_t i = 0; equal && i < run->half_size / sizeof *numbers; i++) {
-            equal = same(numbers[i], others[i]);
+            equal = (isnan(numbers[i]) && isnan(others[i])) ||
+                    memcmp(&numbers[i], &others[i], sizeof *numbers) == 0;
         }
         gm_run_load(run, before);
     }
@@ -478,7 +467,6 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left)
     pthread_mutex_unlock(&making);
 }
 
-/* Ends all running compilations. */
 static void stop_all(void)
 {
     char folder[GM_CACHE_PATH], sentence[GM_MESSAGE];

@@ -15,9 +15,11 @@
 #include "render/files/temporary.h"
 #include "render/message.h"
 
-/* The text of the system that a command "stability NAME key=value" is of; NULL: it is of none. */
-static const char *source_of(const char *command)
+/* A command such as "stability NAME key=value" may be of a system, whose text belongs to the metadata. */
+static bool describe(struct gm_provenance *provenance, const void *data, const struct gm_appearance *look,
+                     const char *painter)
 {
+    const char *command = ((const struct gm_chart *)data)->command;
     char message[GM_MESSAGE];
     int refusal;
     struct gm_arguments words = {0};
@@ -27,14 +29,7 @@ static const char *source_of(const char *command)
         scene = gm_request_scene(place > 1 ? 1 : words.count - 1, words.words + place, &refusal, message);
     }
     gm_arguments_close(&words);
-    return scene ? scene->source : NULL;
-}
-
-static bool describe(struct gm_provenance *provenance, const void *data, const struct gm_appearance *look,
-                     const char *painter)
-{
-    const char *command = ((const struct gm_chart *)data)->command;
-    return gm_provenance_of_command(provenance, command, source_of(command), look, painter);
+    return gm_provenance_of_command(provenance, command, scene ? scene->source : NULL, look, painter);
 }
 
 static void draw(const void *data, struct gm_picture *picture)

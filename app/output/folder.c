@@ -18,27 +18,18 @@ static bool make_one(const char *path)
     return !*path || stat(path, &found) == 0 || mkdir(path, 0777) == 0 || errno == EEXIST;
 }
 
-/* Every folder of the path that is not there; the path is the same afterwards. */
-static bool make_all(char *path)
-{
-    for (char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        const bool made = make_one(path);
-        *slash = '/';
-        if (!made) {
-            return false;
-        }
-    }
-    return make_one(path);
-}
-
-/* The folder of this path's first bytes. */
+/* The folder of this path's first bytes, and every folder above it that is not there. */
 static bool make(const char *path, size_t length, char *message)
 {
     char *folder = strndup(path, length);
-    const bool made =
-        (folder && make_all(folder)) || gm_refuse(message, "%.*s could not be made: %s",
-                                                  (int)(length < 360 ? length : 360), path, strerror(errno));
+    bool made = folder != NULL;
+    for (char *slash = made ? strchr(folder, '/') : NULL; slash && made; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        made = make_one(folder);
+        *slash = '/';
+    }
+    made = (made && make_one(folder)) || gm_refuse(message, "%.*s could not be made: %s",
+                                                   (int)(length < 360 ? length : 360), path, strerror(errno));
     free(folder);
     return made;
 }

@@ -172,21 +172,6 @@ static void close_folder(void *folder)
     closedir(folder);
 }
 
-/* Reads the folder instead of trying every possible frame. */
-static void look(struct gm_frames *frames)
-{
-    const size_t mark = gm_arena_mark(frames->arena);
-    DIR *folder = opendir(frames->folder);
-    const struct dirent *entry = NULL;
-    if (folder) {
-        gm_arena_keep(frames->arena, folder, close_folder);
-    }
-    while (folder && (entry = readdir(folder))) {
-        look_at(frames, dirfd(folder), entry->d_name);
-    }
-    gm_arena_release(frames->arena, mark);
-}
-
 void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const struct gm_schedule *schedule,
                     const char *folder, const char *name, const struct gm_provenance *provenance)
 {
@@ -198,7 +183,17 @@ void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const stru
                                  .identity = identify(arena, schedule, provenance)};
     gm_arena_check(arena, gm_folder_make(folder, message), message);
     frames->there = gm_arena_take(arena, (size_t)schedule->count, sizeof *frames->there);
-    look(frames);
+    /* the folder is read instead of trying every possible frame */
+    const size_t mark = gm_arena_mark(arena);
+    DIR *files = opendir(folder);
+    const struct dirent *entry = NULL;
+    if (files) {
+        gm_arena_keep(arena, files, close_folder);
+    }
+    while (files && (entry = readdir(files))) {
+        look_at(frames, dirfd(files), entry->d_name);
+    }
+    gm_arena_release(arena, mark);
 }
 
 long gm_frames_missing(const struct gm_frames *frames, bool last)

@@ -86,7 +86,6 @@ static void save(const struct gm_lane *lane, double gone, struct gm_moment *mome
     moment->gone = gone;
 }
 
-/* Drops snapshots later than `steps`. */
 static void forget_after(struct gm_past *past, int64_t steps)
 {
     while (past->count > 0 && past->moments[past->count - 1].steps > steps) {
@@ -154,11 +153,7 @@ static const struct gm_moment *return_to(const struct gm_past *past, struct gm_l
     return moment;
 }
 
-/* Writes a sentence and returns false. */
-static bool short_of_memory(char *message)
-{
-    return gm_refuse(message, "There is not enough memory.");
-}
+static const char short_of_memory[] = "There is not enough memory.";
 
 /* ---- the parameters of a lane, as last set ---- */
 
@@ -283,7 +278,6 @@ double gm_session_from_start(const struct gm_session *session, size_t i)
 /* Snapshots of all lanes together take at most this. */
 enum { PAST_BUDGET = 64 << 20 };
 
-/* Shares the memory for snapshots out. */
 static void share_budget(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
@@ -393,7 +387,6 @@ static void forget_wanted(struct gm_session *session, size_t i)
     session->wanted[i] = (struct gm_lane_spec){0};
 }
 
-/* Empties place i. */
 static void clear_lane(struct gm_session *session, size_t i)
 {
     close_past(&session->pasts[i]);
@@ -431,7 +424,7 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
                                        .arguments = request->arguments ? strdup(request->arguments) : NULL};
     if (!session->log.lanes || (request->arguments && !session->log.arguments)) {
         gm_request_close(&session->log);
-        return short_of_memory(message);
+        return gm_refuse(message, short_of_memory);
     }
     for (size_t i = 0; i < request->count; i++) {
         const struct gm_lane_spec *spec = &request->lanes[i];
@@ -505,7 +498,7 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
         wanted->settings = session->lanes[i]->settings;
         wanted->parameters = gm_parameters_copy(session->scene, session->lanes[i]->parameters);
         if (!wanted->parameters) {
-            return short_of_memory(message);
+            return gm_refuse(message, short_of_memory);
         }
         struct gm_timing *timing = wanted->parameters;
         timing->dt = fabs(timing->dt); /* a start is forwards */
@@ -548,7 +541,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     const int64_t step = session->lanes[i]->run->steps;
     gm_changes_drop(&session->log, is_overtaken, &(struct gm_change){i, step, (char *)text});
     if (!gm_change_add(&session->log, i, step, text)) {
-        return short_of_memory(message);
+        return gm_refuse(message, short_of_memory);
     }
     note_lane(session, i, true);
     return true;
@@ -615,7 +608,7 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
 {
     char *change = NULL;
     if (asprintf(&change, "scheme=%s", gm_scheme_word(scheme)) < 0) {
-        return short_of_memory(message);
+        return gm_refuse(message, short_of_memory);
     }
     settle(session);
     const bool made = make_change(session, lane, change, message);
@@ -823,11 +816,11 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
     size_t at = session->count;
     session->lanes[at] = gm_lane_copy(session->lanes[like]);
     if (!session->lanes[at]) {
-        return short_of_memory(message);
+        return gm_refuse(message, short_of_memory);
     }
     session->pasts[at] = copy_past(&session->pasts[like]);
     session->courses[at] = session->courses[like];
-    bool ok = copy_log(session, like) || short_of_memory(message);
+    bool ok = copy_log(session, like) || gm_refuse(message, short_of_memory);
     count_lane(session);
     share_budget(session);
     ok = ok && gm_session_switch(session, at, scheme, message);

@@ -166,7 +166,7 @@ struct gm_shot {
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit, */
     const struct gm_scheme
         *same[GM_SHOT_SCHEMES]; /* the other schemes whose steps are the same here, or NULL */
-    double t, speed;
+    double speed;
     double cost;        /* seconds that it took to take it */
     double pace;        /* steps of the selected lane per second at that speed */
     double ahead;       /* time to which running ahead is useful */

@@ -61,16 +61,6 @@ static void take_parameter(struct gm_shot *shot, const struct gm_session *sessio
     gm_parameter_format(row, owner, parameter->value, sizeof parameter->value);
 }
 
-static bool is_used(const struct gm_session *session, const struct gm_parameter *row)
-{
-    for (size_t i = 0; i < session->count; i++) {
-        if (gm_scheme_takes(session->lanes[i]->scheme, row)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool is_idle(const struct gm_session *session, const char *key)
 {
     bool idle = true;
@@ -104,7 +94,6 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     shot->scene = session->scene;
     shot->lane_count = session->count;
     shot->selected = selected;
-    shot->t = gm_session_time(session);
     shot->ahead = suggested_end(session);
     shot->gone = gm_session_gone(session);
     shot->reach = gm_session_reach(session);
@@ -147,7 +136,11 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        if (is_used(session, &gm_settings_parameters[i])) {
+        bool used = false;
+        for (size_t k = 0; k < session->count; k++) {
+            used = used || gm_scheme_takes(session->lanes[k]->scheme, &gm_settings_parameters[i]);
+        }
+        if (used) {
             take_parameter(shot, session, &gm_settings_parameters[i], true);
         }
     }

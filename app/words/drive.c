@@ -101,20 +101,6 @@ double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *
     return took;
 }
 
-/* Advances in single steps, with a row after each. */
-static void trace_to(struct gm_drive *drive, int64_t stop)
-{
-    struct gm_lane *lane = drive->lane;
-    const struct gm_run *run = lane->run;
-    const size_t count = lane->problem.n * lane->problem.m;
-    const double until = until_of(drive);
-    while (gm_run_goes_on(run, stop, until) && gm_lane_to(lane, run->steps + 1, until) == GM_OK) {
-        drive->trace[0] = run->t;
-        memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
-        drive->trace += 1 + count;
-    }
-}
-
 double gm_drive_rest(const struct gm_drive *drive)
 {
     const struct gm_lane_spec *spec = &drive->request->lanes[drive->index];
@@ -135,8 +121,15 @@ static void advance(struct gm_drive *drive, int64_t stop, bool record)
     const double start = measured ? gm_clock_processor_seconds() : 0;
     if (record) {
         gm_run_to(lane->run, stop, until_of(drive));
-    } else if (drive->trace) {
-        trace_to(drive, stop);
+    } else if (drive->trace) { /* single steps, with a row after each */
+        const struct gm_run *run = lane->run;
+        const size_t count = lane->problem.n * lane->problem.m;
+        const double until = until_of(drive);
+        while (gm_run_goes_on(run, stop, until) && gm_lane_to(lane, run->steps + 1, until) == GM_OK) {
+            drive->trace[0] = run->t;
+            memcpy(drive->trace + 1, gm_run_state(run), count * sizeof *drive->trace);
+            drive->trace += 1 + count;
+        }
     } else {
         /* the observers cost less than a reading of the clock */
         gm_lane_to(lane, stop, until_of(drive));

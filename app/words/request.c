@@ -12,7 +12,6 @@
 #include "app/words/names.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
-#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
 #include "core/memory.h"
@@ -270,7 +269,6 @@ static size_t first_scheme(const struct gm_words *words, size_t lane)
     return lane;
 }
 
-/* Returns true if an earlier lane has the same problem. */
 static bool is_repeated(const struct gm_request *request, size_t lane)
 {
     for (size_t i = 0; i < lane; i++) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes of systems and rooms, from files and from formulas. */
 #include "app/words/system.h"
-#include "app/words/typed_file.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -26,7 +25,6 @@
 
 const char gm_system_typed[] = "system";
 
-/* The whole text of a file is read. */
 static bool read_file(struct gm_typed_file *written, const struct gm_file *file, size_t most, char *message)
 {
     written->path = file->path;
@@ -313,7 +311,6 @@ static void find_largest(struct making *making)
     }
 }
 
-/* Reports a lack of memory, with the largest length. */
 static void refuse_memory(struct making *making)
 {
     struct gm_fault fault = {.offset = making->largest_place};
@@ -328,7 +325,6 @@ static void refuse_memory(struct making *making)
     making->trial->status = GM_EXIT_MEMORY;
 }
 
-/* Makes a scene of the text, or finds the existing one. */
 static void make(struct making *making)
 {
     const struct gm_typed_file *written = &making->written;
@@ -362,7 +358,6 @@ static void make(struct making *making)
     }
 }
 
-/* The text that the words mean. */
 static bool write_text(struct making *making)
 {
     struct gm_typed_file *written = &making->written;

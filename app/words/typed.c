@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A typed line as words, and its faults. */
-#include "app/words/typed.h"
+#include "app/words/request.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -112,23 +112,18 @@ static size_t place_of(const char *line, int word, size_t offset)
     return at;
 }
 
-/* Returns true if blanks or quotes would split or change the word. */
-static bool needs_quotes(const char *word)
-{
-    struct gm_arguments alone = {0};
-    const bool same = gm_typed_split(&alone, word) && alone.count == 1 && strcmp(alone.words[0], word) == 0;
-    gm_arguments_close(&alone);
-    return !same;
-}
-
 char *gm_typed_join(const struct gm_arguments *words)
 {
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     for (int i = 0; stream && i < words->count; i++) {
-        const char *word = words->words[i];
-        const char *quote = !needs_quotes(word) ? "" : strchr(word, '\'') ? "\"" : "'";
+        const char *word = words->words[i], *quote = strchr(word, '\'') ? "\"" : "'";
+        struct gm_arguments alone = {0}; /* blanks or quotes may split or change the word */
+        const bool same =
+            gm_typed_split(&alone, word) && alone.count == 1 && strcmp(alone.words[0], word) == 0;
+        gm_arguments_close(&alone);
+        quote = same ? "" : quote;
         fprintf(stream, "%s%s%s%s", i > 0 ? " " : "", quote, word, quote);
     }
     return stream && fclose(stream) == 0 ? text : NULL;
@@ -244,8 +239,7 @@ static char *scheme_of(const char *line, size_t *begin)
     return strndup(line + from, to - from);
 }
 
-/* Checks a scheme, and keeps it in *kept unless that is NULL. */
-static bool read_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault)
+bool gm_typed_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault)
 {
     size_t begin = 0, at = 0;
     int status;
@@ -261,14 +255,7 @@ static bool read_scheme(const char *line, const struct gm_scheme **kept, struct 
     return known;
 }
 
-const struct gm_scheme *gm_typed_scheme(const char *line, struct gm_typed_fault *fault)
-{
-    const struct gm_scheme *scheme = NULL;
-    read_scheme(line, &scheme, fault);
-    return scheme;
-}
-
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
 {
-    return read_scheme(line, NULL, fault);
+    return gm_typed_scheme(line, NULL, fault);
 }

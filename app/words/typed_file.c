@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas that are typed become lines of a system's file. */
-#include "app/words/typed_file.h"
+#include "app/words/system.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,6 @@ static size_t key_of(const char *word, const char *const *keys, const char **val
     return k;
 }
 
-/* Returns true if a word is a formula or a list of components. */
 static bool is_typed(const char *word)
 {
     const char *value;
@@ -368,7 +367,6 @@ static void put_starts_or_parameters(struct typing *typing, bool starts)
     }
 }
 
-/* Returns true if a name needs no value. */
 static bool needs_none(const struct typing *typing, const char *name, bool component)
 {
     if (strcmp(name, "t") == 0 || has_value(typing, name) || is_used(typing, name, INDEX)) {
@@ -561,7 +559,6 @@ static void refuse_words(const struct typing *typing)
                     "each component");
 }
 
-/* Writes the lines of the system. */
 static void put_typed(struct gm_arena *arena, void *data)
 {
     static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", "mesh", NULL};

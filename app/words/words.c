@@ -67,7 +67,6 @@ static bool read_end(const char *from, const char *to, double *value)
     return gm_number_parse(text, value) && isfinite(*value);
 }
 
-/* The fault of a range, or NULL. */
 static const char *fault_of(const struct gm_range *range, bool whole)
 {
     if (!(range->first < range->last)) {
@@ -502,20 +501,6 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
     return !words->failed;
 }
 
-/* The first `count` of these schemes, as if they had been typed in front. */
-static void prefer(struct gm_words *words, const char *const *names, size_t count)
-{
-    if (gm_words_find(words, "scheme")) {
-        return;
-    }
-    struct gm_word list = *new_list(words, "scheme");
-    for (size_t i = 0; i < count && names[i]; i++) {
-        add_value(words->arena, &list, names[i], strlen(names[i]));
-    }
-    memmove(&words->list[1], &words->list[0], (words->count - 1) * sizeof words->list[0]);
-    words->list[0] = list;
-}
-
 /* Checks that each common key that is not a lane's has one value, one of its choices. */
 static void check_choices(const struct gm_words *words)
 {
@@ -563,7 +548,15 @@ static void read_words(struct gm_arena *arena, void *data)
         names->pieces[k].text = gm_arena_print(words->arena, "%s", name);
     }
     check_choices(words);
-    prefer(words, preference ? preference->schemes : scene->schemes, typing->schemes);
+    if (!names) { /* the preferred ones, as if they had been typed in front */
+        const char *const *schemes = preference ? preference->schemes : scene->schemes;
+        struct gm_word list = *new_list(words, "scheme");
+        for (size_t i = 0; i < typing->schemes && schemes[i]; i++) {
+            add_value(words->arena, &list, schemes[i], strlen(schemes[i]));
+        }
+        memmove(&words->list[1], &words->list[0], (words->count - 1) * sizeof words->list[0]);
+        words->list[0] = list;
+    }
     words->zip = gm_words_chosen(words, "zip");
 }
 

@@ -11,8 +11,6 @@
 
 #include "app/words/request.h"
 #include "app/words/system.h"
-#include "app/words/typed.h"
-#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/basics.h"
 #include "core/run.h"
@@ -116,7 +114,8 @@ static void schemes(void **unused)
     assert_int_equal(fault.at, 17);
     assert_false(gm_typed_check_scheme("vrlet", &fault));
     assert_int_equal(fault.at, 0);
-    assert_non_null(gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &fault));
+    assert_true(
+        gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &(const struct gm_scheme *){NULL}, &fault));
 }
 
 /* Formulas of a file, with the lines that go on them. */

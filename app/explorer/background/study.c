@@ -80,7 +80,6 @@ static void save(struct gm_study *study, enum gm_theme theme)
     }
 }
 
-/* Saves if requested. */
 static void save_if_wanted(struct gm_study *study)
 {
     pthread_mutex_lock(&study->job.lock);

@@ -40,7 +40,6 @@ void gm_edit_set(struct gm_edit *line, const char *text, size_t at)
     line->at = at < line->length ? at : line->length;
 }
 
-/* Deletes the bytes from `from` to `to`. */
 static void cut(struct gm_edit *line, size_t from, size_t to)
 {
     memmove(line->text + from, line->text + to, line->length + 1 - to);
@@ -106,7 +105,6 @@ static uint32_t shown(uint32_t code)
     return plain && (code < 0x300 || code >= 0x370) ? code : '?';
 }
 
-/* Returns the number of cells before byte `at`. */
 static int cells_before(const struct gm_edit *line, size_t at)
 {
     const char *text = line->text;

@@ -5,7 +5,6 @@
 #include <stddef.h>
 
 #include "app/explorer/worker/session.h"
-#include "app/explorer/worker/worker.h"
 #include "app/runs/session.h"
 #include "core/scheme.h"
 #include "render/cells/cells.h"

@@ -78,7 +78,6 @@ static enum verdict judge(const char *held, size_t count)
 
 enum { NUMBERS = 16 };
 
-/* Reads the numbers between the semicolons; returns how many. */
 static int read_numbers(const char *text, int numbers[NUMBERS])
 {
     int count = 0;
@@ -133,30 +132,26 @@ static void take_ground(struct gm_answers *answers, const char *text)
     answers->ground = luminance;
 }
 
-static void take_string(struct gm_answers *answers)
-{
-    const char *held = answers->held;
-    if (held[1] == '_') {
-        answers->kitty = answers->kitty || strstr(held, ";OK\033") != NULL;
-    } else if (held[1] == ']') {
-        take_ground(answers, held + sizeof ground - 1);
-    } else {
-        /* the answer has the colour that was set, or the nearest one of a palette */
-        const bool direct = strstr(held, "48:2:") || strstr(held, "48;2;");
-        answers->true_colour =
-            answers->true_colour || (direct && (strstr(held, "1:2:3") || strstr(held, "1;2;3")));
-    }
-}
-
 static void take(struct gm_answers *answers)
 {
     char *held = answers->held;
     int numbers[NUMBERS] = {0};
-    if (held[1] != '[') {
-        take_string(answers);
+    char end = held[answers->count - 1];
+    if (held[1] == '_') {
+        answers->kitty = answers->kitty || strstr(held, ";OK\033") != NULL;
         return;
     }
-    char end = held[answers->count - 1];
+    if (held[1] == ']') {
+        take_ground(answers, held + sizeof ground - 1);
+        return;
+    }
+    if (held[1] != '[') {
+        /* the answer has the colour that was set, or the nearest one of a palette */
+        const bool direct = strstr(held, "48:2:") || strstr(held, "48;2;");
+        answers->true_colour =
+            answers->true_colour || (direct && (strstr(held, "1:2:3") || strstr(held, "1;2;3")));
+        return;
+    }
     if (held[2] == '?') {
         take_private(answers, numbers, read_numbers(held + 3, numbers), end);
         return;

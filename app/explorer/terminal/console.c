@@ -126,7 +126,6 @@ static void on_stop(int number)
     announce();
 }
 
-/* Returns the handler of a signal; NULL: unchanged. */
 static void (*handler_of(int number))(int)
 {
     static const struct {

@@ -143,19 +143,6 @@ void gm_terminal_size(int *columns, int *rows)
     *rows = size.ws_row ? size.ws_row : 24;
 }
 
-static void look_at_terminfo(struct gm_terminal *terminal)
-{
-    int error;
-    terminal->terminfo_colours = -1;
-    if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK) {
-        return;
-    }
-    terminal->terminfo_colours = tigetnum("colors");
-    const char *address = tigetstr("cup");
-    terminal->known = address && address != (char *)-1;
-    del_curterm(cur_term);
-}
-
 /* ---- asking the terminal ---- */
 
 void gm_terminal_cell(int *width, int *height)
@@ -341,7 +328,14 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
     setlocale(LC_CTYPE, "");
     terminal->codeset = nl_langinfo(CODESET);
     terminal->utf8 = strcasecmp(terminal->codeset, "UTF-8") == 0;
-    look_at_terminfo(terminal);
+    int error;
+    terminal->terminfo_colours = -1;
+    if (*terminal->name && setupterm(terminal->name, STDOUT_FILENO, &error) == OK) {
+        terminal->terminfo_colours = tigetnum("colors");
+        const char *address = tigetstr("cup");
+        terminal->known = address && address != (char *)-1;
+        del_curterm(cur_term);
+    }
     gm_terminal_size(&terminal->columns, &terminal->rows);
     struct winsize size = {0};
     bool asked = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -449,17 +443,6 @@ static void report_answers(const struct gm_terminal *terminal)
          "whether frames are shown at once (mode 2026)");
 }
 
-static void report_ladder(const struct gm_terminal *terminal)
-{
-    char text[GM_REASON] = "";
-    for (int i = 0; i < RUNGS; i++) {
-        if (can(terminal, i)) {
-            gm_append(text, sizeof text, "%s%s", text[0] ? ", " : "", graphics_names[i]);
-        }
-    }
-    printf("  %-12s %s\n", "key b", text);
-}
-
 /* Prints the painter in use, found with a small canvas. */
 static void report_painter(const char *what, bool live, const char *where)
 {
@@ -500,7 +483,13 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
     line("colours", colours_names[terminal.colours], terminal.colours_why);
     line("graphics", graphics_names[rung_of(terminal.graphics)], terminal.graphics_why);
-    report_ladder(&terminal);
+    char ways[GM_REASON] = "";
+    for (int i = 0; i < RUNGS; i++) {
+        if (can(&terminal, i)) {
+            gm_append(ways, sizeof ways, "%s%s", ways[0] ? ", " : "", graphics_names[i]);
+        }
+    }
+    printf("  %-12s %s\n", "key b", ways);
     line("theme", theme_names[terminal.theme == GM_THEME_LIGHT ? LIGHT : DARK], terminal.theme_why);
     if (!gm_terminal_serves(&terminal, message)) {
         printf("  %s\n", message);

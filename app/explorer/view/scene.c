@@ -104,7 +104,7 @@ static void few_sentences(const struct gm_sheet *whole, const char *all, char *t
     snprintf(text, size, "%.*s%s", (int)(sentences ? sentences : words), all, sentences ? "" : "…");
 }
 
-/* Of a long typed text the end is shown, where letters are added; the help needs the rest. */
+/* Shows the end of a long typed text, where letters are added; the help needs the rest. */
 static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
 {
     enum { SHOWN = 40 };

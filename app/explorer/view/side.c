@@ -42,7 +42,6 @@ static int observable_rows(const struct gm_shot *shot)
     return (int)shot->measured_count + shot->turned;
 }
 
-/* Returns the plan for one section. */
 static struct plan plan_one(int rows, enum gm_side_panel side, const struct gm_shot *shot)
 {
     struct plan plan = {.lanes = side != GM_SIDE_PARAMETERS};
@@ -259,11 +258,6 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
 
 /* ---- parameters ---- */
 
-static void draw_heading(const struct gm_sheet *sheet, int row, const char *text)
-{
-    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
-}
-
 enum { VALUE_LETTERS = 9, RANGE_LETTERS = 6 };
 
 /* Writes the value as typed, or with fewer digits to make room for a slider. */
@@ -340,7 +334,7 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
     if (plan->parameters <= 0) {
         return row;
     }
-    draw_heading(sheet, row++, "PARAMETERS");
+    gm_sheet_text(sheet, 0, row++, "PARAMETERS", GM_SECONDARY, true);
     int values = value_column(shot);
     /* the chosen parameter is always visible */
     int first = chosen - plan->parameters / 2;
@@ -481,7 +475,7 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     columns.first = shot->selected < columns.count ? 0 : shot->selected - columns.count + 1;
     columns.begin = sheet->width - (int)columns.count * VALUE_WIDTH + 1;
     columns.label = plan->stacked ? sheet->width : columns.begin - 1;
-    draw_heading(sheet, row, "OBSERVED");
+    gm_sheet_text(sheet, 0, row, "OBSERVED", GM_SECONDARY, true);
     for (size_t i = 0; i < columns.count; i++) {
         const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
         int right = columns.begin + (int)i * VALUE_WIDTH + SPARK_CELLS;
@@ -527,7 +521,7 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     if (side == GM_SIDE_PARAMETERS || sheet->height - row < 5) { /* a blank row, a heading, and three rows */
         return;
     }
-    draw_heading(sheet, row + 1, "FORMULA");
+    gm_sheet_text(sheet, 0, row + 1, "FORMULA", GM_SECONDARY, true);
     gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, gm_lane_role(lane->shown.colour),
                    false);
     gm_schemes_formula(sheet, row + 2, lane->scheme);

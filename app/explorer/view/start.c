@@ -133,7 +133,6 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
     gm_sheet_wrapped(sheet, 0, rows - below, below, watch, GM_INK);
 }
 
-/* Draws the chosen tour's description and its steps. */
 static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
 {
     int row = 0;
@@ -150,7 +149,6 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
                      "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
 }
 
-/* Draws examples for a user-defined system. */
 static void draw_own(const struct gm_sheet *sheet)
 {
     static const char *const examples[][2] = {
@@ -179,11 +177,7 @@ static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start
 {
     const size_t next = gm_start_next_group(start);
     char text[GM_TYPED + 16], hints[80];
-    if (start->typed[0]) {
-        snprintf(text, sizeof text, "search: %s_", start->typed);
-    } else {
-        snprintf(text, sizeof text, "Type to search.");
-    }
+    snprintf(text, sizeof text, start->typed[0] ? "search: %s_" : "Type to search.%s", start->typed);
     const int width =
         gm_sheet_text(sheet, 1, 0, text, start->typed[0] ? GM_INK : GM_SECONDARY, start->typed[0]);
     snprintf(hints, sizeof hints, "enter:open|↑↓:choose%s%s|%s|?:help", next != start->choice ? "|tab:" : "",

@@ -46,7 +46,6 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
     return true;
 }
 
-/* Returns true if a parameter has its default value. */
 static bool is_standard(const struct gm_scene *scene, const struct gm_shot_parameter *parameter)
 {
     void *owner =
@@ -192,17 +191,6 @@ bool gm_studies_look(struct gm_studies *studies)
 
 /* ---- drawing ---- */
 
-/* Draws the reason why there is no diagram. */
-static void draw_reason(const struct gm_sheet *sheet, const struct gm_study_look *look)
-{
-    const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
-    char sentence[GM_MESSAGE + 1];
-    snprintf(sentence, sizeof sentence, "%c%s.", toupper((unsigned char)look->message[0]),
-             look->message[0] ? look->message + 1 : "");
-    gm_sheet_text(&page, 0, 0, look->picture->title ? look->picture->title : "", GM_INK, true);
-    gm_sheet_wrapped(&page, 0, 2, page.height - 2, sentence, GM_INK);
-}
-
 void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
 {
     struct gm_study_look *look = studies->studies[studies->shown]->look;
@@ -212,7 +200,12 @@ void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
     if (!look) {
         gm_sheet_text(sheet, 1, 0, "measuring", GM_SECONDARY, false);
     } else if (look->impossible) {
-        draw_reason(sheet, look);
+        const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
+        char reason[GM_MESSAGE + 1];
+        snprintf(reason, sizeof reason, "%c%s.", toupper((unsigned char)look->message[0]),
+                 look->message[0] ? look->message + 1 : "");
+        gm_sheet_text(&page, 0, 0, look->picture->title ? look->picture->title : "", GM_INK, true);
+        gm_sheet_wrapped(&page, 0, 2, page.height - 2, reason, GM_INK);
     } else {
         gm_sheet_paint(sheet, &studies->painting, look->picture);
     }

@@ -6,7 +6,7 @@
 #include "app/explorer/surface/surface.h"
 #include "app/runs/session.h"
 #include "app/tours/tour.h"
-#include "app/words/typed.h"
+#include "app/words/request.h"
 
 /* A tour in the explorer: its state, and its texts below the picture. */
 

@@ -233,19 +233,6 @@ static void put_arguments(FILE *stream, const char *text, bool view)
     gm_arguments_close(&arguments);
 }
 
-/* Writes steps= if all lanes have made the same number of steps, else until=. */
-static void put_end(FILE *stream, const struct gm_session *session)
-{
-    int64_t steps = session->lanes[0]->run->steps;
-    for (size_t i = 1; i < session->count; i++) {
-        if (session->lanes[i]->run->steps != steps) {
-            fprintf(stream, " until=%.17g", gm_session_time(session));
-            return;
-        }
-    }
-    fprintf(stream, " steps=%" PRId64, steps);
-}
-
 static void put_changes(FILE *stream, const struct gm_request *log)
 {
     char *list = log->change_count > 0 ? gm_changes_format(log, ':', ',') : NULL;
@@ -268,7 +255,16 @@ static char *command_of(const struct gm_request *request, const struct gm_sessio
         fputs(view ? "geomint render" : "geomint", stream);
         put_arguments(stream, arguments, view);
         if (view) {
-            put_end(stream, view);
+            const int64_t steps = view->lanes[0]->run->steps;
+            size_t same = 1; /* steps= if all lanes have made the same number of steps, else until= */
+            while (same < view->count && view->lanes[same]->run->steps == steps) {
+                same++;
+            }
+            if (same == view->count) {
+                fprintf(stream, " steps=%" PRId64, steps);
+            } else {
+                fprintf(stream, " until=%.17g", gm_session_time(view));
+            }
             put_changes(stream, request);
             fprintf(stream, " --theme %s", theme == GM_THEME_DARK ? "dark" : "light");
         }

@@ -7,7 +7,6 @@
 #include "app/explorer/worker/session.h"
 #include "core/basics.h"
 
-/* Returns true for a parameter of the schemes. */
 static bool is_of_scheme(const struct gm_parameter *row)
 {
     return row >= gm_settings_parameters && row < gm_settings_parameters + gm_settings_parameter_count;

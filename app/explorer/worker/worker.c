@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The worker's thread: its queue of orders, its two shots, and its round. */
-#include "app/explorer/worker/worker.h"
+#include "app/explorer/worker/session.h"
 
 #include <errno.h>
 #include <math.h>
@@ -246,9 +246,6 @@ bool gm_worker_failed(struct gm_worker *worker, char *message)
 void gm_worker_close(struct gm_worker *worker, char *parting)
 {
     parting[0] = '\0';
-    if (!worker) {
-        return;
-    }
     pthread_mutex_lock(&worker->lock);
     const bool owed = worker->owed > 0;
     worker->leave = true;
