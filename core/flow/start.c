@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/flow/solver.h"
+#include "core/flow/matrices.h"
 
 /* K psi = right inside, with the given boundary values; right == NULL: 0. */
 struct poisson {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Convection and diffusion as a matrix in the pattern of the complex' rings, and systems with it. */
-#include "core/flow/solver.h"
+#include "core/flow/matrices.h"
 
 #include <math.h>
 #include <string.h>

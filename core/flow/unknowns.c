@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The unknown values of the stream function, and the matrices K and K W K between them. */
-#include "core/flow/solver.h"
+#include "core/flow/matrices.h"
 
 #include "core/form/matrix.h"
 

@@ -25,7 +25,7 @@ struct building {
     const struct gm_triangles *from;
     struct gm_triangulation_fault *fault;
     const struct side *sides; /* of all triangles, sorted */
-    size_t other;             /* the first triangle of the second piece; 0: there is none */
+    size_t other;             /* the first triangle of a second piece, or 0 */
 };
 
 _Noreturn static void refuse(struct building *building, enum gm_triangulation_fault_kind kind)

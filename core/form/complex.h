@@ -126,7 +126,7 @@ void gm_complex_corners(const struct gm_complex *complex, size_t triangle, doubl
 /* The same with z: x0 y0 z0 .. z2. */
 void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9]);
 
-/* The edge between two vertices; -1: there is none. */
+/* The edge between two vertices, or -1. */
 int gm_complex_edge(const struct gm_complex *complex, int a, int b);
 
 /* Cuts every triangle in four by the middles of its sides, which become the points after the vertices, in the

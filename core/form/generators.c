@@ -271,34 +271,33 @@ static void join_circles(struct laying *laying, long n, long rings, bool closed)
     }
 }
 
-static void lay_annulus(struct laying *laying)
+/* Lays the circles of an annulus, or of a torus, which close. */
+static void lay_circles(struct laying *laying, bool torus)
 {
-    const double inner = laying->number[0], outer = laying->number[1];
-    const long n = (long)laying->number[2], m = laying->rows;
-    reserve(laying, (size_t)((m + 1) * n), (size_t)(2 * m * n));
-    for (long j = 0; j <= m; j++) {
+    const double p = laying->number[0], q = laying->number[1];
+    const long n = (long)laying->number[2], m = laying->rows, circles = m + !torus;
+    reserve(laying, (size_t)(circles * n), (size_t)(2 * m * n));
+    for (long j = 0; j < circles; j++) {
+        const double tube = 2 * M_PI * (double)j / (double)m, r = torus ? p + q * cos(tube)
+                                                                  : j < m
+                                                                      ? p * pow(q / p, (double)j / (double)m)
+                                                                      : q;
         for (long i = 0; i < n; i++) {
-            const double r = j < m ? inner * pow(outer / inner, (double)j / (double)m) : outer,
-                         a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
-            add_point(laying, r * cos(a), r * sin(a), 0);
+            const double a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
+            add_point(laying, r * cos(a), r * sin(a), torus ? q * sin(tube) : 0);
         }
     }
-    join_circles(laying, n, m + 1, false);
+    join_circles(laying, n, circles, torus);
+}
+
+static void lay_annulus(struct laying *laying)
+{
+    lay_circles(laying, false);
 }
 
 static void lay_torus(struct laying *laying)
 {
-    const long n = (long)laying->number[2], m = laying->rows;
-    reserve(laying, (size_t)(m * n), (size_t)(2 * m * n));
-    for (long j = 0; j < m; j++) {
-        const double tube = 2 * M_PI * (double)j / (double)m,
-                     r = laying->number[0] + laying->number[1] * cos(tube);
-        for (long i = 0; i < n; i++) {
-            const double a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
-            add_point(laying, r * cos(a), r * sin(a), laying->number[1] * sin(tube));
-        }
-    }
-    join_circles(laying, n, m, true);
+    lay_circles(laying, true);
 }
 
 static void lay_disc(struct laying *laying)
@@ -447,16 +446,9 @@ static long rows_of(enum which which, const double *number, size_t count)
     if (count == generators[which].most) {
         return (long)number[count - 1];
     }
-    switch (which) {
-    case RECTANGLE:
-        return gm_rectangle_strips(number[0], number[1], (long)n, false);
-    case FLAT_TORUS:
-        return 2 * lround(n * number[1] / (sqrt(3) * number[0]));
-    case ANNULUS:
-        return lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2));
-    default:
-        return 2 * lround(n * number[1] / (sqrt(3) * number[0]));
-    }
+    return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
+           : which == ANNULUS ? lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2))
+                              : 2 * lround(n * number[1] / (sqrt(3) * number[0]));
 }
 
 bool gm_generator_check(const char *word, const double *number, size_t count, size_t place,

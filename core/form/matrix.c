@@ -13,34 +13,6 @@ static struct gm_matrix empty(struct gm_arena *arena, size_t rows, size_t column
                               .value = gm_arena_take(arena, count + 1, sizeof(double))};
 }
 
-static int compare(const void *a, const void *b)
-{
-    const struct gm_matrix_entry *p = a, *q = b;
-    const int row = (p->row > q->row) - (p->row < q->row);
-    return row ? row : (p->column > q->column) - (p->column < q->column);
-}
-
-struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
-                              struct gm_matrix_entry *entries, size_t count)
-{
-    struct gm_matrix matrix = empty(arena, rows, columns, count);
-    int made = 0;
-    qsort(entries, count, sizeof *entries, compare);
-    for (size_t i = 0; i < count; i++) {
-        if (i > 0 && compare(&entries[i - 1], &entries[i]) == 0) {
-            matrix.value[made - 1] += entries[i].value;
-            continue;
-        }
-        matrix.column[made] = entries[i].column;
-        matrix.value[made++] = entries[i].value;
-        matrix.start[entries[i].row + 1] = made;
-    }
-    for (size_t i = 0; i < rows; i++) { /* rows without entries */
-        matrix.start[i + 1] = matrix.start[i + 1] > matrix.start[i] ? matrix.start[i + 1] : matrix.start[i];
-    }
-    return matrix;
-}
-
 struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_matrix *a, double factor)
 {
     struct gm_matrix to = empty(arena, a->columns, a->rows, (size_t)a->start[a->rows]);
@@ -113,6 +85,30 @@ struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows)
 {
     gm_arena_drop(rows->arena, rows->scratch);
     return rows->matrix;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const struct gm_matrix_entry *p = a, *q = b;
+    const int row = (p->row > q->row) - (p->row < q->row);
+    return row ? row : (p->column > q->column) - (p->column < q->column);
+}
+
+struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
+                              struct gm_matrix_entry *entries, size_t count)
+{
+    struct gm_matrix_rows made = gm_matrix_begin(arena, rows, columns, count);
+    qsort(entries, count, sizeof *entries, compare);
+    for (size_t i = 0; i < count; i++) {
+        while (made.row < (size_t)entries[i].row) {
+            gm_matrix_end_row(&made, false);
+        }
+        gm_matrix_add(&made, entries[i].column, entries[i].value);
+    }
+    while (made.row < rows) {
+        gm_matrix_end_row(&made, false);
+    }
+    return gm_matrix_end(&made);
 }
 
 struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matrix *a,

@@ -243,15 +243,12 @@ struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, stru
         }
         if (step->kind == GM_STEP_FORM) {
             const size_t n = size_of(values, i);
-            double *ones = gm_arena_take(arena, n, sizeof *ones);
+            struct gm_matrix_rows rows = gm_matrix_begin(arena, n, columns, n);
             for (size_t k = 0; k < n; k++) {
-                ones[k] = 1;
+                gm_matrix_add(&rows, (int)(offset[step->number] + k), 1);
+                gm_matrix_end_row(&rows, false);
             }
-            parts[i] = gm_matrix_diagonal(arena, ones, n, 1, 1);
-            parts[i].columns = columns;
-            for (size_t k = 0; k < n; k++) {
-                parts[i].column[k] += (int)offset[step->number];
-            }
+            parts[i] = gm_matrix_end(&rows);
         } else if (step->kind == GM_STEP_MATRIX) {
             if (step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass) {
                 gm_arena_refuse(arena,

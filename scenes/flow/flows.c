@@ -11,6 +11,7 @@
 #include "core/files/files.h"
 #include "render/files/regular_file.h"
 
+const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
 /* The faults of a mesh, after its name: @ is the line, %s the fault's text, %n a node, %e the nodes of an edge,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 #include <math.h>
 #include <string.h>

@@ -233,7 +233,7 @@ static const struct gm_observable errors_along[] = {
 #define GM_MEASURE(measure_, key, ...)                                                                       \
     .observable = GM_OBSERVABLE(key, measured, __VA_ARGS__), .measure = measure_
 
-/* Observables of flows; those of all rooms come last. */
+/* Observables of flows; the last ones are observed of every room. */
 static const struct gm_room_row rows[] = {
     {.observable = GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ")},
     {.observable = GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ")},

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 enum { SMOOTH = 4000 /* triangles */, MOST_BESIDE_GRAPHS = 4 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts through a room: drawn with exact and published values, and written as rows of numbers. */
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 #include <math.h>
 #include <string.h>

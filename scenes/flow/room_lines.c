@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
    scene's arena; its body calls this. */
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -391,11 +391,6 @@ static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct 
     *nonzero = colon < close;
     rest->begin = close < rest->end ? close + 1 : close;
     return open < close;
-}
-
-const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span)
-{
-    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
 }
 
 /* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The triangles that are drawn, from a mesh and values at its vertices. */
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 #include <math.h>
 #include <string.h>

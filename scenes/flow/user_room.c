@@ -13,7 +13,7 @@
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
-#include "scenes/flow/picture.h"
+#include "scenes/flow/look.h"
 
 /* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
 static const char *name_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
@@ -175,8 +175,6 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
     return gm_room_open(&(struct gm_room_input){file->text, file->length, given, scene->parameter_count},
                         fault);
 }
-
-const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 
 /* Reads the kind and group of outlets, "soft", "dirichlet", "free", or GROUP, or GROUP:free and so on; *group:
    "outlet" unless named. Checks that the named groups fit the mesh. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FLOW_PICTURE_H
-#define GM_SCENES_FLOW_PICTURE_H
+#ifndef GM_SCENES_FLOW_LOOK_H
+#define GM_SCENES_FLOW_LOOK_H
 
 #include "render/picture/picture.h"
 #include "scenes/flow/room_scene.h"
@@ -38,7 +38,11 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 /* Returns a part of a lane's text, for a picture. */
-const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span);
+static inline const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room,
+                                       struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
+}
 
 /* Draws a panel for each quantity of the profiles, the exact one broad and grey, published points in red;
    writes rows of CSV. */
