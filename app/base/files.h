@@ -40,9 +40,9 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
 
 enum { GM_PAGE_SLOT = 16 };
-/* A page of the program, in which {{SLOT}} stands for what is written there: it stands alone in its line, which it
-   replaces, or among words. Its text; and this writes the text up to the next slot and sets the slot's name
-   and the text after it, or returns false after the last one. */
+/* A page of the program has slots {{NAME}} that the program fills. A slot that has a line to itself replaces the line.
+   gm_page_text returns the page's text. gm_page_next writes the text up to its next slot, sets the slot's name and
+   the text after it, or returns false after the last slot. */
 const char *gm_page_text(const char *name);
 bool gm_page_next(FILE *page, const char **text, char slot[GM_PAGE_SLOT]);
 

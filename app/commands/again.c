@@ -70,25 +70,6 @@ static const struct gm_lane *const *drive(const struct gm_options *options, cons
     return lanes;
 }
 
-/* The picture must have all the texts of a picture of lanes. */
-static void check_texts(const struct gm_options *options, char *const *texts)
-{
-    for (size_t i = ARGUMENTS; i < NEEDED; i++) {
-        if (!texts[i]) {
-            gm_command_end(options, GM_EXIT_FILE, "%.360s does not record how it was made (it lacks %s)",
-                           options->arguments.words[0], keys[i]);
-        }
-    }
-}
-
-/* A room is read from its files, which may be others by now. */
-static bool same_room(const struct gm_request *request, const char *told, char *message)
-{
-    const char *now = request->scene->room ? request->scene->mark : "none";
-    return !told || strcmp(told, now) == 0 ||
-           gm_refuse(message, "its room is another one now: it was %.100s, and is %.100s", told, now);
-}
-
 /* The word that named the system now means the text stored in the picture. */
 static void recall_system(const struct gm_options *options, char *const *texts)
 {
@@ -109,7 +90,6 @@ static const char *output_name(const struct gm_options *options, const char *end
     return gm_arena_print(options->arena, "%.*s-again%s", length, base, end);
 }
 
-/* The path of the new picture. */
 static const char *print_path(const struct gm_options *options)
 {
     const char *end = gm_arena_print(options->arena, ".%s", gm_format_name(options->format));
@@ -203,13 +183,16 @@ static void tell_aliases(const struct gm_options *options, const char *arguments
     }
 }
 
-/* Redraws a picture of lanes. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
     char message[GM_MESSAGE];
     struct gm_print print = {.path = print_path(options), .format = options->format};
     struct gm_request *request = gm_arena_take(options->arena, 1, sizeof *request);
-    check_texts(options, texts);
+    for (size_t i = ARGUMENTS; i < NEEDED; i++) {
+        gm_command_end_if(options, !texts[i], GM_EXIT_FILE,
+                          "%.360s does not record how it was made (it lacks %s)", options->arguments.words[0],
+                          keys[i]);
+    }
     if (!take_look(&print.look, texts)) {
         refuse(options, "its size is damaged");
     }
@@ -228,7 +211,10 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     tell_aliases(options, texts[ARGUMENTS]);
     gm_catch_interrupts();
     gm_printer_expect(print.format);
-    if (!same_room(request, texts[ROOM], message)) {
+    /* a room is read from its files, which may be others by now */
+    const char *now = request->scene->room ? request->scene->mark : "none";
+    if (texts[ROOM] && strcmp(texts[ROOM], now) != 0) {
+        gm_refuse(message, "its room is another one now: it was %.100s, and is %.100s", texts[ROOM], now);
         refuse(options, message);
     }
     const struct gm_lane *const *lanes = drive(options, request, texts[STEPS]);

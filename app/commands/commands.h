@@ -5,6 +5,7 @@
 #include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "app/explorer/terminal/device.h"
+#include "app/grid/grid.h"
 #include "app/native/engine.h"
 #include "app/output/frames.h"
 #include "app/output/printer.h"
@@ -127,5 +128,15 @@ void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char
 
 /* The tours, as `tour` and `list tours` print them. Returns an exit status. */
 int gm_list_tours(const struct gm_options *options);
+
+/* ---- the commands that measure ---- */
+
+/* Writes the picture and the table of a measuring command, as its options demand, and reports them; the chart
+   has its data, its functions and its default name. Returns the exit status. */
+int gm_command_chart(const struct gm_options *options, const char *command, struct gm_chart *chart);
+
+/* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
+   exit status. */
+int gm_command_study(const struct gm_options *options, enum gm_study_kind kind);
 
 #endif

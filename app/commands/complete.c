@@ -9,6 +9,7 @@
 #include "app/base/files.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
+#include "app/figures/figure.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
 #include "app/words/names.h"
@@ -92,15 +93,6 @@ static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
             if (scene || gm_scheme_find(alias) == scheme) { /* a scheme of that very name has precedence */
                 offer(stem, alias, scheme->name);
             }
-        }
-    }
-}
-
-static void offer_figures(const struct stem *stem)
-{
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
-            offer(stem, gm_scene_at(s)->figures[f].name, gm_scene_at(s)->figures[f].statement);
         }
     }
 }
@@ -274,42 +266,31 @@ static void offer_options(const struct gm_command_row *command, const char *word
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
     static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
+    static const unsigned of_scenes = GM_TUI | GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY);
     const struct stem stem = {.begin = word};
-    switch (command->bit) {
-    case GM_LIST:
-        for (size_t i = 0; i < GM_COUNT(lists); i++) {
-            offer(&stem, lists[i], "");
-        }
-        offer_schemes(&stem, NULL);
-        offer_scenes(&stem);
-        return;
-    case GM_FIGURES:
-        offer_figures(&stem);
-        return;
-    case GM_CERTIFY:
+    const struct gm_scene *of;
+    const struct gm_figure *figure;
+    for (size_t i = 0; command->bit == GM_LIST && i < GM_COUNT(lists); i++) {
+        offer(&stem, lists[i], "");
+    }
+    for (size_t i = 0; command->bit == GM_FIGURES && (figure = gm_figure_at(i, &of)); i++) {
+        offer(&stem, figure->name, figure->statement);
+    }
+    if (command->bit == GM_CERTIFY) {
         offer(&stem, "all", "every scheme");
-        offer_schemes(&stem, NULL);
-        return;
-    case GM_TOUR:
+    } else if (command->bit == GM_TOUR) {
         offer_files(&stem, GM_FILE_TOUR);
-        return;
-    case GM_TUI:
-    case GM_RUN:
-    case GM_RENDER:
-    case GM_WORK_PRECISION:
-    case GM_STABILITY:
-    case GM_BACKWARD:
-    case GM_SWEEP:
-        if (!scene) {
-            offer_scenes(&stem);
-        } else if (strchr(word, '=')) {
-            offer_assignment(word, scene, command->bit == GM_SWEEP);
-        } else {
-            offer_keys(&stem, scene);
-        }
-        return;
-    default:
-        return;
+    }
+    if (command->bit & (GM_LIST | GM_CERTIFY)) {
+        offer_schemes(&stem, NULL);
+    }
+    const bool takes_scene = command->bit & of_scenes;
+    if (command->bit == GM_LIST || (takes_scene && !scene)) {
+        offer_scenes(&stem);
+    } else if (takes_scene && strchr(word, '=')) {
+        offer_assignment(word, scene, command->bit == GM_SWEEP);
+    } else if (takes_scene) {
+        offer_keys(&stem, scene);
     }
 }
 

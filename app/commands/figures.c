@@ -68,23 +68,13 @@ static int by_name(const void *one, const void *other)
                       ((const struct gm_figure_job *)other)->figure->name);
 }
 
-/* The largest number of figures. */
-static size_t all_figures(const struct gm_options *options)
-{
-    size_t count = (size_t)options->arguments.count;
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        count += gm_scene_at(s)->figure_count;
-    }
-    return count;
-}
-
 static bool is_published(const char *word)
 {
+    const struct gm_scene *scene;
+    const struct gm_figure *figure;
     bool known = false;
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
-            known |= named(gm_scene_at(s)->figures[f].name, word);
-        }
+    for (size_t i = 0; (figure = gm_figure_at(i, &scene)); i++) {
+        known |= named(figure->name, word);
     }
     return known;
 }
@@ -101,7 +91,6 @@ static const struct gm_scene *own_scene(char *word, int *status, char *message)
     return scene;
 }
 
-/* The figures of user-defined systems among the words. */
 static void plan_user_figures(struct series *series, const struct gm_arguments *words)
 {
     char message[GM_MESSAGE];
@@ -125,7 +114,12 @@ static void plan_user_figures(struct series *series, const struct gm_arguments *
 
 static struct series *open_series(const struct gm_options *options)
 {
-    const size_t most = all_figures(options);
+    const struct gm_scene *scene;
+    const struct gm_figure *figure;
+    size_t most = (size_t)options->arguments.count;
+    for (size_t i = 0; gm_figure_at(i, &scene); i++) {
+        most++;
+    }
     struct series *series = gm_arena_take(options->arena, 1, sizeof *series);
     *series = (struct series){
         .options = options,
@@ -144,14 +138,10 @@ static struct series *open_series(const struct gm_options *options)
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     gm_command_end_if(options, series->outcomes == MAP_FAILED, GM_EXIT_FILE, "not enough memory");
 
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        const struct gm_scene *scene = gm_scene_at(s);
-        for (size_t f = 0; f < scene->figure_count; f++) {
-            /* a file that was refused memory before may be read by now */
-            if (wanted(options, scene->figures[f].name) &&
-                series->count + (size_t)options->arguments.count < most) {
-                gm_figure_plan(&series->jobs[series->count++], scene, &scene->figures[f], options->quick);
-            }
+    for (size_t i = 0; (figure = gm_figure_at(i, &scene)); i++) {
+        /* a file that was refused memory before may be read by now */
+        if (wanted(options, figure->name) && series->count + (size_t)options->arguments.count < most) {
+            gm_figure_plan(&series->jobs[series->count++], scene, figure, options->quick);
         }
     }
     plan_user_figures(series, &options->arguments);
@@ -274,7 +264,6 @@ static void clear_progress(const struct series *series)
     }
 }
 
-/* Prints the finished figures, in order. */
 static void print_finished(struct series *series)
 {
     while (series->printed < series->count && series->outcomes[series->printed].progress >= GM_MADE) {

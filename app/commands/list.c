@@ -7,6 +7,7 @@
 #include "app/base/files.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
+#include "app/figures/figure.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
@@ -91,32 +92,32 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
                         const struct gm_scheme *same)
 {
     char letters[GM_CLAIM_COUNT + 1], text[512];
-    gm_catalogue_letters(scheme, letters);
-    if (!options->json) {
-        const bool several = options->longer || (kinds && shares_name(scheme));
-        snprintf(text, sizeof text, "%s%s%s%s%s%s", scheme->title, several ? ", for " : "",
-                 several ? gm_scheme_problems(scheme) : "", same ? "; = " : "", same ? same->name : "",
-                 same ? " here" : "");
-        gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
-        if (options->longer) {
-            print_formula(scheme->formula);
-            const bool equations = scheme->family->kind == &gm_kind_ode;
-            snprintf(text, sizeof text, "%s; %s%s%s", scheme->family->title, scheme->reference,
-                     equations ? "; derivative of a step: " : "", equations ? gm_tangent_word(scheme) : "");
-            gm_print_wrapped(text, printf("  "), 2);
-            const char *alias;
-            text[0] = '\0';
-            for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)); i++) {
-                gm_append(text, sizeof text, "%s%s", i == 0 ? "also called " : ", ", alias);
-            }
-            if (text[0]) {
-                gm_print_wrapped(text, printf("  "), 2);
-            }
-        }
+    if (options->json) {
+        gm_scheme_put(stdout, scheme);
+        printf("\n");
         return;
     }
-    gm_scheme_put(stdout, scheme);
-    printf("\n");
+    const bool several = options->longer || (kinds && shares_name(scheme));
+    gm_catalogue_letters(scheme, letters);
+    snprintf(text, sizeof text, "%s%s%s%s%s%s", scheme->title, several ? ", for " : "",
+             several ? gm_scheme_problems(scheme) : "", same ? "; = " : "", same ? same->name : "",
+             same ? " here" : "");
+    gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
+    if (options->longer) {
+        print_formula(scheme->formula);
+        const bool equations = scheme->family->kind == &gm_kind_ode;
+        snprintf(text, sizeof text, "%s; %s%s%s", scheme->family->title, scheme->reference,
+                 equations ? "; derivative of a step: " : "", equations ? gm_tangent_word(scheme) : "");
+        gm_print_wrapped(text, printf("  "), 2);
+        text[0] = '\0';
+        const char *alias;
+        for (size_t i = 0; (alias = gm_alias_of(scheme->name, i)); i++) {
+            gm_append(text, sizeof text, "%s%s", i == 0 ? "also called " : ", ", alias);
+        }
+        if (text[0]) {
+            gm_print_wrapped(text, printf("  "), 2);
+        }
+    }
 }
 
 /* The meanings of the letters of claims, for all claims that these schemes make. */
@@ -169,21 +170,19 @@ static int list_schemes(const struct gm_options *options)
 
 static int list_figures(const struct gm_options *options)
 {
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        const struct gm_scene *scene = gm_scene_at(s);
-        for (size_t f = 0; f < scene->figure_count; f++) {
-            const struct gm_figure *figure = &scene->figures[f];
-            if (options->json) {
-                struct gm_row row = gm_row_begin(stdout);
-                gm_row_put(&row, "figure %s, scene %s, arguments %s, statement %s", figure->name, scene->name,
-                           figure->arguments, figure->statement);
-                printf("}\n");
-            } else {
-                gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
-                if (options->longer) {
-                    gm_print_wrapped(figure->arguments, printf("  geomint render %s ", scene->name), 2);
-                }
-            }
+    const struct gm_scene *scene;
+    const struct gm_figure *figure;
+    for (size_t i = 0; (figure = gm_figure_at(i, &scene)); i++) {
+        if (options->json) {
+            struct gm_row row = gm_row_begin(stdout);
+            gm_row_put(&row, "figure %s, scene %s, arguments %s, statement %s", figure->name, scene->name,
+                       figure->arguments, figure->statement);
+            printf("}\n");
+            continue;
+        }
+        gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
+        if (options->longer) {
+            gm_print_wrapped(figure->arguments, printf("  geomint render %s ", scene->name), 2);
         }
     }
     return gm_finish(GM_EXIT_OK);
@@ -379,49 +378,43 @@ static const char *list_name(size_t i, const void *data)
     return (void)data, lists[i].name;
 }
 
-static int list_markdown(const char *what)
+static int list_markdown(const struct gm_options *options, const char *what)
 {
-    if (strcmp(what, "scenes") == 0) {
-        gm_catalogue_scenes_markdown();
-    } else if (strcmp(what, "schemes") == 0) {
-        gm_catalogue_schemes_markdown();
-    } else {
-        return gm_give_up(GM_EXIT_USAGE, "--markdown lists scenes or schemes");
-    }
+    const bool scenes = strcmp(what, "scenes") == 0;
+    gm_command_end_if(options, !scenes && strcmp(what, "schemes") != 0, GM_EXIT_USAGE,
+                      "--markdown lists scenes or schemes");
+    (scenes ? gm_catalogue_scenes_markdown : gm_catalogue_schemes_markdown)();
     return gm_finish(GM_EXIT_OK);
 }
 
 static bool is_figure(const char *word)
 {
-    for (size_t s = 0; s < gm_scene_count(); s++) {
-        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
-            if (strcmp(gm_scene_at(s)->figures[f].name, word) == 0) {
-                return true;
-            }
+    const struct gm_scene *scene;
+    const struct gm_figure *figure;
+    for (size_t i = 0; (figure = gm_figure_at(i, &scene)); i++) {
+        if (strcmp(figure->name, word) == 0) {
+            return true;
         }
     }
     return false;
 }
 
-static int refuse_name(const char *word)
+_Noreturn static void refuse_name(const struct gm_options *options, const char *word)
 {
     struct gm_file tour;
     const bool figure = is_figure(word);
-    if (figure || gm_file_find(GM_FILE_TOUR, word, &tour)) {
-        return gm_give_up(GM_EXIT_USAGE, "%.60s is a %s: geomint %s %.60s", word, figure ? "figure" : "tour",
-                          figure ? "figures" : "tour", word);
-    }
+    gm_command_end_if(options, figure || gm_file_find(GM_FILE_TOUR, word, &tour), GM_EXIT_USAGE,
+                      "%.60s is a %s: geomint %s %.60s", word, figure ? "figure" : "tour",
+                      figure ? "figures" : "tour", word);
     char near[GM_NEAR_NAMES], folder[GM_MESSAGE] = "";
     const char *list = gm_nearest(word, GM_COUNT(lists), list_name, NULL);
     const char *found = list                                 ? list
                         : gm_system_near(word, near, folder) ? near
                         : folder[0]                          ? NULL
                                                              : gm_scheme_near(word, NULL, 0);
-    if (!found && folder[0]) {
-        return gm_give_up(GM_EXIT_FILE, "%s", folder);
-    }
-    return gm_give_up(
-        GM_EXIT_USAGE,
+    gm_command_end_if(options, !found && folder[0], GM_EXIT_FILE, "%s", folder);
+    gm_command_end(
+        options, GM_EXIT_USAGE,
         "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems, "
         "rooms and schemes, not \"%.60s\"%s%s",
         word, found ? "; did you mean " : "", found ? found : "");
@@ -434,8 +427,7 @@ static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *
     return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));
 }
 
-/* The text of the file that a word means. */
-static int list_source(const char *word)
+static int list_source(const struct gm_options *options, const char *word)
 {
     struct gm_file file;
     char message[GM_MESSAGE];
@@ -444,16 +436,13 @@ static int list_source(const char *word)
     while (kind < GM_FILE_MESH && !find_file(kind, word, &file)) {
         kind++;
     }
-    if (kind == GM_FILE_MESH && (gm_scene_find(word) || gm_scheme_find(word) || find_list(word))) {
-        return gm_give_up(GM_EXIT_USAGE, "%.60s has no file", word);
-    }
     if (kind == GM_FILE_MESH) {
-        return refuse_name(word);
+        gm_command_end_if(options, gm_scene_find(word) || gm_scheme_find(word) || find_list(word),
+                          GM_EXIT_USAGE, "%.60s has no file", word);
+        refuse_name(options, word);
     }
     char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, message);
-    if (!text) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
     fwrite(text, 1, length, stdout);
     free(text);
     return gm_finish(GM_EXIT_OK);
@@ -467,7 +456,10 @@ static int list_named_scheme(const char *name, const struct gm_options *options)
     const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
     gm_command_end_if(options, !scheme && message[0], unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s",
                       message);
-    return scheme ? list_schemes_like(scheme, options) : refuse_name(name);
+    if (!scheme) {
+        refuse_name(options, name);
+    }
+    return list_schemes_like(scheme, options);
 }
 
 int gm_command_list(const struct gm_options *options)
@@ -491,11 +483,8 @@ int gm_command_list(const struct gm_options *options)
         options, options->arguments.count > 1, GM_EXIT_USAGE,
         "list takes one name, and values only after the name of a system: list kepler eccentricity=0.3");
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
-    if (options->source) {
-        return list_source(what);
-    }
-    if (options->markdown) {
-        return list_markdown(what);
+    if (options->source || options->markdown) {
+        return (options->source ? list_source : list_markdown)(options, what);
     }
     const struct list *list = find_list(what);
     if (list) {

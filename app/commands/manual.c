@@ -14,18 +14,11 @@
 /* Writes text for troff: no request at the start of a line, hyphens that can be copied. */
 static void put(const char *text)
 {
-    if (*text == '.' || *text == '\'') {
-        printf("\\&");
-    }
+    printf("%s", *text == '.' || *text == '\'' ? "\\&" : "");
     for (; *text; text++) {
-        switch (*text) {
-        case '\\':
-            printf("\\e");
-            break;
-        case '-':
-            printf("\\-");
-            break;
-        default:
+        if (*text == '\\' || *text == '-') {
+            printf("%s", *text == '-' ? "\\-" : "\\e");
+        } else {
             putchar(*text);
         }
     }

@@ -417,7 +417,6 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
     return true;
 }
 
-/* Returns true if the given options agree. */
 static bool check_pairs(const struct gm_options *options, enum gm_command command, const bool given[ROWS],
                         char *message)
 {

@@ -62,7 +62,6 @@ static void show_progress(const struct work *work, long made, double started)
             (double)(count - work->done) / fmax(rate, 1e-9));
 }
 
-/* Drives the lanes to the time of a frame. */
 static bool drive_to(struct work *work, long frame, char *message)
 {
     for (size_t i = 0; i < work->request->count; i++) {

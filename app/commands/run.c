@@ -42,6 +42,7 @@ struct outcome {
     double *values;           /* one per observable, at the end */
     double *maxima;           /* one per observable, of largest magnitude; NULL without --max */
     char *front;              /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
+    char *meta;               /* the last description of the run */
     bool interrupted;         /* before it came to its end */
     struct outputs *outputs;  /* the files that all lanes share */
     struct gm_paused paused;  /* numbers: the maxima */
@@ -374,7 +375,6 @@ static void take_maxima(struct outcome *outcome)
     }
 }
 
-/* A row of the history and one of the states. */
 static bool write_rows(struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
@@ -385,23 +385,13 @@ static bool write_rows(struct outcome *outcome, char *message)
     return !outputs->save || gm_save_row(outputs->save, outcome->drive.lane->run, message);
 }
 
-/* Replaces the checkpoint. Returns false with a sentence. */
-static bool replace_checkpoint(const struct outcome *outcome, char *message)
-{
-    const struct outputs *outputs = outcome->outputs;
-    const struct gm_drive *drive = &outcome->drive;
-    if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
-        return gm_temporary_refuse(message, outputs->options->checkpoint, "not enough memory");
-    }
-    return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
-}
-
 /* Saves the state. The rows that a checkpoint counts are on disk before it. Returns false with a sentence
    if they cannot be written; a failed checkpoint does not end the run. */
 static bool keep_state(struct outcome *outcome, char *message)
 {
     struct outputs *outputs = outcome->outputs;
     const struct gm_drive *drive = &outcome->drive;
+    const char *path = outputs->options->checkpoint;
     outcome->paused.seconds = drive->seconds;
     outcome->paused.rows = 0;
     outcome->paused.saved = outputs->save ? gm_save_identity(outputs->save) : 0;
@@ -411,7 +401,9 @@ static bool keep_state(struct outcome *outcome, char *message)
         return false;
     }
     const bool told = outputs->unkept;
-    outputs->unkept = !replace_checkpoint(outcome, message);
+    outputs->unkept = gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)
+                          ? !gm_pause_write(outputs->pause, path, message)
+                          : !gm_temporary_refuse(message, path, "not enough memory");
     if (outputs->unkept && !told) {
         gm_complain("%s", message);
     } else if (!outputs->unkept && outputs->save) {
@@ -524,12 +516,13 @@ static bool drive_lane(struct outcome *outcome, int64_t steps, char *message)
     return driven;
 }
 
-/* A description of the run, as JSON; malloc'ed. Returns NULL when out of memory. */
-static char *meta_of(const struct outcome *outcome)
+/* A description of the run, as JSON; the outcome frees it. Returns NULL when out of memory. */
+static const char *meta_of(struct outcome *outcome)
 {
     char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
-    return gm_meta_text(outcome->drive.lane, status, sentence);
+    free(outcome->meta);
+    return outcome->meta = gm_meta_text(outcome->drive.lane, status, sentence);
 }
 
 /* Begins a lane's rows with its start, or appends them to the existing rows of a resumed lane. */
@@ -539,14 +532,12 @@ static bool begin_rows(struct outcome *outcome, int64_t steps, char *message)
     const struct gm_run *run = outcome->drive.lane->run;
     const uint64_t rows = outcome->paused.rows;
     if (outputs->save) {
-        const int64_t end = gm_drive_end(&outcome->drive, steps);
-        char *meta = meta_of(outcome);
-        const struct gm_save_size size = {.rows = rows,
-                                          .expected = gm_rows_expected(&outputs->rows, run, end),
-                                          .meta = meta ? strlen(meta) : 0};
-        free(meta);
-        const bool begun = gm_save_begin(outputs->save, outcome->drive.index, run, &size, message);
-        if (!begun) {
+        const char *meta = meta_of(outcome);
+        const struct gm_save_size size = {
+            .rows = rows,
+            .expected = gm_rows_expected(&outputs->rows, run, gm_drive_end(&outcome->drive, steps)),
+            .meta = meta ? strlen(meta) : 0};
+        if (!gm_save_begin(outputs->save, outcome->drive.index, run, &size, message)) {
             return false;
         }
     }
@@ -575,21 +566,16 @@ static bool end_rows(struct outcome *outcome, char *message)
     if (missing && !gm_save_row(outputs->save, lane->run, message)) {
         return false;
     }
-    char *meta = meta_of(outcome);
-    const bool ended =
-        meta ? gm_save_end(outputs->save, meta, message) : gm_refuse(message, "not enough memory");
-    free(meta);
-    return ended;
+    const char *meta = meta_of(outcome);
+    return meta ? gm_save_end(outputs->save, meta, message) : gm_refuse(message, "not enough memory");
 }
 
-static bool save_tracks(const struct outcome *outcome, char *message)
+static bool save_tracks(struct outcome *outcome, char *message)
 {
-    char *meta = meta_of(outcome);
-    const bool added = meta ? gm_tracks_add(outcome->outputs->tracks, outcome->drive.index,
-                                            outcome->drive.lane, meta, message)
-                            : gm_refuse(message, "not enough memory");
-    free(meta);
-    return added;
+    const char *meta = meta_of(outcome);
+    return meta ? gm_tracks_add(outcome->outputs->tracks, outcome->drive.index, outcome->drive.lane, meta,
+                                message)
+                : gm_refuse(message, "not enough memory");
 }
 
 /* Ends incomplete rows, mostly after a lack of memory: the saved rows remain, even if the reason cannot be
@@ -607,23 +593,16 @@ static void end_cut(struct outcome *outcome)
     free(meta);
 }
 
-/* Returns true if the saved rows have the same spacing as the new ones. */
-static bool is_spacing(const struct outcome *outcome)
-{
-    const double *before = outcome->paused.spacing;
-    const struct gm_rows *rows = &outcome->outputs->rows;
-    return before[0] == (double)rows->every &&
-           (before[1] == rows->interval || (isnan(before[1]) && isnan(rows->interval)));
-}
-
-/* Returns true if a saved run can be resumed; else false with a sentence. */
+/* Returns true if a saved run can be resumed, with rows of the same spacing; else false with a sentence. */
 static bool fits_saved(const struct outcome *outcome, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
+    const double *before = outcome->paused.spacing, interval = outputs->rows.interval;
     if (!outputs->save || outcome->paused.rows == 0) {
         return true;
     }
-    if (!is_spacing(outcome)) {
+    if (before[0] != (double)outputs->rows.every ||
+        (before[1] != interval && !(isnan(before[1]) && isnan(interval)))) {
         return gm_refuse(message, "the saved rows are spaced otherwise: resume with the same --every or "
                                   "--interval, or save to another file");
     }
@@ -741,7 +720,6 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     return true;
 }
 
-/* Prints one lane's result, if it is requested. */
 static void tell(const struct outcome *outcome, const struct gm_options *options)
 {
     struct outputs *outputs = outcome->outputs;
@@ -786,41 +764,37 @@ static bool has_profile(const struct gm_request *request)
     return has; /* a lane that cannot be opened gives its reason later */
 }
 
+/* Returns true if a checkpoint can resume these lanes; else false with a sentence. */
+static bool can_pause(const struct gm_request *request, char *message)
+{
+    if (gm_checkpoint_fits(request)) {
+        return true;
+    }
+    for (size_t i = 0; i < request->count; i++) {
+        if (request->lanes[i].scheme->family->not_resumable) { /* its library does not give its state */
+            return gm_refuse(message, "a run with %s cannot be resumed from a checkpoint",
+                             request->lanes[i].scheme->name);
+        }
+    }
+    return gm_refuse(message, "a run with changes cannot be resumed from a checkpoint");
+}
+
 /* Opens the requested files. Returns the exit status, with a sentence unless it is 0. */
 static int open_outputs(struct outputs *outputs, const struct gm_request *request, char *message)
 {
     const struct gm_options *options = outputs->options;
-    if (!gm_chosen_open(&outputs->chosen, request->scene, options->measure, message)) {
+    const bool pauses = options->checkpoint || options->from_checkpoint;
+    if (!gm_chosen_open(&outputs->chosen, request->scene, options->measure, message) ||
+        (options->profile && !has_profile(request) &&
+         !gm_refuse(message, "scene %s has no profiles", request->scene->name)) ||
+        (options->save && !gm_save_fits(options->save, request, message)) ||
+        (pauses && !can_pause(request, message)) ||
+        (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message))) {
         return GM_EXIT_USAGE;
     }
     const size_t numbers = options->maximum ? outputs->chosen.count : 0;
-    if (options->profile && !has_profile(request)) {
-        gm_refuse(message, "scene %s has no profiles", request->scene->name);
-        return GM_EXIT_USAGE;
-    }
-    if (options->save && !gm_save_fits(options->save, request, message)) {
-        return GM_EXIT_USAGE;
-    }
-    if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {
-        size_t i = 0;
-        while (i < request->count && !request->lanes[i].scheme->family->not_resumable) {
-            i++;
-        }
-        const bool keeps_to_itself = i < request->count; /* the library of a scheme does not give its state */
-        gm_refuse(message, "a run %s%s cannot be resumed from a checkpoint", keeps_to_itself ? "with " : "",
-                  keeps_to_itself ? request->lanes[i].scheme->name : "with changes");
-        return GM_EXIT_USAGE;
-    }
-    if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {
-        return GM_EXIT_USAGE;
-    }
-    if (options->checkpoint || options->from_checkpoint) {
-        outputs->pause = gm_pause_open(request, numbers, options->from_checkpoint, message);
-        if (!outputs->pause) {
-            return GM_EXIT_FILE;
-        }
-    }
     const bool opened =
+        (!pauses || (outputs->pause = gm_pause_open(request, numbers, options->from_checkpoint, message))) &&
         (!options->checkpoint || (gm_folder_make_for(options->checkpoint, message) &&
                                   gm_temporary_can_replace(options->checkpoint, message))) &&
         (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
@@ -872,37 +846,32 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
 /* Opens and runs lane `index` and reports its result; returns the exit status. */
 static int make_lane(struct outputs *outputs, const struct gm_request *request, size_t index)
 {
-    char message[GM_MESSAGE];
+    char message[GM_MESSAGE], note[GM_MESSAGE] = "";
     const struct gm_options *options = outputs->options;
     const size_t observables = outputs->chosen.count;
+    struct gm_lane *lane = gm_request_open_lane(request, index, message);
     struct outcome outcome = {
-        .drive = {.request = request,
+        .drive = {.lane = lane,
+                  .request = request,
                   .index = index,
                   .whole_steps = gm_chosen_follows_steps(&outputs->chosen, request->scene)},
+        .front = lane ? front_of(request, lane, index) : NULL,
+        .values = malloc(2 * observables * sizeof(double)),
         .outputs = outputs};
-    outcome.drive.lane = gm_request_open_lane(request, index, message);
-    outcome.front = outcome.drive.lane ? front_of(request, outcome.drive.lane, index) : NULL;
-    outcome.values = malloc(2 * observables * sizeof(double));
     int status = GM_EXIT_OK;
     const bool ready = outcome.front && outcome.values;
-    char note[GM_MESSAGE] = "";
-    if (outcome.drive.lane && index == 0) {
-        gm_lane_note(outcome.drive.lane, note);
+    if (lane && index == 0) {
+        gm_lane_note(lane, note);
     }
     if (note[0]) {
         gm_complain("%s", note);
     }
-    if (outcome.drive.lane && !ready) {
-        snprintf(message, sizeof message, "not enough memory");
-    }
-    if (ready && options->maximum) {
-        outcome.maxima = outcome.values + observables;
-        for (size_t k = 0; k < observables; k++) {
-            outcome.maxima[k] = NAN;
-        }
+    outcome.maxima = ready && options->maximum ? outcome.values + observables : NULL;
+    for (size_t k = 0; outcome.maxima && k < observables; k++) {
+        outcome.maxima[k] = NAN;
     }
     if (!ready) {
-        status = gm_give_up(GM_EXIT_USAGE, "%s", message);
+        status = gm_give_up(GM_EXIT_USAGE, "%s", lane ? "not enough memory" : message);
     } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
         if (outputs->save && gm_save_is_cut(outputs->save)) {
             end_cut(&outcome);
@@ -920,14 +889,14 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
             outputs->untracked = true;
         }
         const bool doubtful = options->strict && outcome.warning[0] != '\0';
-        const enum gm_status end = outcome.drive.lane->run->status;
-        if (end != GM_OK || doubtful) {
-            status = end == GM_OUT_OF_MEMORY ? GM_EXIT_MEMORY : GM_EXIT_NUMERICAL;
+        if (lane->run->status != GM_OK || doubtful) {
+            status = lane->run->status == GM_OUT_OF_MEMORY ? GM_EXIT_MEMORY : GM_EXIT_NUMERICAL;
         }
     }
     free(outcome.front);
+    free(outcome.meta);
     free(outcome.values);
-    gm_lane_close(outcome.drive.lane);
+    gm_lane_close(lane);
     return status;
 }
 

@@ -80,7 +80,6 @@ static void print_equation(const struct report *report, const char *left, gm_nod
     gm_print_wrapped(formula_of(report, node, false), printf("  %s = ", left), 6);
 }
 
-/* A name, plain or as LaTeX. */
 static const char *name_of(const struct report *report, const char *name, bool latex)
 {
     return latex ? gm_arena_keep(report->arena, gm_name_latex(name), free) : name;
@@ -202,7 +201,6 @@ static void print_texts(const struct report *report)
                      0, 0);
 }
 
-/* The values at the start. */
 static const double *start_of(const struct report *report)
 {
     return gm_arena_keep(report->arena, gm_equations_start(&report->system, NULL), free);

@@ -48,7 +48,6 @@ static void print_text(const char *word, const char *text)
     }
 }
 
-/* Lists the steps of a tour, for teachers. */
 static int list_steps(const struct gm_tour *tour)
 {
     printf("%s\n%s\n", tour->title, tour->about ? tour->about : "");

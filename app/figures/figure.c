@@ -45,6 +45,18 @@ static bool parse(struct gm_request *request, const struct gm_figure_job *job, c
     return parsed || gm_refuse(message, "%s: %.400s", job->figure->name, sentence);
 }
 
+const struct gm_figure *gm_figure_at(size_t index, const struct gm_scene **scene)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        *scene = gm_scene_at(i);
+        if (index < (*scene)->figure_count) {
+            return &(*scene)->figures[index];
+        }
+        index -= (*scene)->figure_count;
+    }
+    return NULL;
+}
+
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
                     bool quick)
 {
@@ -194,7 +206,6 @@ static double scale_of(const struct gm_lane *lane, const struct gm_statement *st
                : scale->size;
 }
 
-/* The abscissa of a lane for an order. */
 static double abscissa(const struct gm_lane *lane, const char *key)
 {
     const int observable = gm_scene_observable(lane->scene, key);
@@ -488,20 +499,15 @@ const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_out
 
 void gm_statement_expectation(const struct gm_statement *statement, double scale, char *text, size_t size)
 {
-    const double low = statement->low, high = statement->high;
+    const double low = statement->low, high = statement->high, bound = low == -INFINITY ? high : low;
     char part[64];
-    if (low == high) {
-        snprintf(text, size, "%.6g", low * scale);
-        snprintf(part, sizeof part, "%.3g", 100 * low);
-    } else if (low == -INFINITY) {
-        snprintf(text, size, "at most %.3g", high * scale);
-        snprintf(part, sizeof part, "%.3g", 100 * high);
-    } else if (high == INFINITY) {
-        snprintf(text, size, "at least %.3g", low * scale);
-        snprintf(part, sizeof part, "%.3g", 100 * low);
-    } else {
+    if (low < high && low > -INFINITY && high < INFINITY) {
         snprintf(text, size, "%.5g to %.5g", low * scale, high * scale);
         snprintf(part, sizeof part, "%.3g to %.3g", 100 * low, 100 * high);
+    } else {
+        const char *which = low == -INFINITY ? "at most " : "at least ";
+        snprintf(text, size, "%s%.*g", low == high ? "" : which, low == high ? 6 : 3, bound * scale);
+        snprintf(part, sizeof part, "%.3g", 100 * bound);
     }
     if (statement->scale && statement->measure != GM_EXCEEDS) {
         gm_append(text, size, ", %s %% of %s", part, statement->scale->name);
@@ -513,11 +519,10 @@ void gm_verdict_number(double low, double high, char *text, size_t size)
     char first[32], last[32];
     snprintf(first, sizeof first, "%.4g", low);
     snprintf(last, sizeof last, "%.4g", high);
+    const bool one = strcmp(first, last) == 0;
     if (!(low <= high)) {
         snprintf(text, size, "not a number");
-    } else if (strcmp(first, last) == 0) {
-        snprintf(text, size, "%s", first);
     } else {
-        snprintf(text, size, "%s to %s", first, last);
+        snprintf(text, size, "%s%s%s", first, one ? "" : " to ", one ? "" : last);
     }
 }

@@ -78,6 +78,9 @@ static inline size_t gm_figure_observables(const struct gm_figure_job *job)
     return count < GM_FIGURE_OBSERVABLES ? count : GM_FIGURE_OBSERVABLES;
 }
 
+/* The published figure of that number, of all scenes in their order, and its scene; or NULL. */
+const struct gm_figure *gm_figure_at(size_t index, const struct gm_scene **scene);
+
 /* Chooses the arguments of the run. */
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
                     bool quick);

@@ -8,10 +8,8 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
@@ -57,7 +55,6 @@ struct page {
     bool failed; /* a picture could not be read */
 };
 
-/* A picture's bytes in base64. */
 static void put_base64(struct page *page, const struct gm_figure_job *job, enum gm_theme theme)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
@@ -159,16 +156,6 @@ static void put_numbers(FILE *page, const struct gm_figure_job *job, const struc
     fputs("</tbody></table></div></details>\n", page);
 }
 
-static void put_failures(FILE *page, const struct gm_outcome *outcome)
-{
-    for (size_t i = 0; i < outcome->lane_count; i++) {
-        if (outcome->lanes[i].failure[0]) {
-            put(page, "<p class=\"soft\">%s ended early: %s.</p>\n", outcome->lanes[i].label,
-                outcome->lanes[i].failure);
-        }
-    }
-}
-
 /* "razafindralandy-34-couette" is "Figure 34, couette". */
 static void put_title(FILE *page, const struct gm_figure_job *job)
 {
@@ -204,7 +191,12 @@ static void put_figure(struct page *all, const struct gm_figure_job *job, const 
         if (job->published && job->published->remark) {
             put(page, "<p>%s</p>\n", job->published->remark);
         }
-        put_failures(page, outcome);
+        for (size_t i = 0; i < outcome->lane_count; i++) {
+            if (outcome->lanes[i].failure[0]) {
+                put(page, "<p class=\"soft\">%s ended early: %s.</p>\n", outcome->lanes[i].label,
+                    outcome->lanes[i].failure);
+            }
+        }
     } else {
         put(page, "<p class=\"notice\">Not made%s%s.</p>\n", outcome->message[0] ? ": " : "",
             outcome->message);
@@ -217,7 +209,6 @@ static void put_figure(struct page *all, const struct gm_figure_job *job, const 
     fputs("</article>\n", page);
 }
 
-/* The heading of user-defined systems. */
 static const struct gm_document own_systems = {.prefix = "own", .citation = "Systems of your own"};
 
 static bool is_of(const struct gm_document *document, const struct gm_figure_job *job)

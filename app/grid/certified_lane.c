@@ -101,7 +101,6 @@ static void refine(struct gm_arena *arena, struct grid grids[1 + FINER])
     }
 }
 
-/* Refuses a system that cannot be measured. */
 static void check(struct gm_arena *arena, const struct gm_lane *lane)
 {
     const struct gm_kind *kind = lane->problem.kind;
@@ -148,7 +147,6 @@ static struct gm_certificate certify(struct gm_arena *arena, const struct gm_lan
     return certificate;
 }
 
-/* The request of these words. */
 static const struct gm_request *ask(struct gm_arena *arena, const char *system,
                                     const struct gm_arguments *typed, int *status)
 {

@@ -150,7 +150,7 @@ struct gm_study_row {
     /* Fills axes, lines and cells; `words` are all, among them those typed. */
     void (*lay_out)(struct gm_grid *grid, const struct gm_arguments *words);
 
-    /* ---- of gm_cells_measure, in a body of the arena ---- */
+    /* ---- of gm_grid_measure, in a body of the arena ---- */
     bool alone; /* timed runs, one after the other; a lane that cannot be opened ends only its line */
     /* Makes the reference of the runs; NULL: none. */
     void (*prepare)(struct gm_grid *grid);
@@ -210,7 +210,7 @@ char gm_cell_letter(const struct gm_grid_cell *cell);
    NAN if untried cells leave it open. */
 double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line);
 
-/* ---- prices of work-precision ---- */
+/* ---- costs of work-precision ---- */
 
 /* Copies to `best`, of `count` places, the cells that are cheaper than all that are as accurate, by rising
    cost. Returns their number. */

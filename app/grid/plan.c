@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The common part of all kinds: from the words of a command line to lines and cells, and cells as rows of
-   CSV and as JSON. */
+/* The common part of all kinds: from the words of a command line to lines and cells, and cells as rows of CSV and as
+   JSON. */
 #include <math.h>
 #include <stdio.h>
 
@@ -78,7 +78,7 @@ static void put_row(struct gm_row row, const struct gm_grid *grid, const struct 
     fputc('\n', row.stream);
 }
 
-bool gm_cells_write(const struct gm_grid *grid, FILE *csv)
+static bool write_cells(const struct gm_grid *grid, FILE *csv)
 {
     put_row((struct gm_row){.stream = csv, .form = GM_ROW_HEAD}, grid, &grid->lines[0], 0, 0);
     for (size_t i = 0; i < grid->begun; i++) {
@@ -136,4 +136,24 @@ void gm_print_number(const char *format, int width, double value)
     } else {
         printf(" %*s", width, "-");
     }
+}
+
+/* ---- grids ---- */
+
+void gm_grid_close(void *self)
+{
+    struct gm_grid *grid = self;
+    gm_arena_close(grid->arena);
+    *grid = (struct gm_grid){0};
+}
+
+void gm_grid_draw(const void *grid, struct gm_picture *picture)
+{
+    ((const struct gm_grid *)grid)->row->draw(grid, picture);
+}
+
+bool gm_grid_write(const void *grid, FILE *table)
+{
+    const struct gm_study_row *row = ((const struct gm_grid *)grid)->row;
+    return (row->write ? row->write : write_cells)(grid, table);
 }

@@ -4,7 +4,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
+#include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/native/engine.h"
 #include "app/words/drive.h"
@@ -167,7 +169,6 @@ static bool is_stopped(void *self)
     return gm_listener_stops(((const struct measuring *)self)->grid->listener);
 }
 
-/* Returns true if there are numbers to show. */
 static bool has_numbers(const struct gm_grid *grid)
 {
     bool any = false;
@@ -179,7 +180,7 @@ static bool has_numbers(const struct gm_grid *grid)
     return any;
 }
 
-void gm_cells_measure(struct gm_grid *grid)
+static void measure_cells(struct gm_grid *grid)
 {
     struct measuring measuring = {.grid = grid};
     const bool alone = grid->row->alone;
@@ -198,4 +199,48 @@ void gm_cells_measure(struct gm_grid *grid)
     gm_pool_run(&pool);
     gm_arena_refuse_if(grid->arena, measuring.fault || !has_numbers(grid), "%s",
                        measuring.fault ? measuring.fault : grid->lines[0].reason);
+}
+
+static void measure(struct gm_arena *arena, void *data)
+{
+    struct gm_grid *grid = data;
+    (void)arena;
+    (grid->row->measure ? grid->row->measure : measure_cells)(grid);
+}
+
+bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
+{
+    grid->listener = listener;
+    return gm_arena_run(grid->arena, measure, grid) || gm_refuse(message, "%s", gm_arena_reason(grid->arena));
+}
+
+/* ---- the listener of long work: a line on standard error, or nothing ---- */
+
+bool gm_listener_stops(const struct gm_listener *listener)
+{
+    return gm_interrupted || (listener && listener->stopped && listener->stopped(listener->self));
+}
+
+void gm_listener_hears(const struct gm_listener *listener, const char *what, size_t done, size_t all)
+{
+    if (listener && listener->report) {
+        listener->report(listener->self, what, done, all);
+    }
+}
+
+static void write_line(void *self, const char *what, size_t done, size_t all)
+{
+    (void)self;
+    if (isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r%zu/%zu %-28s ", done, all, what);
+    }
+}
+
+const struct gm_listener gm_terminal_listener = {.report = write_line};
+
+void gm_terminal_listener_clear(void)
+{
+    if (isatty(STDERR_FILENO)) {
+        fprintf(stderr, "\r%60s\r", "");
+    }
 }

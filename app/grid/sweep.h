@@ -86,7 +86,6 @@ struct gm_sweep_table;
    another sweep's or another process writes it. */
 struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct gm_sweep *sweep,
                                            const char *path, const char *retry);
-const char *gm_sweep_table_path(const struct gm_sweep_table *table);
 
 struct gm_sweep_sum {
     size_t made, failed;      /* new rows, and those among them whose status is not ok */

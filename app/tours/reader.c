@@ -215,28 +215,22 @@ static int by_time(const void *a, const void *b)
     return (x->t > y->t) - (x->t < y->t);
 }
 
-/* Takes texts and numbers of one step; its show comes after them. */
+/* Takes texts and numbers of one step; its show and changes come after them. */
 static void take_entry(const struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
 {
     char **const places[WORDS] = {
         [STEP] = &step->title, [SAY] = &step->say,     [ASK] = &step->ask,    [ANSWER] = &step->answer,
         [SHOW] = &step->show,  [WATCH] = &step->watch, [TRY] = &step->attempt};
-    switch (entry->word) {
-    case UNTIL:
+    if (entry->word == UNTIL) {
         step->until = read_number(reader, entry);
-        break;
-    case SECONDS:
+    } else if (entry->word == SECONDS) {
         step->seconds = read_number(reader, entry);
         refuse_if(reader, !(step->seconds >= 1 && step->seconds <= 600), entry->line,
                   "seconds: %.60s does not lie between 1 and 600", entry->text);
-        break;
-    case AT:
-        break;
-    case STUDY:
+    } else if (entry->word == STUDY) {
         refuse_if(reader, step->study_words, entry->line, "study: is given twice");
         read_study(reader, entry, step);
-        break;
-    default:
+    } else if (entry->word != AT) {
         refuse_if(reader, !places[entry->word], entry->line,
                   "%s: belongs before the first step:", lines[entry->word].word);
         take_text(reader, entry, places[entry->word]);
@@ -302,24 +296,16 @@ static void read_head(const struct reader *reader, size_t count)
     tour->place = MOST_BYTES; /* tours without a place come last */
     for (size_t i = 0; i < count; i++) {
         const struct entry *entry = &reader->entries[i];
-        double place = NAN;
-        switch (entry->word) {
-        case TITLE:
-            take_text(reader, entry, &tour->title);
-            break;
-        case ABOUT:
-            take_text(reader, entry, &tour->about);
-            break;
-        case PLACE:
-            place = read_number(reader, entry);
+        if (entry->word == PLACE) {
+            const double place = read_number(reader, entry);
             refuse_if(reader, !(place >= 0 && place <= 1e6) || place != floor(place), entry->line,
                       "place: %.60s is not a whole number", entry->text);
             tour->place = (long)place;
-            break;
-        default:
-            refuse_if(reader, true, entry->line,
-                      "%s: belongs after the first step:", lines[entry->word].word);
+            continue;
         }
+        refuse_if(reader, entry->word != TITLE && entry->word != ABOUT, entry->line,
+                  "%s: belongs after the first step:", lines[entry->word].word);
+        take_text(reader, entry, entry->word == TITLE ? &tour->title : &tour->about);
     }
     refuse_if(reader, !tour->title, 1, "a tour begins with title:");
 }

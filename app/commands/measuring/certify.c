@@ -9,7 +9,6 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/commands/measuring/measuring.h"
 #include "app/commands/reference/reference.h"
 #include "app/grid/certified_lane.h"
 #include "app/grid/chart.h"
@@ -20,7 +19,6 @@
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
-#include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -29,7 +27,6 @@
 
 /* ---- the display of a certificate ---- */
 
-/* The claims of the base that are gone. */
 static void print_given_up(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -173,7 +170,6 @@ static void find_axes(const struct orders *orders, struct gm_axis *steps, struct
     gm_range_round(&errors->low, &errors->high, GM_LOG);
 }
 
-/* The line of the claimed order. */
 static void draw_claim(struct gm_picture *picture, struct gm_panel *panel, const struct gm_ladder *ladder,
                        int order)
 {
@@ -326,27 +322,7 @@ static bool is_interrupted(void *self)
     return gm_interrupted;
 }
 
-/* ---- on one system ---- */
-
-/* The scheme is the first word, the others describe the system. */
-static int certify_on(const struct gm_options *options)
-{
-    const struct gm_certificate certificate =
-        gm_certify_words(options->arena, options->on, &options->arguments, options->end);
-    show(options, &certificate, options->on);
-    return gm_finish(chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM));
-}
-
 /* ---- with decimals that satisfy the conditions ---- */
-
-static bool write_text(const char *path, const char *text, char *message)
-{
-    if (!gm_folder_make_for(path, message)) {
-        return false;
-    }
-    const int error = gm_temporary_write(path, text, strlen(text));
-    return error == 0 || gm_refuse(message, "%.300s could not be written: %s", path, strerror(error));
-}
 
 static int polish(const struct gm_options *options)
 {
@@ -359,9 +335,11 @@ static int polish(const struct gm_options *options)
         gm_complain("%s", message);
         return gm_memory_was_short() ? GM_EXIT_MEMORY : unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
     }
-    const bool written = write_text(out, text, message);
-    free(text);
-    gm_command_end_if(options, !written, GM_EXIT_FILE, "%s", message);
+    gm_arena_keep(options->arena, text, free);
+    gm_command_end_if(options, !gm_folder_make_for(out, message), GM_EXIT_FILE, "%s", message);
+    const int error = gm_temporary_write(out, text, strlen(text));
+    gm_command_end_if(options, error != 0, GM_EXIT_FILE, "%.300s could not be written: %s", out,
+                      strerror(error));
     if (options->json) {
         struct gm_row row = gm_row_begin(stdout);
         gm_row_put(
@@ -392,8 +370,11 @@ int gm_command_certify(const struct gm_options *options)
                       options->on && options->arguments.count > 0 &&
                           strcmp(options->arguments.words[0], "all") == 0,
                       GM_EXIT_USAGE, "--on measures one scheme: name it");
-    if (options->on && options->arguments.count > 0) {
-        return certify_on(options);
+    if (options->on && options->arguments.count > 0) { /* the other words describe the system */
+        const struct gm_certificate certificate =
+            gm_certify_words(options->arena, options->on, &options->arguments, options->end);
+        show(options, &certificate, options->on);
+        return gm_finish(chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM));
     }
     gm_command_end_if(options, options->arguments.count != 1, GM_EXIT_USAGE,
                       "certify which scheme? A name, or all");

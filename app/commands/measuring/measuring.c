@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The common part of the commands that measure: diagrams and tables by options, and, for the explorer's
    studies, everything but the printing. */
-#include "app/commands/measuring/measuring.h"
 
 #include <stdio.h>
 #include <stdlib.h>

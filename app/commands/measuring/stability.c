@@ -8,9 +8,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/commands/measuring/measuring.h"
 #include "app/grid/chart.h"
-#include "app/grid/grid.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"
@@ -50,17 +48,14 @@ static int64_t steps_of(const struct gm_scheme *scheme)
 
 static void measure_plane(struct region *region)
 {
-    for (size_t r = 0; r < SIDE && !gm_interrupted; r++) {
+    const struct gm_scheme *scheme = region->scheme;
+    for (size_t r = SIDE / 2; r < SIDE && !gm_interrupted; r++) { /* a conjugate pair grows alike */
         for (size_t c = 0; c < SIDE; c++) {
             const double re = place(region, c), im = place(region, r);
-            /* a conjugate pair grows alike */
-            if (r < SIDE / 2) {
-                continue;
-            }
-            const double measured = gm_linear_growth(region->scheme, re, im, steps_of(region->scheme));
-            const double known = gm_linear_growth_known(region->scheme, re, im);
-            region->measured[r * SIDE + c] = region->measured[(SIDE - 1 - r) * SIDE + c] = measured;
-            region->known[r * SIDE + c] = region->known[(SIDE - 1 - r) * SIDE + c] = known;
+            const size_t here = r * SIDE + c, there = (SIDE - 1 - r) * SIDE + c;
+            region->measured[here] = region->measured[there] =
+                gm_linear_growth(scheme, re, im, steps_of(scheme));
+            region->known[here] = region->known[there] = gm_linear_growth_known(scheme, re, im);
         }
     }
 }

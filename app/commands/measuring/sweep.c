@@ -5,7 +5,6 @@
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
-#include "app/commands/measuring/measuring.h"
 #include "app/grid/sweep.h"
 #include "app/output/say.h"
 #include "app/words/drive.h"
@@ -47,13 +46,11 @@ static bool is_status(const char *word)
     return false;
 }
 
-/* Returns true if a picture is requested. */
 static bool is_drawn(const struct gm_options *options)
 {
     return options->out || options->output;
 }
 
-/* The options must go together. */
 static void check(const struct gm_options *options)
 {
     gm_command_end_if(options, options->retry && !is_status(options->retry), GM_EXIT_USAGE,
@@ -132,7 +129,8 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     gm_terminal_listener_clear();
     const int status = sum.unheard ? GM_EXIT_PIPE : GM_EXIT_FILE;
     if (filled) {
-        tell(sweep, &sum, gm_sweep_table_path(table));
+        tell(sweep, &sum,
+             path ? gm_sweep_shard_path(options->arena, path, sweep->shard, sweep->shards) : NULL);
     } else if (status != GM_EXIT_PIPE) {
         gm_complain("%s", message);
     }

@@ -17,24 +17,15 @@
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size)
 {
     char low[40], high[40];
-    switch (row->type) {
-    case GM_TEXT:
-        if (row->choices) {
-            return gm_parameter_choices(row, text, size);
-        }
-        snprintf(text, size, "a word");
-        return text;
-    case GM_BOOLEAN:
-        snprintf(text, size, "no, yes");
-        return text;
-    case GM_CHOICE:
+    if (row->type == GM_CHOICE || (row->type == GM_TEXT && row->choices)) {
         return gm_parameter_choices(row, text, size);
-    case GM_REAL:
-    case GM_INTEGER:
-        break;
     }
-    snprintf(text, size, "%s to %s", gm_number_format(row->lowest, low, sizeof low),
-             gm_number_format(row->highest, high, sizeof high));
+    if (row->type == GM_TEXT || row->type == GM_BOOLEAN) {
+        snprintf(text, size, "%s", row->type == GM_TEXT ? "a word" : "no, yes");
+    } else {
+        snprintf(text, size, "%s to %s", gm_number_format(row->lowest, low, sizeof low),
+                 gm_number_format(row->highest, high, sizeof high));
+    }
     return text;
 }
 

@@ -92,14 +92,6 @@ static double gamma_of(const struct gm_grid_cell *cell)
     return cell->dt * pow(factorials * cell->terms[before] / cell->terms[last], 1. / (last - before));
 }
 
-static void judge_cell(struct gm_grid_cell *cell)
-{
-    for (int k = 1; k < GM_POWERS; k++) {
-        cell->best = cell->errors[k] < cell->errors[cell->best] ? k : cell->best;
-    }
-    cell->gamma = gamma_of(cell);
-}
-
 static void conclude(const struct gm_grid *grid, struct gm_grid_line *line)
 {
     const double above_roundoff = 1e-12;
@@ -172,7 +164,10 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
     if (energy) {
         watch(grid, lane, energy, y, cell);
         gm_grid_take_end(lane, cell);
-        judge_cell(cell);
+        for (int k = 1; k < GM_POWERS; k++) {
+            cell->best = cell->errors[k] < cell->errors[cell->best] ? k : cell->best;
+        }
+        cell->gamma = gamma_of(cell);
     } else {
         gm_refuse(message, "%s", reason[0] ? reason : "not enough memory");
     }

@@ -40,34 +40,3 @@ bool gm_grid_open(struct gm_grid *grid, enum gm_study_kind kind, const struct gm
     grid->request.refusal = refusal;
     return false;
 }
-
-static void measure(struct gm_arena *arena, void *data)
-{
-    struct gm_grid *grid = data;
-    (void)arena;
-    (grid->row->measure ? grid->row->measure : gm_cells_measure)(grid);
-}
-
-bool gm_grid_measure(struct gm_grid *grid, const struct gm_listener *listener, char *message)
-{
-    grid->listener = listener;
-    return gm_arena_run(grid->arena, measure, grid) || gm_refuse(message, "%s", gm_arena_reason(grid->arena));
-}
-
-void gm_grid_close(void *self)
-{
-    struct gm_grid *grid = self;
-    gm_arena_close(grid->arena);
-    *grid = (struct gm_grid){0};
-}
-
-void gm_grid_draw(const void *grid, struct gm_picture *picture)
-{
-    ((const struct gm_grid *)grid)->row->draw(grid, picture);
-}
-
-bool gm_grid_write(const void *grid, FILE *table)
-{
-    const struct gm_study_row *row = ((const struct gm_grid *)grid)->row;
-    return (row->write ? row->write : gm_cells_write)(grid, table);
-}

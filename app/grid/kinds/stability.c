@@ -123,19 +123,12 @@ const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *
 
 char gm_cell_letter(const struct gm_grid_cell *cell)
 {
+    static const char failures[GM_STEP_TOO_SMALL + 1] = {
+        [GM_BLOW_UP] = 'B', [GM_NO_CONVERGENCE] = 'N', [GM_MESH_CROSSING] = 'M'};
     if (!cell->tried || cell->verdict != GM_FAILED) {
         return cell->tried ? verdicts[cell->verdict].letter : '?';
     }
-    switch (cell->status) {
-    case GM_BLOW_UP:
-        return 'B';
-    case GM_NO_CONVERGENCE:
-        return 'N';
-    case GM_MESH_CROSSING:
-        return 'M';
-    default:
-        return 'C';
-    }
+    return failures[cell->status] ? failures[cell->status] : 'C';
 }
 
 /* Writes the letters in use, except that of the question: "W wrong, M mesh-crossing". */

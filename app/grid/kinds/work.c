@@ -507,14 +507,6 @@ static double error_behind(const struct gm_grid *grid, const struct gm_lane *lan
     return error;
 }
 
-/* Writes the lane's reason for the missing number, or "". */
-static void note_reason(const struct gm_grid *grid, const struct gm_lane *lane, char *message)
-{
-    const int observable = gm_scene_observable(lane->scene, grid->measure);
-    const char *reason = observable < 0 ? NULL : gm_lane_missing(lane, (size_t)observable);
-    gm_refuse(message, "%s", reason ? reason : "");
-}
-
 /* Makes a run and returns its time, INFINITY if it was given up. A run that its scene may stop is observed
    in any case. */
 static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
@@ -553,8 +545,12 @@ static void run(const struct gm_grid *grid, struct gm_lane *lane, struct gm_grid
     if (cell->status == GM_OK && isfinite(spent)) {
         cell->error = grid->solution && scheme->family->adaptive ? error_behind(grid, lane)
                                                                  : error_of(grid, lane, grid->solution);
-        if (!grid->solution && isnan(cell->error)) {
-            note_reason(grid, lane, message);
+        const int observable = gm_scene_observable(lane->scene, grid->measure);
+        const char *reason = !grid->solution && isnan(cell->error) && observable >= 0
+                                 ? gm_lane_missing(lane, (size_t)observable)
+                                 : NULL;
+        if (reason) {
+            gm_refuse(message, "%s", reason);
         }
     }
     for (int repeat = 1; repeat < REPEATS && spent < enough_seconds && !gm_listener_stops(grid->listener);

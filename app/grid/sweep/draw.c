@@ -91,7 +91,6 @@ bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message)
     return plan(&chart, sweep, message);
 }
 
-/* The index of a run's line. */
 static size_t line_of(const struct gm_sweep_chart *chart, size_t run)
 {
     const struct gm_words *words = &chart->sweep->words;
@@ -104,7 +103,6 @@ static size_t line_of(const struct gm_sweep_chart *chart, size_t run)
     return line;
 }
 
-/* The bin of a run along an axis. */
 static size_t bin_of(const struct gm_sweep_chart *chart, size_t axis, size_t run)
 {
     if (axis >= chart->key_count) {

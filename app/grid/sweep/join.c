@@ -109,7 +109,6 @@ struct joining {
     size_t missing_count, other; /* runs without a row; 1 + the run in whose place there is another's row */
 };
 
-/* Writes the shards' rows in turn. */
 static bool merge(FILE *table, const void *context)
 {
     enum { NAMED = 10 };

@@ -133,7 +133,6 @@ static void try_some(const struct gm_sweep *sweep, const char *key, const char *
                    message);
 }
 
-/* Returns true if the key can have this value. */
 static bool fits(const struct gm_scene *scene, const char *key, const char *value)
 {
     char *own = gm_scene_defaults(scene);

@@ -60,20 +60,19 @@ static size_t commas_of(const char *line)
     return commas;
 }
 
-/* Returns true if a line is the row of a run: its front is the run's, and it has as many cells as the
-   head. */
-static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line)
+/* The length of a line's front if it is the row of a run: its front is the run's, and it has as many cells as
+   the head; else 0. */
+static size_t front_of(const struct gm_sweep *sweep, size_t run, const char *line)
 {
-    return gm_sweep_front(sweep, run, line) > 0 && commas_of(line) == commas_of(sweep->head);
+    return commas_of(line) == commas_of(sweep->head) ? gm_sweep_front(sweep, run, line) : 0;
 }
 
-/* Returns true if a row has this status, or any warning, which is the next cell. */
-static bool has_status(const struct gm_sweep *sweep, size_t run, const char *line, const char *status)
+/* Returns true if the cells after a front have this status, or any warning, which is the next cell. */
+static bool has_status(const char *cells, const char *status)
 {
-    const size_t front = gm_sweep_front(sweep, run, line);
-    const char *cell = front > 0 ? line + front : "", *warning = gm_csv_cell(cell, 1);
-    const bool has = strncmp(cell, status, strlen(status)) == 0 && cell[strlen(status)] == ',';
-    return has || (strcmp(status, "warning") == 0 && *warning && *warning != ',');
+    const char *warning = gm_csv_cell(cells, 1);
+    return (strncmp(cells, status, strlen(status)) == 0 && cells[strlen(status)] == ',') ||
+           (strcmp(status, "warning") == 0 && *warning && *warning != ',');
 }
 
 /* Returns true if a head differs only by the column of warnings, which older tables do not have. */
@@ -93,7 +92,7 @@ static void refuse_row(const struct gm_sweep_table *table, const char *line)
     const struct gm_sweep *sweep = table->sweep;
     const size_t runs = gm_sweep_shard_runs(sweep), row = table->there;
     size_t later = row;
-    while (later < runs && !is_row_of(sweep, gm_sweep_run(sweep, later), line)) {
+    while (later < runs && front_of(sweep, gm_sweep_run(sweep, later), line) == 0) {
         later++;
     }
     gm_arena_refuse_if(
@@ -129,11 +128,11 @@ static void read_rows(struct gm_sweep_table *table, const char *retry)
     const size_t runs = gm_sweep_shard_runs(table->sweep);
     read_head(table);
     for (const char *line; (line = gm_csv_next(&table->old)); table->there++) {
-        const size_t run = gm_sweep_run(table->sweep, table->there);
-        if (table->there == runs || !is_row_of(table->sweep, run, line)) {
+        const size_t front = front_of(table->sweep, gm_sweep_run(table->sweep, table->there), line);
+        if (table->there == runs || front == 0) {
             refuse_row(table, line);
         }
-        if (retry && has_status(table->sweep, run, line, retry)) {
+        if (retry && has_status(line + front, retry)) {
             table->again =
                 gm_arena_resize(table->arena, table->again, table->again_count + 1, sizeof *table->again);
             table->again[table->again_count++] = table->there;
@@ -231,11 +230,6 @@ struct gm_sweep_table *gm_sweep_table_open(struct gm_arena *arena, const struct 
         open_file(table, retry);
     }
     return table;
-}
-
-const char *gm_sweep_table_path(const struct gm_sweep_table *table)
-{
-    return table->path;
 }
 
 /* ---- filling ---- */

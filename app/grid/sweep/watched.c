@@ -10,14 +10,7 @@
 #include "core/arena.h"
 #include "render/message.h"
 
-enum { MOST_RUNS = 100000, PATH = 32 };
-
-/* The table by the path that the process itself has to it. */
-static const char *path_of(const struct gm_grid *grid, char path[PATH])
-{
-    snprintf(path, PATH, "/proc/self/fd/%d", grid->table);
-    return path;
-}
+enum { MOST_RUNS = 100000 };
 
 static void close_table(void *grid)
 {
@@ -49,9 +42,10 @@ static void open_grid(struct gm_grid *grid)
 
 static void measure(struct gm_grid *grid)
 {
-    char path[PATH], message[GM_MESSAGE];
+    char path[32], message[GM_MESSAGE];
     struct gm_sweep_sum sum;
-    struct gm_sweep_table *table = gm_sweep_table_open(grid->arena, &grid->sweep, path_of(grid, path), NULL);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", grid->table); /* the process itself has it by this path */
+    struct gm_sweep_table *table = gm_sweep_table_open(grid->arena, &grid->sweep, path, NULL);
     gm_arena_check(grid->arena,
                    gm_sweep_table_fill(table, 0, grid->chart, grid->listener, &sum, message) &&
                        gm_sweep_table_close(table, message),
