@@ -45,11 +45,14 @@ struct group {
     size_t begin, end;
 };
 
-/* The state of a tape's compilation. */
+/* The state of a tape's compilation, inside a body of its arena. */
 struct writing {
+    struct gm_arena *arena;
     struct gm_tape *tape;
     const struct gm_formula *graph;
-    gm_node_id *parts; /* nodes that the outputs depend on, ascending */
+    const gm_node_id *nodes; /* [tape->outputs] */
+    const double *variables; /* values of the variables beyond the inputs */
+    gm_node_id *parts;       /* nodes that the outputs depend on, ascending */
     size_t part_count;
     uint32_t *numbers; /* numbers of the nodes' values; NONE: not known yet */
     double *folded;    /* values of nodes that depend on no input */
@@ -59,12 +62,11 @@ struct writing {
     struct value *values;
     struct term *terms;
     uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
-    size_t product_count; /* entries in products; its room is a power of two, above twice as many */
-    size_t product_room;
+    size_t product_count; /* entries in products; its capacity is a power of two, above twice as many */
+    size_t product_capacity;
     struct group *groups; /* groups in the order of the code */
     size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
-    size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
     size_t least_rolled; /* values; shorter code keeps the formula's order */
     bool rolled;
     /* register, last group that needs it and, for computed values, stretch of each value */
@@ -72,42 +74,50 @@ struct writing {
     struct stretch *stretches;
     uint32_t *free[2]; /* stretches of one register, and of LARGEST_BATCH, that may be used again */
     size_t stretch_count, free_count[2];
-    bool failed;
 };
 static const uint32_t NONE = UINT32_MAX;
 
-/* The array with room for one more after `count`, or unchanged when out of memory. */
-static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *capacity)
+enum { FIRST_CAPACITY = 64 };
+
+/* True if an array of `count` elements is full; it begins with FIRST_CAPACITY and doubles. */
+static bool is_full(size_t count)
 {
-    if (count < *capacity) {
-        return array;
+    return count == 0 || (count >= FIRST_CAPACITY && (count & (count - 1)) == 0);
+}
+
+/* An array of the tape with room for one more. */
+static void *grown(const struct writing *writing, void *array, size_t size, size_t count)
+{
+    if (is_full(count)) {
+        array = realloc(array, (count > 0 ? 2 * count : FIRST_CAPACITY) * size);
+        gm_arena_need(writing->arena, array != NULL);
     }
-    void *more = realloc(array, (2 * count + 64) * size);
-    *capacity = more ? 2 * count + 64 : *capacity;
-    writing->failed |= !more;
-    return more ? more : array;
+    return array;
+}
+
+/* An array of the compilation with room for one more. */
+static void *widened(const struct writing *writing, void *array, size_t size, size_t count)
+{
+    return is_full(count)
+               ? gm_arena_resize(writing->arena, array, count > 0 ? 2 * count : FIRST_CAPACITY, size)
+               : array;
 }
 
 /* ---- from nodes to values ---- */
 
-static bool takes_two(const struct gm_node *node)
-{
-    return gm_operation_rows[node->operation].arity == 2;
-}
-
 /* the exponent of a whole power is not a node: it names a chain */
 static gm_node_id second_operand(const struct gm_node *node)
 {
-    return takes_two(node) && node->operation != GM_OPERATION_WHOLE_POWER ? node->b : node->a;
+    return node->operation == GM_OPERATION_WHOLE_POWER ? node->a : gm_second_operand(node);
 }
 
 /* Computes all nodes that depend on no input. */
-static void fold(struct writing *writing, const double *values)
+static void fold(struct writing *writing)
 {
     for (size_t k = 0; k < writing->part_count; k++) {
         const gm_node_id i = writing->parts[k];
         const struct gm_node *node = &writing->graph->nodes[i];
-        const gm_node_id b = node->operation > GM_VARIABLE && takes_two(node) ? node->b : node->a;
+        const gm_node_id b = gm_second_operand(node);
         bool dependent = node->operation == GM_VARIABLE && node->a < writing->tape->inputs;
         if (node->operation > GM_VARIABLE) {
             dependent = writing->dependent[node->a] || writing->dependent[b];
@@ -118,7 +128,7 @@ static void fold(struct writing *writing, const double *values)
             writing->folded[i] =
                 node->operation == GM_CONSTANT ? node->value
                 : node->operation == GM_VARIABLE
-                    ? values[node->a]
+                    ? writing->variables[node->a]
                     : gm_operation_value(node->operation, writing->folded[node->a], writing->folded[b]);
         }
     }
@@ -127,11 +137,8 @@ static void fold(struct writing *writing, const double *values)
 static uint32_t constant(struct writing *writing, double value)
 {
     struct gm_tape *tape = writing->tape;
-    tape->constants = grown(writing, tape->constants, sizeof *tape->constants, tape->constant_count,
-                            &writing->constant_room);
-    if (!writing->failed) {
-        tape->constants[tape->constant_count++] = value;
-    }
+    tape->constants = grown(writing, tape->constants, sizeof *tape->constants, tape->constant_count);
+    tape->constants[tape->constant_count++] = value;
     return (uint32_t)(tape->inputs + tape->constant_count - 1);
 }
 
@@ -142,7 +149,7 @@ static void need(struct writing *writing, gm_node_id i)
     }
 }
 
-static void find_constants(struct writing *writing, const gm_node_id *nodes, size_t count)
+static void find_constants(struct writing *writing)
 {
     bool inverts = false;
     for (size_t k = 0; k < writing->part_count; k++) {
@@ -154,8 +161,8 @@ static void find_constants(struct writing *writing, const gm_node_id *nodes, siz
                 node->operation == GM_OPERATION_WHOLE_POWER && writing->graph->nodes[node->b].value <= 0;
         }
     }
-    for (size_t k = 0; k < count; k++) {
-        need(writing, nodes[k]);
+    for (size_t k = 0; k < writing->tape->outputs; k++) {
+        need(writing, writing->nodes[k]);
     }
     writing->one = inverts ? constant(writing, 1) : NONE;
     writing->zero = NONE;
@@ -169,12 +176,9 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
 {
     const size_t first = writing->tape->inputs + writing->tape->constant_count;
     const uint32_t number = (uint32_t)(first + writing->value_count);
-    writing->values =
-        grown(writing, writing->values, sizeof *writing->values, writing->value_count, &writing->value_room);
-    if (!writing->failed) {
-        writing->values[writing->value_count++] =
-            (struct value){.operation = operation, .number = number, .a = a, .b = b};
-    }
+    writing->values = widened(writing, writing->values, sizeof *writing->values, writing->value_count);
+    writing->values[writing->value_count++] =
+        (struct value){.operation = operation, .number = number, .a = a, .b = b};
     return number;
 }
 
@@ -182,7 +186,7 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
 static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32_t b)
 {
     const size_t first = writing->tape->inputs + writing->tape->constant_count,
-                 mask = writing->product_room - 1;
+                 mask = writing->product_capacity - 1;
     size_t at = ((size_t)a * 0x9e3779b1 ^ (size_t)b * 0x85ebca6b) & mask;
     while (writing->products[at] > 0 && (writing->values[writing->products[at] - first].a != a ||
                                          writing->values[writing->products[at] - first].b != b)) {
@@ -194,23 +198,19 @@ static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32
 /* A product within a power: powers of one number share theirs. */
 static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
 {
-    if (2 * (writing->product_count + 1) > writing->product_room) {
-        const size_t capacity = writing->product_room;
-        uint32_t *before = writing->products;
-        writing->product_room = capacity > 0 ? 2 * capacity : 64;
-        writing->products = calloc(writing->product_room, sizeof *writing->products);
-        writing->failed |= !writing->products;
-        for (size_t i = 0; !writing->failed && i < capacity; i++) {
+    if (2 * (writing->product_count + 1) > writing->product_capacity) {
+        const size_t capacity = writing->product_capacity;
+        const uint32_t *before = writing->products;
+        writing->product_capacity = capacity > 0 ? 2 * capacity : 64;
+        writing->products =
+            gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
+        for (size_t i = 0; i < capacity; i++) {
             if (before[i] > 0) {
                 const struct value *value =
                     &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
                 *product_place(writing, value->a, value->b) = before[i];
             }
         }
-        free(before);
-    }
-    if (writing->failed) {
-        return 0;
     }
     uint32_t *place = product_place(writing, a, b);
     if (*place == 0) {
@@ -243,7 +243,7 @@ static void find_values(struct writing *writing)
 {
     struct gm_tape *tape = writing->tape;
     const uint32_t *const numbers = writing->numbers;
-    for (size_t k = 0; k < writing->part_count && !writing->failed; k++) {
+    for (size_t k = 0; k < writing->part_count; k++) {
         const gm_node_id i = writing->parts[k];
         const struct gm_node *node = &writing->graph->nodes[i];
         if (!writing->dependent[i]) {
@@ -271,11 +271,8 @@ static bool is_sum(const struct value *value)
 
 static void add_term(struct writing *writing, uint32_t number, bool subtracted)
 {
-    writing->terms =
-        grown(writing, writing->terms, sizeof *writing->terms, writing->term_count, &writing->term_room);
-    if (!writing->failed) {
-        writing->terms[writing->term_count++] = (struct term){number, subtracted};
-    }
+    writing->terms = widened(writing, writing->terms, sizeof *writing->terms, writing->term_count);
+    writing->terms[writing->term_count++] = (struct term){number, subtracted};
 }
 
 static void turn_terms(struct term *terms, size_t count)
@@ -294,7 +291,7 @@ static void gather_sum(struct writing *writing, struct value *straight, size_t l
     const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
                    first = (uint32_t)writing->term_count;
     size_t at = last, length = 1;
-    while (!writing->failed) {
+    for (;;) {
         const struct value *value = &straight[at];
         const bool left = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed]),
                    right = !left && value->operation == GM_OPERATION_ADD && value->b >= fixed &&
@@ -307,7 +304,7 @@ static void gather_sum(struct writing *writing, struct value *straight, size_t l
         at = (left ? value->a : value->b) - fixed;
         length++;
     }
-    if (length < LEAST_SUM || writing->failed) {
+    if (length < LEAST_SUM) {
         writing->term_count = first;
         return;
     }
@@ -325,15 +322,14 @@ static void gather_sum(struct writing *writing, struct value *straight, size_t l
     straight[last].terms = (uint32_t)length + 1;
 }
 
-static void find_sums(struct writing *writing, struct value *straight, const gm_node_id *nodes, size_t count,
-                      uint32_t *used)
+static void find_sums(struct writing *writing, struct value *straight, uint32_t *used)
 {
     for (size_t i = 0; i < writing->value_count; i++) {
         used[straight[i].a]++;
         used[straight[i].b] += straight[i].b != straight[i].a || is_sum(&straight[i]);
     }
-    for (size_t k = 0; k < count; k++) {
-        used[writing->numbers[nodes[k]]] += 2; /* it has to be there */
+    for (size_t k = 0; k < writing->tape->outputs; k++) {
+        used[writing->numbers[writing->nodes[k]]] += 2; /* it has to be there */
     }
     for (size_t i = writing->value_count; i-- > 0;) {
         if (is_sum(&straight[i]) && straight[i].level != NONE) {
@@ -509,33 +505,24 @@ static void sort(struct writing *writing, struct value *straight, uint32_t *rank
 }
 
 /* Sorts values, if then most of them share a group. */
-static bool roll(struct writing *writing, const gm_node_id *nodes, size_t node_count)
+static bool roll(struct writing *writing)
 {
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
-    struct value *straight = malloc(count * sizeof *straight), *before = malloc(count * sizeof *before);
-    uint32_t *rank = calloc(fixed + count, sizeof *rank);
-    size_t *counts = calloc(count + 1, sizeof *counts);
-    writing->failed |= !straight || !before || !rank || !counts;
-    if (!writing->failed) {
-        memcpy(straight, writing->values, count * sizeof *straight);
-        memcpy(before, writing->values, count * sizeof *before);
-        find_sums(writing, straight, nodes, node_count, rank);
-    }
-    if (!writing->failed) {
-        sort(writing, straight, rank, counts);
-        writing->rolled = true;
-        find_groups(writing);
-    }
-    if (!writing->failed && writing->group_count > count / 2) {
+    struct value *straight = gm_arena_take(writing->arena, count, sizeof *straight),
+                 *before = gm_arena_take(writing->arena, count, sizeof *before);
+    uint32_t *rank = gm_arena_take(writing->arena, fixed + count, sizeof *rank);
+    memcpy(straight, writing->values, count * sizeof *straight);
+    memcpy(before, writing->values, count * sizeof *before);
+    find_sums(writing, straight, rank);
+    sort(writing, straight, rank, gm_arena_take(writing->arena, count + 1, sizeof(size_t)));
+    writing->rolled = true;
+    find_groups(writing);
+    if (writing->group_count > count / 2) {
         memcpy(writing->values, before, count * sizeof *before);
         writing->value_count = count;
         writing->rolled = false;
         find_groups(writing);
     }
-    free(straight);
-    free(before);
-    free(rank);
-    free(counts);
     return writing->rolled;
 }
 
@@ -547,18 +534,17 @@ static void order_by_need(struct writing *writing)
     struct open_group {
         uint32_t group;
         size_t value, operand; /* the first of its values', that is not seen to yet */
-    } *path = malloc(count * sizeof *path);
-    struct group *ordered = malloc(count * sizeof *ordered);
-    uint32_t *group_of = malloc(writing->number_count * sizeof *group_of);
-    bool *met = calloc(count, sizeof *met);
-    writing->failed |= !path || !ordered || !group_of || !met;
-    for (uint32_t k = 0; !writing->failed && k < count; k++) {
+    } *path = gm_arena_take(writing->arena, count, sizeof *path);
+    struct group *ordered = gm_arena_take(writing->arena, count, sizeof *ordered);
+    uint32_t *group_of = gm_arena_take(writing->arena, writing->number_count, sizeof *group_of);
+    bool *met = gm_arena_take(writing->arena, count, sizeof *met);
+    for (uint32_t k = 0; k < count; k++) {
         for (size_t i = writing->groups[k].begin; i < writing->groups[k].end; i++) {
             group_of[writing->values[i].number - fixed] = k;
         }
     }
     size_t done = 0;
-    for (size_t root = writing->failed ? 0 : count; root-- > 0;) {
+    for (size_t root = count; root-- > 0;) {
         size_t depth = 0;
         if (!met[root]) {
             met[root] = true;
@@ -585,13 +571,7 @@ static void order_by_need(struct writing *writing)
             }
         }
     }
-    if (!writing->failed) {
-        memcpy(writing->groups, ordered, count * sizeof *ordered);
-    }
-    free(path);
-    free(ordered);
-    free(group_of);
-    free(met);
+    memcpy(writing->groups, ordered, count * sizeof *ordered);
 }
 
 /* A stretch for the values of a group. */
@@ -626,15 +606,13 @@ static void release(struct writing *writing, uint32_t number, uint32_t group)
 static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32_t a, uint32_t b)
 {
     struct gm_tape *tape = writing->tape;
-    tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length, &writing->code_room);
-    if (!writing->failed) {
-        const struct gm_instruction *before =
-            tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
-        const bool near = before && before->operation < GM_REPEATED;
-        const uint32_t way =
-            4 * operation + (near && a == before->to ? 1 : 0) + (near && b == before->to ? 2 : 0);
-        tape->code[tape->length++] = (struct gm_instruction){(uint16_t)operation, (uint16_t)way, to, a, b};
-    }
+    tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length);
+    const struct gm_instruction *before =
+        tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
+    const bool near = before && before->operation < GM_REPEATED;
+    const uint32_t way =
+        4 * operation + (near && a == before->to ? 1 : 0) + (near && b == before->to ? 2 : 0);
+    tape->code[tape->length++] = (struct gm_instruction){(uint16_t)operation, (uint16_t)way, to, a, b};
 }
 
 static uint32_t register_of(const struct writing *writing, const struct value *value, bool second)
@@ -645,10 +623,8 @@ static uint32_t register_of(const struct writing *writing, const struct value *v
 static void put_in_list(struct writing *writing, uint32_t entry)
 {
     struct gm_tape *tape = writing->tape;
-    tape->lists = grown(writing, tape->lists, sizeof *tape->lists, writing->list_count, &writing->list_room);
-    if (!writing->failed) {
-        tape->lists[writing->list_count++] = entry;
-    }
+    tape->lists = grown(writing, tape->lists, sizeof *tape->lists, writing->list_count);
+    tape->lists[writing->list_count++] = entry;
 }
 
 static struct gm_operands operands_of(struct writing *writing, const struct value *values, size_t count,
@@ -671,13 +647,10 @@ static struct gm_operands operands_of(struct writing *writing, const struct valu
 static void put_repeated(struct writing *writing, const struct gm_repeated *batch)
 {
     struct gm_tape *tape = writing->tape;
-    tape->batches =
-        grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count, &writing->batch_room);
-    if (!writing->failed) {
-        /* registers 0: they are read before anybody looks at the operation */
-        put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
-        tape->batches[writing->batch_count++] = *batch;
-    }
+    tape->batches = grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count);
+    /* registers 0: they are read before anybody looks at the operation */
+    put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
+    tape->batches[writing->batch_count++] = *batch;
 }
 
 static void put_batch(struct writing *writing, const struct value *values, size_t count, uint32_t to)
@@ -730,7 +703,7 @@ static void put_sums(struct writing *writing, const struct value *values, size_t
     struct gm_sums sums = {.to = to, .count = (uint32_t)count, .at = (uint32_t)writing->list_count};
     uint32_t done[GM_ABREAST] = {0};
     const uint32_t zero = writing->place[writing->zero];
-    for (bool more = true; more && !writing->failed; sums.rows++) {
+    for (bool more = true; more; sums.rows++) {
         uint32_t most = 0;
         bool subtracted = false;
         for (size_t k = 0; k < count; k++) {
@@ -755,11 +728,9 @@ static void put_sums(struct writing *writing, const struct value *values, size_t
             done[takes ? k : 0] += takes;
         }
     }
-    tape->sums = grown(writing, tape->sums, sizeof *tape->sums, writing->sums_count, &writing->sums_room);
-    if (!writing->failed) {
-        put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
-        tape->sums[writing->sums_count++] = sums;
-    }
+    tape->sums = grown(writing, tape->sums, sizeof *tape->sums, writing->sums_count);
+    put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
+    tape->sums[writing->sums_count++] = sums;
 }
 
 static void put_all_sums(struct writing *writing, const struct value *values, size_t count, uint32_t to)
@@ -771,9 +742,10 @@ static void put_all_sums(struct writing *writing, const struct value *values, si
 }
 
 /* Finds each value's place and last use. */
-static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
+static void prepare(struct writing *writing)
 {
     struct gm_tape *tape = writing->tape;
+    const size_t count = tape->outputs;
     const uint32_t fixed = (uint32_t)(tape->inputs + tape->constant_count);
     for (uint32_t i = 0; i < fixed + writing->number_count; i++) {
         writing->place[i] = i < fixed ? i : NONE;
@@ -789,7 +761,7 @@ static void prepare(struct writing *writing, const gm_node_id *nodes, size_t cou
     }
     /* the first output that is this value */
     for (size_t k = count; k-- > 0;) {
-        const uint32_t number = writing->numbers[nodes[k]];
+        const uint32_t number = writing->numbers[writing->nodes[k]];
         if (number >= fixed) {
             writing->place[number] = fixed + (uint32_t)k;
             writing->last[number] = NONE;
@@ -799,10 +771,12 @@ static void prepare(struct writing *writing, const gm_node_id *nodes, size_t cou
 }
 
 /* Outputs that were made elsewhere; many in a row at once. */
-static void put_copies(struct writing *writing, const gm_node_id *nodes, size_t count)
+static void put_copies(struct writing *writing)
 {
+    const gm_node_id *nodes = writing->nodes;
+    const size_t count = writing->tape->outputs;
     const uint32_t first = (uint32_t)(writing->tape->inputs + writing->tape->constant_count);
-    for (size_t begin = 0, end; begin < count && !writing->failed; begin = end) {
+    for (size_t begin = 0, end; begin < count; begin = end) {
         const uint32_t to = first + (uint32_t)begin, from = writing->place[writing->numbers[nodes[begin]]];
         end = begin + 1;
         while (writing->rolled && from != to && end < count &&
@@ -819,10 +793,10 @@ static void put_copies(struct writing *writing, const gm_node_id *nodes, size_t 
     }
 }
 
-static void write_code(struct writing *writing, const gm_node_id *nodes, size_t count)
+static void write_code(struct writing *writing)
 {
-    prepare(writing, nodes, count);
-    for (uint32_t group = 0; group < writing->group_count && !writing->failed; group++) {
+    prepare(writing);
+    for (uint32_t group = 0; group < writing->group_count; group++) {
         const size_t begin = writing->groups[group].begin, end = writing->groups[group].end;
         const struct value *first = &writing->values[begin];
         const bool is_output = end - begin == 1 && writing->place[first->number] != NONE;
@@ -844,72 +818,62 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
             }
         }
     }
-    put_copies(writing, nodes, count);
+    put_copies(writing);
 }
 
-/* Opens code, in rows if it has `least` values or more, most of which share a group. */
-static bool open_code(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes,
-                      size_t count, size_t inputs, const double *values, size_t least)
+static void compile(struct gm_arena *arena, void *data)
 {
-    *tape = (struct gm_tape){.inputs = inputs, .outputs = count, .first_used = inputs};
-    struct writing writing = {.tape = tape, .graph = graph, .least_rolled = least};
-    writing.parts = gm_formula_parts_of(graph, nodes, count, &writing.part_count);
-    const size_t capacity =
-        writing.parts && writing.part_count > 0 ? writing.parts[writing.part_count - 1] + (size_t)1 : 1;
-    writing.numbers = malloc(capacity * sizeof *writing.numbers);
-    writing.folded = malloc(capacity * sizeof *writing.folded);
-    writing.dependent = malloc(capacity * sizeof *writing.dependent);
-    writing.failed = !writing.parts || !writing.numbers || !writing.folded || !writing.dependent;
-    if (!writing.failed) {
-        fold(&writing, values);
-        find_constants(&writing, nodes, count);
-        find_values(&writing);
+    struct writing *writing = data;
+    struct gm_tape *tape = writing->tape;
+    writing->parts = gm_arena_keep(
+        arena, gm_formula_parts_of(writing->graph, writing->nodes, tape->outputs, &writing->part_count),
+        free);
+    const size_t capacity = writing->part_count > 0 ? writing->parts[writing->part_count - 1] + (size_t)1 : 1;
+    writing->numbers = gm_arena_take(arena, capacity, sizeof *writing->numbers);
+    writing->folded = gm_arena_take(arena, capacity, sizeof *writing->folded);
+    writing->dependent = gm_arena_take(arena, capacity, sizeof *writing->dependent);
+    fold(writing);
+    find_constants(writing);
+    find_values(writing);
+    writing->number_count = writing->value_count;
+    writing->groups = gm_arena_take(arena, writing->value_count + 1, sizeof *writing->groups);
+    if (writing->value_count < writing->least_rolled || writing->zero == NONE) {
+        find_groups(writing);
+    } else if (roll(writing)) {
+        order_by_need(writing);
     }
-    writing.number_count = writing.value_count;
-    writing.groups = malloc((writing.value_count + 1) * sizeof *writing.groups);
-    writing.failed |= !writing.groups;
-    if (!writing.failed && (writing.value_count < least || writing.zero == NONE)) {
-        find_groups(&writing);
-    } else if (!writing.failed && roll(&writing, nodes, count)) {
-        order_by_need(&writing);
+    const size_t all = tape->inputs + tape->constant_count + writing->number_count + 1;
+    uint32_t **const lists[] = {&writing->place, &writing->last, &writing->home, &writing->free[0],
+                                &writing->free[1]};
+    for (size_t i = 0; i < GM_COUNT(lists); i++) {
+        *lists[i] = gm_arena_take(arena, all, sizeof **lists[i]);
     }
-    const size_t all = inputs + tape->constant_count + writing.number_count + 1;
-    writing.place = malloc(all * sizeof *writing.place);
-    writing.last = malloc(all * sizeof *writing.last);
-    writing.home = malloc(all * sizeof *writing.home);
-    writing.stretches = malloc(all * sizeof *writing.stretches);
-    writing.free[0] = malloc(all * sizeof *writing.free[0]);
-    writing.free[1] = malloc(all * sizeof *writing.free[1]);
-    writing.failed |= !writing.place || !writing.last || !writing.home || !writing.stretches ||
-                      !writing.free[0] || !writing.free[1];
-    if (!writing.failed) {
-        write_code(&writing, nodes, count);
-    }
-    free(writing.parts);
-    free(writing.numbers);
-    free(writing.folded);
-    free(writing.dependent);
-    free(writing.values);
-    free(writing.products);
-    free(writing.terms);
-    free(writing.groups);
-    free(writing.place);
-    free(writing.last);
-    free(writing.home);
-    free(writing.stretches);
-    free(writing.free[0]);
-    free(writing.free[1]);
-    tape->rolled = writing.rolled;
-    return !writing.failed;
+    writing->stretches = gm_arena_take(arena, all, sizeof *writing->stretches);
+    write_code(writing);
+    tape->rolled = writing->rolled;
+}
+
+/* Opens code, in rows if it has writing.least_rolled values or more, most of which share a group. */
+static bool open_code(struct gm_tape *tape, struct writing writing, size_t outputs, size_t inputs)
+{
+    *tape = (struct gm_tape){.inputs = inputs, .outputs = outputs, .first_used = inputs};
+    writing.tape = tape;
+    writing.arena = gm_arena_open();
+    const bool good = gm_arena_run(writing.arena, compile, &writing);
+    gm_arena_close(writing.arena);
+    return good;
 }
 
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
                   size_t inputs, const double *values)
 {
-    bool good = open_code(tape, graph, nodes, count, inputs, values, LEAST_ROLLED);
+    struct writing writing = {
+        .graph = graph, .nodes = nodes, .variables = values, .least_rolled = LEAST_ROLLED};
+    bool good = open_code(tape, writing, count, inputs);
     if (good && !tape->rolled && tape->length >= LEAST_ROWS) {
+        writing.least_rolled = LEAST_ROWS;
         tape->rows = calloc(1, sizeof *tape->rows);
-        good = tape->rows && open_code(tape->rows, graph, nodes, count, inputs, values, LEAST_ROWS);
+        good = tape->rows && open_code(tape->rows, writing, count, inputs);
         if (good && !tape->rows->rolled) {
             gm_tape_close(tape->rows);
             free(tape->rows);

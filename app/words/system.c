@@ -15,7 +15,6 @@
 #include "core/expression/lines.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
-#include "core/model/reader.h"
 #include "render/message.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/user_field.h"

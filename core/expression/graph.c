@@ -261,6 +261,16 @@ static bool is_operation(const struct gm_formula *graph, gm_node_id node, enum g
     return graph->nodes[node].operation == operation;
 }
 
+static gm_node_id times(struct gm_formula *graph, gm_node_id a, gm_node_id b)
+{
+    return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, b);
+}
+
+static gm_node_id over(struct gm_formula *graph, gm_node_id a, gm_node_id b)
+{
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE, a, b);
+}
+
 static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
 {
     return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
@@ -293,7 +303,7 @@ static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_
         *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b, graph->nodes[a].a);
     } else if (scaled(graph, a, &of_a, &rest_a), scaled(graph, b, &of_b, &rest_b), rest_a == rest_b) {
         const gm_node_id both = folded(graph, GM_OPERATION_ADD, or_one(graph, of_a), or_one(graph, of_b));
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, both, rest_a);
+        *simple = times(graph, both, rest_a);
     } else {
         return false;
     }
@@ -329,8 +339,7 @@ static bool is_reciprocal(const struct gm_formula *graph, gm_node_id node)
 static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, gm_node_id factor)
 {
     const struct gm_node node = graph->nodes[quotient];
-    return gm_formula_apply(graph, GM_OPERATION_DIVIDE, folded(graph, GM_OPERATION_MULTIPLY, node.a, factor),
-                            node.b);
+    return over(graph, folded(graph, GM_OPERATION_MULTIPLY, node.a, factor), node.b);
 }
 
 /* A reciprocal times another node: the reciprocal stays a factor, which other products share, and takes up
@@ -340,14 +349,12 @@ static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotien
 {
     gm_node_id coefficient, rest;
     if (is_reciprocal(graph, other)) {
-        const gm_node_id below =
-            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].b, graph->nodes[other].b);
+        const gm_node_id below = times(graph, graph->nodes[quotient].b, graph->nodes[other].b);
         const gm_node_id above =
             folded(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].a, graph->nodes[other].a);
-        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, above, below);
+        *simple = over(graph, above, below);
     } else if (scaled(graph, other, &coefficient, &rest)) {
-        *simple =
-            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, times_above(graph, quotient, coefficient), rest);
+        *simple = times(graph, times_above(graph, quotient, coefficient), rest);
     } else {
         return false;
     }
@@ -362,7 +369,7 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
     } else if (a == b && !is_operation(graph, a, GM_CONSTANT)) {
         *simple = gm_formula_apply(graph, GM_OPERATION_WHOLE_POWER, a, gm_formula_constant(graph, 2));
     } else if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
+        *simple = times(graph, b, a);
     } else if (gm_is_constant(graph, a, 0)) {
         *simple = a;
     } else if (gm_is_constant(graph, a, 1)) {
@@ -370,24 +377,21 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
     } else if (gm_is_constant(graph, a, -1)) {
         *simple = negative(graph, b);
     } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].a, b));
+        *simple = negative(graph, times(graph, graph->nodes[a].a, b));
     } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, graph->nodes[b].a));
+        *simple = negative(graph, times(graph, a, graph->nodes[b].a));
     } else if (is_reciprocal(graph, a)) {
         return product_with_reciprocal(graph, a, b, simple);
     } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
         *simple = times_above(graph, b, a);
     } else if (is_reciprocal(graph, b)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
+        *simple = times(graph, b, a);
     } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
-                                   folded(graph, GM_OPERATION_MULTIPLY, a, coefficient), rest);
+        *simple = times(graph, folded(graph, GM_OPERATION_MULTIPLY, a, coefficient), rest);
     } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, coefficient,
-                                   gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, rest));
+        *simple = times(graph, coefficient, times(graph, a, rest));
     } else if (scaled(graph, a, &coefficient, &rest)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, coefficient,
-                                   gm_formula_apply(graph, GM_OPERATION_MULTIPLY, rest, b));
+        *simple = times(graph, coefficient, times(graph, rest, b));
     } else {
         return false;
     }
@@ -412,12 +416,12 @@ static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b
         return true;
     }
     if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, b));
+        *simple = negative(graph, over(graph, graph->nodes[a].a, b));
         return true;
     }
     if (is_operation(graph, a, GM_OPERATION_DIVIDE)) {
-        const gm_node_id below = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].b, b);
-        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, below);
+        const gm_node_id below = times(graph, graph->nodes[a].b, b);
+        *simple = over(graph, graph->nodes[a].a, below);
         return true;
     }
     const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
@@ -427,13 +431,12 @@ static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b
     if (exact && value_b != 1) {
         const gm_node_id quotient = folded(graph, GM_OPERATION_DIVIDE, or_one(graph, of_a), of_b);
         const gm_node_id top = above ? rest_a : quotient;
-        const gm_node_id rest = below ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b) : top;
-        *simple = above ? gm_formula_apply(graph, GM_OPERATION_MULTIPLY, quotient, rest) : rest;
+        const gm_node_id rest = below ? over(graph, top, rest_b) : top;
+        *simple = above ? times(graph, quotient, rest) : rest;
         return true;
     }
     if (above && value_a != 1) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, of_a,
-                                   gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
+        *simple = times(graph, of_a, over(graph, rest_a, b));
         return true;
     }
     return false;
@@ -459,8 +462,7 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
         }
         if (is_operation(graph, a, GM_OPERATION_MULTIPLY) &&
             is_operation(graph, graph->nodes[a].a, GM_OPERATION_NEGATE)) {
-            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[graph->nodes[a].a].a,
-                                       graph->nodes[a].b);
+            *simple = times(graph, graph->nodes[graph->nodes[a].a].a, graph->nodes[a].b);
             return true;
         }
         if (is_reciprocal(graph, a)) {
@@ -469,9 +471,8 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
         }
         if (is_operation(graph, a, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, graph->nodes[a].a)) {
             const gm_node_id other = graph->nodes[a].b;
-            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
-                                       times_above(graph, graph->nodes[a].a, gm_formula_constant(graph, -1)),
-                                       other);
+            *simple =
+                times(graph, times_above(graph, graph->nodes[a].a, gm_formula_constant(graph, -1)), other);
             return true;
         }
         return is_operation(graph, a, GM_OPERATION_NEGATE);
@@ -523,11 +524,10 @@ void gm_formula_evaluate_parts(const struct gm_formula *graph, const gm_node_id 
     for (size_t k = 0; k < count; k++) {
         const gm_node_id i = parts ? parts[k] : (gm_node_id)k;
         const struct gm_node *node = &graph->nodes[i];
-        const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
-        values[i] = node->operation == GM_CONSTANT ? node->value
-                    : node->operation == GM_VARIABLE
-                        ? variables[node->a]
-                        : gm_operation_value(node->operation, values[node->a], values[b]);
+        values[i] = node->operation == GM_CONSTANT   ? node->value
+                    : node->operation == GM_VARIABLE ? variables[node->a]
+                                                     : gm_operation_value(node->operation, values[node->a],
+                                                                          values[gm_second_operand(node)]);
     }
 }
 
@@ -578,7 +578,7 @@ static size_t mark_operands(const struct gm_formula *graph, const struct marks *
         below = (UINT64_C(1) << bit) - 1;
         if (node->operation > GM_VARIABLE) {
             mark(marks, node->a);
-            mark(marks, gm_operation_rows[node->operation].arity == 2 ? node->b : node->a);
+            mark(marks, gm_second_operand(node));
         }
     }
     return count;
@@ -683,17 +683,13 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
                 continue;
             }
             others[i] = i;
-            if (node.operation == GM_VARIABLE) {
-                const bool stays = node.a >= variables || replacement[node.a] == GM_NO_NODE;
-                others[i] = stays ? i : replacement[node.a];
+            if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
+                others[i] = replacement[node.a];
             } else if (node.operation > GM_VARIABLE) {
-                const bool single = gm_operation_rows[node.operation].arity == 1;
-                const gm_node_id a = others[node.a], b = single ? node.b : others[node.b];
-                graph->simplifies = true;
+                const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
                 graph->origin = gm_formula_origin(graph, i);
-                others[i] = a == node.a && b == node.b ? i : gm_formula_apply(graph, node.operation, a, b);
+                others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
                 graph->origin = GM_NO_PLACE;
-                graph->simplifies = false;
             }
         }
         nodes[k] = parts ? others[nodes[k]] : nodes[k];
@@ -723,13 +719,11 @@ static gm_node_id quicker(struct gm_formula *graph, enum gm_operation operation,
     if (operation != GM_OPERATION_DIVIDE || !is_power_three_halves(graph, b, &y, &root)) {
         return gm_formula_apply(graph, operation, a, b);
     }
-    const gm_node_id one = gm_formula_constant(graph, 1),
-                     inverse = gm_formula_apply(graph, GM_OPERATION_DIVIDE, one, y),
-                     square = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, inverse, inverse),
-                     power = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, root, square);
+    const gm_node_id one = gm_formula_constant(graph, 1), inverse = over(graph, one, y),
+                     square = times(graph, inverse, inverse), power = times(graph, root, square);
     return gm_is_constant(graph, a, 1)    ? power
            : gm_is_constant(graph, a, -1) ? negative(graph, power)
-                                          : gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, power);
+                                          : times(graph, a, power);
 }
 
 /* Marks the parts, ascending, that enter operations other than sums and products: there an infinite quotient
@@ -743,7 +737,7 @@ static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, 
                             node->operation == GM_OPERATION_NEGATE;
         if (node->operation > GM_VARIABLE && (!gentle || harsh[parts[k]])) {
             harsh[node->a] = true;
-            harsh[gm_operation_rows[node->operation].arity == 1 ? node->a : node->b] = true;
+            harsh[gm_second_operand(node)] = true;
         }
     }
 }
@@ -817,9 +811,8 @@ bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t coun
         if (twin != GM_NO_NODE) {
             others[i] = (struct signed_node){others[twin].node, !others[twin].negative};
         } else if (node.operation > GM_VARIABLE) {
-            const bool single = gm_operation_rows[node.operation].arity == 1;
             others[i] = apply_signed(graph, size < MANY && !harsh[i], node.operation, others[node.a],
-                                     others[single ? node.a : node.b]);
+                                     others[gm_second_operand(&node)]);
         } else {
             others[i] = (struct signed_node){.node = i};
         }
@@ -851,9 +844,8 @@ gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *o
             made[parts[k]] = node->a < inputs ? gm_formula_variable(graph, node->a)
                                               : gm_formula_constant(graph, values[node->a]);
         } else {
-            const bool single = gm_operation_rows[node->operation].arity == 1;
             made[parts[k]] =
-                gm_formula_apply(graph, node->operation, made[node->a], made[single ? node->a : node->b]);
+                gm_formula_apply(graph, node->operation, made[node->a], made[gm_second_operand(node)]);
         }
     }
     graph->simplifies = false;
@@ -871,8 +863,7 @@ bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, s
         if (node->operation <= GM_VARIABLE) {
             dependent[i] = node->operation == GM_VARIABLE && node->a < variables && marked[node->a];
         } else {
-            dependent[i] =
-                dependent[node->a] || (gm_operation_rows[node->operation].arity == 2 && dependent[node->b]);
+            dependent[i] = dependent[node->a] || dependent[gm_second_operand(node)];
         }
     }
     return dependent;

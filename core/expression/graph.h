@@ -163,6 +163,12 @@ static inline gm_node_id gm_negative(struct gm_formula *graph, gm_node_id a)
     return gm_simplified(graph, GM_OPERATION_NEGATE, a, a);
 }
 
+/* The second operand of an operation; of one operand that one. */
+static inline gm_node_id gm_second_operand(const struct gm_node *node)
+{
+    return gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
+}
+
 static inline bool gm_is_constant(const struct gm_formula *graph, gm_node_id node, double value)
 {
     return graph->nodes[node].operation == GM_CONSTANT && graph->nodes[node].value == value;

@@ -174,7 +174,7 @@ static bool take_point(struct gm_random_values *random)
                 gm_residue_of(random->fixed[node->a], &values[i]);
             }
         } else {
-            const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
+            const gm_node_id b = gm_second_operand(node);
             const struct gm_node *of_b = &random->graph->nodes[b];
             exists = value_of(node, values[node->a], values[b],
                               of_b->operation == GM_CONSTANT ? of_b->value : NAN, seed, &values[i]);

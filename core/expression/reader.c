@@ -185,6 +185,14 @@ static gm_node_id expected(struct reader *reader, const char *what)
     return fail(reader, reader->at, "%s was expected, not \"%.*s\"", what, (int)length, here);
 }
 
+/* Takes a sign that has to be there, unless the reading has failed before. */
+static void need_sign(struct reader *reader, char sign, const char *what)
+{
+    if (!reader->failed && !take(reader, sign)) {
+        expected(reader, what);
+    }
+}
+
 static const char *candidate(size_t i, const void *data)
 {
     static const char *const words[] = {"pi", "sum", "prod"};
@@ -230,7 +238,7 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
         count++;
     }
     char word[64];
-    snprintf(word, sizeof word, "%.*s", (int)(length < 60 ? length : 60), text);
+    snprintf(word, sizeof word, "%.*s", gm_brief_length(length), text);
     if (gm_is_random(word)) {
         return fail(reader, offset, "%s", GM_NO_NOISE);
     }
@@ -444,7 +452,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
                argument_of(reader, name.text, length) < GM_MOST_ARGUMENTS ||
                (scope->find && scope->find(scope->data, &name, &node, sentence) != GM_UNKNOWN)) {
         fail(reader, begin, "%.*s has a meaning already and cannot be the index of a loop",
-             (int)(length < 60 ? length : 60), name.text);
+             gm_brief_length(length), name.text);
     }
     reader->at = reader->failed ? reader->end : begin + length;
     take(reader, '=');
@@ -455,9 +463,7 @@ static void read_loop(struct reader *reader, struct loop *loop)
     }
     reader->at += reader->failed ? 0 : 2;
     const long high = read_bound(reader);
-    if (!reader->failed && !take(reader, ',')) {
-        expected(reader, "a comma");
-    }
+    need_sign(reader, ',', "a comma");
     const size_t body = reader->at;
     const int64_t before = reader->operands;
     const unsigned own = 1U << scope->index_count;
@@ -484,9 +490,7 @@ static gm_node_id read_sum(struct reader *reader, size_t begin, bool is_sum)
         return expected(reader, "an index, as in sum(i = 1 .. 3, q[i]),");
     }
     read_loop(reader, &loop);
-    if (!reader->failed && !take(reader, ')')) {
-        return expected(reader, ")");
-    }
+    need_sign(reader, ')', ")");
     return loop.any ? loop.value : gm_formula_constant(reader->graph, is_sum ? 0 : 1);
 }
 
@@ -526,7 +530,8 @@ static gm_node_id read_comparison(struct reader *reader)
     if (peek(reader) == '(' && is_enclosed(reader)) {
         reader->at++;
         const gm_node_id node = read_condition(reader);
-        return reader->failed || take(reader, ')') ? node : expected(reader, ")");
+        need_sign(reader, ')', ")");
+        return node;
     }
     const gm_node_id left = read_expression(reader, 0);
     const char sign = reader->failed ? '<' : peek(reader);
@@ -624,9 +629,7 @@ static gm_node_id read_called(struct reader *reader, size_t begin, const struct 
         }
         operands[count++] = read_expression(reader, 0);
     } while (!reader->failed && take(reader, ','));
-    if (!reader->failed && !take(reader, ')')) {
-        return expected(reader, ")");
-    }
+    need_sign(reader, ')', ")");
     reader->graph->place = (uint32_t)begin;
     if (!reader->failed &&
         reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) != GM_KNOWN) {
@@ -783,7 +786,7 @@ static bool take_zero(struct reader *reader)
 static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
 {
     const size_t begin = reader->at++;
-    const int brief = (int)(name->length < 60 ? name->length : 60);
+    const int brief = gm_brief_length(name->length);
     struct gm_name start = *name;
     gm_node_id node;
     char sentence[GM_FAULT_SENTENCE], *end;
@@ -821,7 +824,8 @@ static gm_node_id read_exact(struct reader *reader)
         return expected(reader, "a component, as in exact(x),");
     }
     const gm_node_id node = read_name(reader, true);
-    return reader->failed || take(reader, ')') ? node : expected(reader, ")");
+    need_sign(reader, ')', ")");
+    return node;
 }
 
 static gm_node_id read_name(struct reader *reader, bool exact)
@@ -830,7 +834,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
     struct gm_scope *scope = &reader->scope;
     struct gm_name name = {
         .text = reader->text + begin, .length = length, .fixed = reader->fixed > 0, .exact = exact};
-    const int brief = (int)(length < 60 ? length : 60);
+    const int brief = gm_brief_length(length);
     reader->at += length;
     const bool called = peek(reader) == '(';
     gm_node_id operands[GM_MOST_OPERANDS];
@@ -873,9 +877,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         if (take(reader, '[')) {
             name.indexed = true;
             name.index = read_whole(reader, "an index");
-            if (!reader->failed && !take(reader, ']')) {
-                return expected(reader, "]");
-            }
+            need_sign(reader, ']', "]");
         }
         name.initial = scope->initial && !exact && take_zero(reader);
         char sentence[GM_FAULT_SENTENCE] = "";
@@ -909,9 +911,7 @@ static gm_node_id read_operand(struct reader *reader)
     }
     if (take(reader, '(')) {
         const gm_node_id node = read_expression(reader, 0);
-        if (!reader->failed && !take(reader, ')')) {
-            return expected(reader, ")");
-        }
+        need_sign(reader, ')', ")");
         return node;
     }
     if (next == '*' && reader->at > 0 && reader->text[reader->at - 1] == '*') {

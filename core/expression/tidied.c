@@ -278,9 +278,8 @@ gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const st
         const struct gm_node here = graph->nodes[part];
         tidied[part] = part;
         if (here.operation > GM_VARIABLE && (part == node || !is_named(&tidying, part))) {
-            const bool two = gm_operation_rows[here.operation].arity == 2;
-            tidied[part] = tidy(
-                &tidying, apply(&tidying, here.operation, tidied[here.a], tidied[two ? here.b : here.a]));
+            const gm_node_id second = tidied[gm_second_operand(&here)];
+            tidied[part] = tidy(&tidying, apply(&tidying, here.operation, tidied[here.a], second));
         }
     }
     node = good && !graph->failed ? tidied[node] : GM_NO_NODE;

@@ -13,12 +13,25 @@
 /* The priorities of nodes, as in the reader's table. */
 enum { SUM = 10, PRODUCT = 11, SIGN = 12, RAISED = 14, WHOLE = 20 };
 
+/* The texts of a notation around operands and between them. */
+static const struct notation {
+    const char *open, *close, *times, *raise, *raised, *negation, *conjunction, *choice;
+} plain = {"(", ")", "*", "^", "", "not (", ") and (", "if("}, latex = {"\\left(",
+                                                                        "\\right)",
+                                                                        "\\,",
+                                                                        "^{",
+                                                                        "}",
+                                                                        "\\neg\\left(",
+                                                                        "\\right) \\wedge \\left(",
+                                                                        "\\operatorname{if}("};
+
 struct writer {
     const struct gm_formula *graph;
     const struct gm_naming *naming;
     FILE *out;
     gm_node_id root;
     bool latex;
+    const struct notation *notation;
 };
 
 static const char *name_of(const struct gm_naming *naming, gm_node_id node, gm_node_id root)
@@ -112,11 +125,23 @@ static bool leads_with_minus(const struct writer *writer, gm_node_id node)
 
 static void write_node(const struct writer *writer, gm_node_id node);
 
+/* Writes two operands, and the texts around them; an operand GM_NO_NODE is not written. */
+static void write_pair(const struct writer *writer, const char *before, gm_node_id a, const char *between,
+                       gm_node_id b, const char *behind)
+{
+    fputs(before, writer->out);
+    write_node(writer, a);
+    fputs(between, writer->out);
+    if (b != GM_NO_NODE) {
+        write_node(writer, b);
+    }
+    fputs(behind, writer->out);
+}
+
 static void write_enclosed(const struct writer *writer, gm_node_id node, bool is_enclosed)
 {
-    fputs(!is_enclosed ? "" : writer->latex ? "\\left(" : "(", writer->out);
-    write_node(writer, node);
-    fputs(!is_enclosed ? "" : writer->latex ? "\\right)" : ")", writer->out);
+    write_pair(writer, is_enclosed ? writer->notation->open : "", node,
+               is_enclosed ? writer->notation->close : "", GM_NO_NODE, "");
 }
 
 static void write_operand(const struct writer *writer, gm_node_id node, int limit, bool is_first)
@@ -142,31 +167,29 @@ static void write_power(const struct writer *writer, const struct gm_node *here)
     const bool is_leaf = name_of(writer->naming, here->a, writer->root) ||
                          writer->graph->nodes[here->a].operation <= GM_VARIABLE;
     write_enclosed(writer, here->a, priority_of(writer, here->a) < WHOLE || (writer->latex && !is_leaf));
-    fputs(writer->latex ? "^{" : "^", writer->out);
+    fputs(writer->notation->raise, writer->out);
     write_enclosed(writer, here->b, !simple && !writer->latex);
-    fputs(writer->latex ? "}" : "", writer->out);
+    fputs(writer->notation->raised, writer->out);
 }
 
 static void write_condition(const struct writer *writer, gm_node_id node)
 {
     const struct gm_node *here = &writer->graph->nodes[node];
+    const struct notation *notation = writer->notation;
     if (here->operation == GM_OPERATION_BELOW) {
-        write_node(writer, here->a);
-        fputs(" < ", writer->out);
-        write_node(writer, here->b);
+        write_pair(writer, "", here->a, " < ", here->b, "");
     } else if (here->operation == GM_OPERATION_SUBTRACT) { /* from 1 */
-        fputs(writer->latex ? "\\neg\\left(" : "not (", writer->out);
+        fputs(notation->negation, writer->out);
         write_condition(writer, here->b);
-        fputs(writer->latex ? "\\right)" : ")", writer->out);
+        fputs(notation->close, writer->out);
     } else if (here->operation != GM_OPERATION_MULTIPLY) {
-        write_node(writer, node);
-        fputs(" > 0", writer->out);
+        write_pair(writer, "", node, " > 0", GM_NO_NODE, "");
     } else {
-        fputs(writer->latex ? "\\left(" : "(", writer->out);
+        fputs(notation->open, writer->out);
         write_condition(writer, here->a);
-        fputs(writer->latex ? "\\right) \\wedge \\left(" : ") and (", writer->out);
+        fputs(notation->conjunction, writer->out);
         write_condition(writer, here->b);
-        fputs(writer->latex ? "\\right)" : ")", writer->out);
+        fputs(notation->close, writer->out);
     }
 }
 
@@ -174,53 +197,30 @@ static void write_condition(const struct writer *writer, gm_node_id node)
 static void write_choice(const struct writer *writer, const struct gm_node *chosen,
                          const struct gm_node *other)
 {
-    fputs(writer->latex ? "\\operatorname{if}(" : "if(", writer->out);
+    fputs(writer->notation->choice, writer->out);
     write_condition(writer, chosen->a);
-    fputs(", ", writer->out);
-    write_node(writer, chosen->b);
-    fputs(", ", writer->out);
-    if (other) {
-        write_node(writer, other->b);
-    } else {
-        fputs("0", writer->out);
-    }
-    fputs(")", writer->out);
-}
-
-/* Iverson's bracket, in the derivative of |x|: 1 if true, else 0. */
-static void write_bracket(const struct writer *writer, const struct gm_node *here)
-{
-    fputs("\\left[", writer->out);
-    write_node(writer, here->a);
-    fputs(" < ", writer->out);
-    write_node(writer, here->b);
-    fputs("\\right]", writer->out);
+    write_pair(writer, ", ", chosen->b, other ? ", " : ", 0", other ? other->b : GM_NO_NODE, ")");
 }
 
 static void write_call(const struct writer *writer, const struct gm_node *here)
 {
     const struct gm_operation_row *row = &gm_operation_rows[here->operation];
-    if (!writer->latex && here->operation == GM_OPERATION_BELOW) {
-        write_condition(writer, (gm_node_id)(here - writer->graph->nodes));
-        return;
-    }
-    if (writer->latex && here->operation == GM_OPERATION_BELOW) {
-        write_bracket(writer, here);
+    const gm_node_id b = row->arity == 2 ? here->b : GM_NO_NODE;
+    if (here->operation ==
+        GM_OPERATION_BELOW) { /* Iverson's bracket, in the derivative of |x|: 1 if true, else 0 */
+        write_pair(writer, writer->latex ? "\\left[" : "", here->a, " < ", b,
+                   writer->latex ? "\\right]" : "");
         return;
     }
     const bool root = writer->latex && here->operation == GM_OPERATION_SQRT,
                bars = writer->latex && here->operation == GM_OPERATION_ABS;
-    fprintf(writer->out, "%s%s", writer->latex ? row->latex : row->name,
-            root            ? "{"
-            : bars          ? ""
-            : writer->latex ? "\\left("
-                            : "(");
-    write_node(writer, here->a);
-    if (row->arity == 2) {
-        fputs(", ", writer->out);
-        write_node(writer, here->b);
-    }
-    fputs(root ? "}" : bars ? "\\right|" : writer->latex ? "\\right)" : ")", writer->out);
+    const char *close = root ? "}" : bars ? "\\right|" : writer->notation->close;
+    fputs(writer->latex ? row->latex : row->name, writer->out);
+    write_pair(writer,
+               root   ? "{"
+               : bars ? ""
+                      : writer->notation->open,
+               here->a, b != GM_NO_NODE ? ", " : "", b, close);
 }
 
 static void write_constant(const struct writer *writer, double value)
@@ -280,15 +280,11 @@ static void write_node(const struct writer *writer, gm_node_id node)
         write_binary(writer, here, " - ", SUM);
         break;
     case GM_OPERATION_MULTIPLY:
-        write_binary(writer, here, writer->latex ? "\\," : "*", PRODUCT);
+        write_binary(writer, here, writer->notation->times, PRODUCT);
         break;
     case GM_OPERATION_DIVIDE:
         if (writer->latex) {
-            fputs("\\frac{", writer->out);
-            write_node(writer, here->a);
-            fputs("}{", writer->out);
-            write_node(writer, here->b);
-            fputs("}", writer->out);
+            write_pair(writer, "\\frac{", here->a, "}{", here->b, "}");
         } else {
             write_binary(writer, here, "/", PRODUCT);
         }
@@ -307,7 +303,7 @@ static void write_node(const struct writer *writer, gm_node_id node)
 }
 
 static char *text_of(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming,
-                     bool latex)
+                     bool is_latex)
 {
     char *text = NULL;
     size_t size = 0;
@@ -315,7 +311,7 @@ static char *text_of(const struct gm_formula *graph, gm_node_id node, const stru
     if (!out) {
         return NULL;
     }
-    write_node(&(struct writer){graph, naming, out, node, latex}, node);
+    write_node(&(struct writer){graph, naming, out, node, is_latex, is_latex ? &latex : &plain}, node);
     return fclose(out) == 0 ? text : NULL;
 }
 

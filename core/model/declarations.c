@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The declarations of a system: its kind, its parameters, the names of its state, its lets. */
-#include "core/model/declarations.h"
+#include "core/model/scope.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/number.h"
 
 /* A variable without any values. */
@@ -46,14 +47,12 @@ static void add_names(struct gm_reading *reading, const struct gm_target *target
     struct gm_entry entry = gm_reading_entry_for(reading, target, role);
     long low = 0, high = 0;
     entry.indexed = target->index.begin < target->index.end;
-    if (entry.indexed && !gm_reading_bounds(reading, target->index, "elements of a list", &low, &high)) {
-        gm_system_refuse(reading->system, target->index.begin,
-                         "the bounds of a list were expected, as in %.*s[1..3]",
-                         gm_brief_length(entry.length), entry.name);
-    }
-    if (high < low) {
-        gm_system_refuse(reading->system, target->index.begin, "a list has at least one element");
-    }
+    gm_system_refuse_if(reading->system,
+                        entry.indexed &&
+                            !gm_reading_bounds(reading, target->index, "elements of a list", &low, &high),
+                        target->index.begin, "the bounds of a list were expected, as in %.*s[1..3]",
+                        gm_brief_length(entry.length), entry.name);
+    gm_system_refuse_if(reading->system, high < low, target->index.begin, "a list has at least one element");
     for (entry.index = low; entry.index <= high; entry.index++) {
         entry.number = (*count)++;
         add_name(reading, entry);
@@ -121,11 +120,10 @@ static void add_parameter(struct gm_reading *reading, const struct gm_read_line 
         variable->start_place = entry->place;
         variable->text = gm_reading_text(reading, value);
     }
-    if (is_list &&
-        (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first))) {
-        gm_system_refuse(reading->system, target.value.begin, "%zu values were expected, or one for all",
-                         reading->parameter_count - first);
-    }
+    gm_system_refuse_if(
+        reading->system,
+        is_list && (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first)),
+        target.value.begin, "%zu values were expected, or one for all", reading->parameter_count - first);
     const struct gm_written_range range = gm_reading_range(reading, rest);
     for (size_t i = first; i < reading->parameter_count; i++) {
         struct gm_system_variable *variable = &reading->system->variables[i];
@@ -216,13 +214,11 @@ void gm_declared_parameters(struct gm_reading *reading)
         const struct gm_entry *entry = &reading->entries[i];
         struct gm_system_variable *variable = &system->variables[entry->number];
         variable->value = system->graph.nodes[entry->node].value;
-        if (!isfinite(variable->value)) {
-            gm_system_refuse(system, entry->place, "%s is not a finite number", variable->name);
-        }
-        if (variable->value < variable->low || variable->value > variable->high) {
-            gm_system_refuse(system, entry->place, "%s = %g lies outside of its range, %g .. %g",
-                             variable->name, variable->value, variable->low, variable->high);
-        }
+        gm_system_refuse_if(system, !isfinite(variable->value), entry->place, "%s is not a finite number",
+                            variable->name);
+        gm_system_refuse_if(system, variable->value < variable->low || variable->value > variable->high,
+                            entry->place, "%s = %g lies outside of its range, %g .. %g", variable->name,
+                            variable->value, variable->low, variable->high);
     }
 }
 
@@ -264,16 +260,14 @@ void gm_declared_kind(struct gm_reading *reading)
     static const char *const called[] = {"with H",         "with L",       "with rates",
                                          "with a bracket", "with a field", "with a field and its rate",
                                          "with K-matrix",  "of forms"};
-    if (!matrix &&
-        (gm_reading_line(reading, GM_WORD_L_MATRIX) || gm_reading_line(reading, GM_WORD_S_FUNCTION))) {
-        gm_system_refuse(system, 0,
-                         "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
-    }
-    if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh) {
-        gm_system_refuse(system, 0,
-                         "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
-                         "or K-matrix, L-matrix and S");
-    }
+    gm_system_refuse_if(system,
+                        !matrix && (gm_reading_line(reading, GM_WORD_L_MATRIX) ||
+                                    gm_reading_line(reading, GM_WORD_S_FUNCTION)),
+                        0, "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
+    gm_system_refuse_if(
+        system, !matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh, 0,
+        "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
+        "or K-matrix, L-matrix and S");
     if (field && !mesh && gm_span_until(reading->text, field->value, "=") < field->value.end) {
         gm_system_refuse(system, field->place,
                          "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
@@ -289,12 +283,10 @@ void gm_declared_kind(struct gm_reading *reading)
     }
     for (size_t i = 0; i < reading->line_count; i++) {
         const struct gm_read_line *line = &reading->lines[i];
-        if (!(gm_system_words[line->word].kinds & 1u << kind)) {
-            gm_system_refuse(system, line->place, "a system %s has no line \"%s\"", called[kind],
-                             gm_system_words[line->word].word);
-        }
+        gm_system_refuse_if(system, !(gm_system_words[line->word].kinds & 1u << kind), line->place,
+                            "a system %s has no line \"%s\"", called[kind], gm_system_words[line->word].word);
     }
-    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
+    for (size_t i = 0; i < GM_COUNT(needed); i++) {
         if (needed[i].kind == kind && !gm_reading_line(reading, needed[i].word)) {
             gm_system_refuse(system, gm_reading_line(reading, needed[i].known_by)->place,
                              "a system %s needs a line \"%s\"", called[kind],
@@ -311,10 +303,8 @@ static void add_components_of(struct gm_reading *reading, struct gm_span piece)
     for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end;
          rest = gm_span_trimmed(reading->text, rest)) {
         const struct gm_target target = gm_reading_target(reading, &rest);
-        if (target.index.begin < target.index.end) {
-            gm_system_refuse(reading->system, target.name.begin,
-                             "a system with lists needs a line \"components\"");
-        }
+        gm_system_refuse_if(reading->system, target.index.begin < target.index.end, target.name.begin,
+                            "a system with lists needs a line \"components\"");
         if (!gm_reading_named(reading, target.name)) {
             add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
         }
@@ -412,14 +402,11 @@ static void add_tangents(struct gm_reading *reading)
         return;
     }
     const long count = gm_reading_whole(reading, line->value);
-    if (count < 1 || count > GM_MOST_TANGENTS || (size_t)count > n) {
-        gm_system_refuse(reading->system, line->value.begin,
-                         "tangents is %ld: there are 1 to %zu tangents of %zu component%s", count,
-                         n < GM_MOST_TANGENTS ? n : GM_MOST_TANGENTS, n, gm_plural((double)n));
-    }
-    if (gm_reading_line(reading, GM_WORD_CONSTRAINT)) {
-        gm_system_refuse(reading->system, line->place, "a system with constraints has no tangents");
-    }
+    gm_system_refuse_if(reading->system, count < 1 || count > GM_MOST_TANGENTS || (size_t)count > n,
+                        line->value.begin, "tangents is %ld: there are 1 to %zu tangents of %zu component%s",
+                        count, n < GM_MOST_TANGENTS ? n : GM_MOST_TANGENTS, n, gm_plural((double)n));
+    gm_system_refuse_if(reading->system, gm_reading_line(reading, GM_WORD_CONSTRAINT), line->place,
+                        "a system with constraints has no tangents");
     for (long k = 1; k <= count; k++) {
         char before[32];
         snprintf(before, sizeof before, "xi%ld_", k);
@@ -489,10 +476,8 @@ static void add_counted(struct gm_reading *reading, const struct gm_read_line *l
 {
     add_components(reading, line->value);
     const size_t n = reading->component_count;
-    if (n < least || n > most) {
-        gm_system_refuse(reading->system, line->value.begin, "there are %zu to %zu %s", least, most,
-                         sentence);
-    }
+    gm_system_refuse_if(reading->system, n < least || n > most, line->value.begin, "there are %zu to %zu %s",
+                        least, most, sentence);
     add_place(reading, "x", line->place);
 }
 
@@ -500,9 +485,8 @@ static void add_counted(struct gm_reading *reading, const struct gm_read_line *l
 static void add_field(struct gm_reading *reading, const struct gm_read_line *field)
 {
     add_components(reading, field->value);
-    if (reading->component_count != 1) {
-        gm_system_refuse(reading->system, field->value.begin, "a field has one name, as in field: u");
-    }
+    gm_system_refuse_if(reading->system, reading->component_count != 1, field->value.begin,
+                        "a field has one name, as in field: u");
     add_derived(reading, "", "_t", GM_ENTRY_COMPONENT, 1);
     add_place(reading, "x", field->place);
     add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, 1);
@@ -522,16 +506,12 @@ static struct gm_form_declared form_of(struct gm_reading *reading, struct gm_spa
         degree++;
     }
     const int length = gm_brief_length(name->end - name->begin);
-    if (!degrees[degree] && equals == end) {
-        gm_system_refuse(reading->system, name->begin, "%.*s has no degree: write %s: %.*s = 0-form", length,
-                         reading->text + name->begin, gm_system_words[word].word, length,
-                         reading->text + name->begin);
-    }
-    if (!degrees[degree]) {
-        gm_system_refuse(reading->system, equals + 1,
-                         "a form is a 0-form, 1-form or 2-form, or a dual one: dual 0-form, dual 1-form, "
-                         "dual 2-form");
-    }
+    gm_system_refuse_if(reading->system, !degrees[degree] && equals == end, name->begin,
+                        "%.*s has no degree: write %s: %.*s = 0-form", length, reading->text + name->begin,
+                        gm_system_words[word].word, length, reading->text + name->begin);
+    gm_system_refuse_if(reading->system, !degrees[degree], equals + 1,
+                        "a form is a 0-form, 1-form or 2-form, or a dual one: dual 0-form, dual 1-form, "
+                        "dual 2-form");
     return (struct gm_form_declared){(int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN,
                                      name->begin,       GM_NO_NODE,  GM_NO_NODE,
                                      GM_NO_NODE,        GM_NO_NODE};
@@ -627,10 +607,9 @@ void gm_declared_state(struct gm_reading *reading)
             put_places_first(reading);
         }
     }
-    if (reading->component_count > GM_MOST_COMPONENTS) {
-        gm_system_refuse(reading->system, list ? list->value.begin : 0, "a system has at most %d components",
-                         GM_MOST_COMPONENTS);
-    }
+    gm_system_refuse_if(reading->system, reading->component_count > GM_MOST_COMPONENTS,
+                        list ? list->value.begin : 0, "a system has at most %d components",
+                        GM_MOST_COMPONENTS);
     add_tangents(reading);
     arrange(reading);
     gm_reading_add(reading, (struct gm_entry){.name = "t", .length = 1, .role = GM_ENTRY_TIME});
@@ -674,12 +653,11 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
     struct gm_definition *definition = &reading->definitions[reading->definition_count];
     *definition = (struct gm_definition){.name = target.name, .body = gm_span_trimmed(reading->text, rest)};
     const size_t close = gm_span_until(reading->text, (struct gm_span){left.begin + 1, left.end}, ")");
-    if (close + 1 != left.end || definition->body.begin == definition->body.end) {
-        gm_system_refuse(system, close, "%s was expected",
-                         close >= left.end      ? ")"
-                         : close + 1 < left.end ? "="
-                                                : "a formula");
-    }
+    gm_system_refuse_if(system, close + 1 != left.end || definition->body.begin == definition->body.end,
+                        close, "%s was expected",
+                        close >= left.end      ? ")"
+                        : close + 1 < left.end ? "="
+                                               : "a formula");
     left = gm_reading_between(reading, left.begin + 1, close);
     while (gm_span_take(reading->text, &left, ",", &argument)) {
         const char *name = reading->text + argument.begin;
@@ -690,22 +668,17 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
             twice |=
                 other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0;
         }
-        if (length == 0 || argument.begin + length < argument.end || gm_formula_reserves(name, length)) {
-            gm_system_refuse(system, argument.begin, "the name of an argument was expected");
-        }
-        if (twice) {
-            gm_system_refuse(system, argument.begin, "%.*s is an argument twice", gm_brief_length(length),
-                             name);
-        }
-        if (definition->count == GM_MOST_ARGUMENTS) {
-            gm_system_refuse(system, argument.begin, "a function has at most %d arguments",
-                             GM_MOST_ARGUMENTS);
-        }
+        gm_system_refuse_if(system,
+                            length == 0 || argument.begin + length < argument.end ||
+                                gm_formula_reserves(name, length),
+                            argument.begin, "the name of an argument was expected");
+        gm_system_refuse_if(system, twice, argument.begin, "%.*s is an argument twice",
+                            gm_brief_length(length), name);
+        gm_system_refuse_if(system, definition->count == GM_MOST_ARGUMENTS, argument.begin,
+                            "a function has at most %d arguments", GM_MOST_ARGUMENTS);
         definition->arguments[definition->count++] = argument;
     }
-    if (definition->count == 0) {
-        gm_system_refuse(system, close, "the name of an argument was expected");
-    }
+    gm_system_refuse_if(system, definition->count == 0, close, "the name of an argument was expected");
     reading->definition_count++;
 }
 
@@ -726,14 +699,11 @@ static void add_functions(struct gm_reading *reading)
         const struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_FUNCTION),
                               *other = gm_reading_named(reading, target.name);
         const int brief = gm_brief_length(entry.length);
-        if (gm_formula_reserves(entry.name, entry.length)) {
-            gm_system_refuse(reading->system, entry.place, "%.*s is a function of the program", brief,
-                             entry.name);
-        }
-        if (other && other->role == GM_ENTRY_COMPONENT) {
-            gm_system_refuse(reading->system, entry.place, "%.*s is a component (%.*s(0) is its start)",
-                             brief, entry.name, brief, entry.name);
-        }
+        gm_system_refuse_if(reading->system, gm_formula_reserves(entry.name, entry.length), entry.place,
+                            "%.*s is a function of the program", brief, entry.name);
+        gm_system_refuse_if(reading->system, other && other->role == GM_ENTRY_COMPONENT, entry.place,
+                            "%.*s is a component (%.*s(0) is its start)", brief, entry.name, brief,
+                            entry.name);
         gm_reading_add(reading, entry);
     }
 }

@@ -10,7 +10,6 @@
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
 #include "core/linear/iteration.h"
-#include "core/model/reader.h"
 #include "core/tape.h"
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
@@ -248,12 +247,10 @@ static void check_jacobi(struct gm_user_system *system)
                 const size_t triple[] = {i < j ? i : j, i < j ? j : i < k ? i : k, i < k ? k : i};
                 const enum gm_identity found =
                     gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
-                if (found == GM_NOT_ZERO) {
-                    gm_system_refuse(system, system->bracket_place,
-                                     "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
-                                     system->variables[triple[0]].name, system->variables[triple[1]].name,
-                                     system->variables[triple[2]].name);
-                }
+                gm_system_refuse_if(system, found == GM_NOT_ZERO, system->bracket_place,
+                                    "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
+                                    system->variables[triple[0]].name, system->variables[triple[1]].name,
+                                    system->variables[triple[2]].name);
                 system->jacobi = found == GM_ZERO_PROVED ? system->jacobi : found;
             }
         }
@@ -441,11 +438,9 @@ static void check_surface(struct gm_user_system *system, const struct gm_system_
         const gm_node_id rate = rate_of(system, item->nodes[k]);
         const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
                                              : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
-        if (!kept) {
-            gm_system_refuse(
-                system, item->place,
-                "a surface does not move: its size depends only on parameters and conserved quantities");
-        }
+        gm_system_refuse_if(
+            system, !kept, item->place,
+            "a surface does not move: its size depends only on parameters and conserved quantities");
     }
 }
 
@@ -457,27 +452,22 @@ static void check_item(struct gm_user_system *system, struct gm_system_item *ite
     case GM_WORD_INVARIANT:
         rate = rate_of(system, item->nodes[0]);
         item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
-        if (item->check == GM_NOT_ZERO && !forced) {
-            gm_system_refuse(system, item->place,
-                             "%.60s is not an invariant; observe: takes nearly conserved quantities",
-                             item->name);
-        }
+        gm_system_refuse_if(system, item->check == GM_NOT_ZERO && !forced, item->place,
+                            "%.60s is not an invariant; observe: takes nearly conserved quantities",
+                            item->name);
         break;
     case GM_WORD_SURFACE:
         check_surface(system, item);
         break;
     case GM_WORD_SECTION:
-        if (!item->periodic && is_of_components(system, item->nodes[0], 0)) {
-            gm_system_refuse(system, item->place,
-                             "what a section waits for never changes: it holds no component, and no t");
-        }
+        gm_system_refuse_if(system, !item->periodic && is_of_components(system, item->nodes[0], 0),
+                            item->place,
+                            "what a section waits for never changes: it holds no component, and no t");
         break;
     case GM_WORD_CASIMIR:
         item->check = check_casimir(system, item->nodes[0]);
-        if (item->check == GM_NOT_ZERO) {
-            gm_system_refuse(system, item->place,
-                             "%.60s is not a Casimir: its bracket with the components is not 0", item->name);
-        }
+        gm_system_refuse_if(system, item->check == GM_NOT_ZERO, item->place,
+                            "%.60s is not a Casimir: its bracket with the components is not 0", item->name);
         break;
     case GM_WORD_SYMMETRY:
         item->check = check_symmetry(system, item, &broken);
@@ -674,25 +664,45 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
     return start.variables;
 }
 
-/* True if momenta determine velocities: no pivot of the mass matrix (half * half, after `half` numbers of
-   scratch) is small against its largest entry. */
-static bool is_regular(double *scratch, size_t half)
+/* The rank of a matrix, which is overwritten: pivots are larger than a part of its largest entry. And the first column that depends on those before it; `columns`
+   without one. */
+static size_t rank_of(double *matrix, size_t rows, size_t columns, double part, size_t *dependent)
 {
-    double *mass = scratch + half, largest = 0;
-    for (size_t i = 0; i < half * half; i++) {
-        largest = fmax(largest, fabs(mass[i]));
+    double largest = 0;
+    size_t rank = 0;
+    *dependent = columns;
+    for (size_t i = 0; i < rows * columns; i++) {
+        largest = fmax(largest, fabs(matrix[i]));
     }
-    bool regular = gm_eliminate(half, mass, scratch);
-    for (size_t i = 0; i < half && regular; i++) {
-        const double pivot = fabs(mass[i * half + i]);
-        regular = pivot > 1e-14 * largest && isfinite(pivot);
+    for (size_t column = 0; column < columns; column++) {
+        size_t pivot = rank;
+        for (size_t i = rank; i < rows; i++) {
+            pivot = fabs(matrix[i * columns + column]) > fabs(matrix[pivot * columns + column]) ? i : pivot;
+        }
+        if (rank == rows || !(fabs(matrix[pivot * columns + column]) > part * largest)) {
+            *dependent = *dependent < columns ? *dependent : column;
+            continue;
+        }
+        for (size_t j = column; j < columns; j++) {
+            const double kept = matrix[pivot * columns + j];
+            matrix[pivot * columns + j] = matrix[rank * columns + j];
+            matrix[rank * columns + j] = kept;
+        }
+        for (size_t i = rank + 1; i < rows; i++) {
+            const double factor = matrix[i * columns + column] / matrix[rank * columns + column];
+            for (size_t j = column; j < columns; j++) {
+                matrix[i * columns + j] -= factor * matrix[rank * columns + j];
+            }
+        }
+        rank++;
     }
-    return regular;
+    return rank;
 }
 
 bool gm_equations_check_legendre(const struct gm_user_system *system, double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
+    size_t first;
     double *scratch = malloc((2 + half) * half * sizeof *scratch), unused = 0,
            *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
     const bool opened = scratch && values;
@@ -702,7 +712,7 @@ bool gm_equations_check_legendre(const struct gm_user_system *system, double *st
         struct transform transform = {system, start, values, NULL, system->graph.count, NULL, v};
         memcpy(v, start + system->velocities, half * sizeof *v);
         momenta_at(&transform, v, scratch, scratch + half, &unused);
-        regular = is_regular(scratch, half);
+        regular = rank_of(scratch + half, half, half, 1e-14, &first) == half;
     }
     free(values);
     free(scratch);
@@ -734,41 +744,6 @@ static size_t first_not_finite(struct gm_user_system *system, gm_node_id node, c
     return part == GM_NO_NODE ? 0 : system->graph.places[part];
 }
 
-/* The rank of a matrix, which is overwritten, and the first column that depends on those before it; `columns`
-   without one. */
-static size_t rank_of(double *matrix, size_t rows, size_t columns, size_t *dependent)
-{
-    double largest = 0;
-    size_t rank = 0;
-    *dependent = columns;
-    for (size_t i = 0; i < rows * columns; i++) {
-        largest = fmax(largest, fabs(matrix[i]));
-    }
-    for (size_t column = 0; column < columns; column++) {
-        size_t pivot = rank;
-        for (size_t i = rank; i < rows; i++) {
-            pivot = fabs(matrix[i * columns + column]) > fabs(matrix[pivot * columns + column]) ? i : pivot;
-        }
-        if (rank == rows || !(fabs(matrix[pivot * columns + column]) > 1e-10 * largest)) {
-            *dependent = *dependent < columns ? *dependent : column;
-            continue;
-        }
-        for (size_t j = column; j < columns; j++) {
-            const double kept = matrix[pivot * columns + j];
-            matrix[pivot * columns + j] = matrix[rank * columns + j];
-            matrix[rank * columns + j] = kept;
-        }
-        for (size_t i = rank + 1; i < rows; i++) {
-            const double factor = matrix[i * columns + column] / matrix[rank * columns + column];
-            for (size_t j = column; j < columns; j++) {
-                matrix[i * columns + j] -= factor * matrix[rank * columns + j];
-            }
-        }
-        rank++;
-    }
-    return rank;
-}
-
 /* The start must satisfy the constraints, with rates 0; and constraints must be independent. */
 static void check_constraints(struct gm_user_system *system, const double *start)
 {
@@ -779,9 +754,8 @@ static void check_constraints(struct gm_user_system *system, const double *start
     for (; (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, count)); count++) {
         nodes[count] = item->nodes[0];
         last = item->place;
-        if (!is_of_components(system, item->nodes[0], half)) {
-            gm_system_refuse(system, item->place, "a constraint holds coordinates and parameters alone");
-        }
+        gm_system_refuse_if(system, !is_of_components(system, item->nodes[0], half), item->place,
+                            "a constraint holds coordinates and parameters alone");
     }
     struct gm_sparse slopes = {0};
     gm_sparse_keep(system->arena, &slopes,
@@ -799,22 +773,16 @@ static void check_constraints(struct gm_user_system *system, const double *start
     }
     for (size_t k = 0; k < count; k++) {
         item = gm_system_item_of(system, GM_WORD_CONSTRAINT, k);
-        if (!(fabs(values[nodes[k]]) <= 1e-10)) {
-            gm_system_refuse(system, item->place, "the start breaks this constraint: it is %g, not 0",
-                             values[nodes[k]]);
-        }
-        if (!(fabs(rates[k]) <= 1e-10)) {
-            gm_system_refuse(system, item->place,
-                             "the start breaks this constraint: its rate of change is %g, not 0", rates[k]);
-        }
+        gm_system_refuse_if(system, !(fabs(values[nodes[k]]) <= 1e-10), item->place,
+                            "the start breaks this constraint: it is %g, not 0", values[nodes[k]]);
+        gm_system_refuse_if(system, !(fabs(rates[k]) <= 1e-10), item->place,
+                            "the start breaks this constraint: its rate of change is %g, not 0", rates[k]);
     }
-    const size_t rank = rank_of(matrix, count, half, &dependent);
-    if (rank != count) {
-        gm_system_refuse(system, last,
-                         "the constraints depend on each other at the start: the derivatives of %zu have "
-                         "the rank %zu",
-                         count, rank);
-    }
+    const size_t rank = rank_of(matrix, count, half, 1e-10, &dependent);
+    gm_system_refuse_if(system, rank != count, last,
+                        "the constraints depend on each other at the start: the derivatives of %zu have "
+                        "the rank %zu",
+                        count, rank);
 }
 
 /* A density of steps must be positive and depend on the state alone. */
@@ -839,20 +807,18 @@ static void check_values_of_items(struct gm_user_system *system, const double *v
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_SURFACE, i)); i++) {
         for (size_t k = 0; k < item->count; k++) {
             const double size = values[item->nodes[k]];
-            if (!(size > 0 && isfinite(size))) {
-                gm_system_refuse(system, item->place, "the size of a surface is %g, and has to be above 0",
-                                 size);
-            }
+            gm_system_refuse_if(system, !(size > 0 && isfinite(size)), item->place,
+                                "the size of a surface is %g, and has to be above 0", size);
         }
     }
     for (size_t i = 0; i < system->item_count; i++) {
         item = &system->items[i];
         const bool stops = item->word == GM_WORD_STOP;
-        if ((stops || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) &&
-            !isfinite(values[item->nodes[0]])) {
-            gm_system_refuse(system, item->place, "%.60s is not finite at the start",
-                             stops ? "what ends the run" : item->name);
-        }
+        gm_system_refuse_if(system,
+                            (stops || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) &&
+                                !isfinite(values[item->nodes[0]]),
+                            item->place, "%.60s is not finite at the start",
+                            stops ? "what ends the run" : item->name);
     }
 }
 
@@ -933,15 +899,16 @@ static void check_start(struct gm_user_system *system)
     gm_arena_release(system->arena, mark);
 }
 
-/* A field's formula has no other component, time or place than these numbers. */
+/* A field's formula has no other component, time or place than these numbers. A fault is at the place of the item, as
+   other lines may contain the variable too; NULL: of the node. */
 static void need_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
-                      const char *what)
+                      const char *what, const struct gm_system_item *item)
 {
     const struct allowed allowed = {system, 0, numbers, count};
     const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
     if (part != GM_NO_NODE) {
-        const uint32_t place = system->graph.places[node];
-        gm_system_refuse(system, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
+        const size_t place = system->graph.places[node] == GM_NO_PLACE ? 0 : system->graph.places[node];
+        gm_system_refuse(system, item ? item->place : place, "%s does not hold %.60s", what,
                          system->variables[system->graph.nodes[part].a].name);
     }
 }
@@ -958,18 +925,6 @@ static void need_smooth(struct gm_user_system *system, const char *what)
     }
 }
 
-/* A number of a field's line holds parameters alone. */
-static void need_constant(struct gm_user_system *system, gm_node_id node, const struct gm_system_item *item)
-{
-    const struct allowed allowed = {system, 0, NULL, 0};
-    const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
-    if (part != GM_NO_NODE) { /* other lines may contain the variable too */
-        gm_system_refuse(system, item->place, "%s does not hold %.60s",
-                         item->word == GM_WORD_ENDS ? "ends:" : "alpha:",
-                         system->variables[system->graph.nodes[part].a].name);
-    }
-}
-
 /* Checks the variables in starts, exact solutions, densities and numbers of a field. */
 static void check_line(struct gm_user_system *system, size_t densities)
 {
@@ -980,23 +935,22 @@ static void check_line(struct gm_user_system *system, size_t densities)
     }
     for (size_t i = 0; i < n; i++) {
         const struct gm_system_variable *field = &system->variables[i];
-        need_only(system, field->start, in_start, 1, "the start of a field");
+        need_only(system, field->start, in_start, 1, "the start of a field", NULL);
         if (field->exact != GM_NO_NODE) {
-            need_only(system, field->exact, in_exact, 2, "the exact solution of a field");
+            need_only(system, field->exact, in_exact, 2, "the exact solution of a field", NULL);
         }
     }
     for (size_t i = 0; i < system->item_count; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             item->check = GM_UNTESTED;
-            need_only(system, item->nodes[0], in_density, n + densities, "a density");
+            need_only(system, item->nodes[0], in_density, n + densities, "a density", NULL);
         }
         const bool constant = item->word == GM_WORD_ENDS || item->word == GM_WORD_ALPHA;
-        for (size_t k = 0; constant && k < item->count; k++) {
-            need_constant(system, item->nodes[k], item);
-        }
-        for (size_t k = 0; constant && k < item->option_count; k++) {
-            need_constant(system, item->options[k].node, item);
+        const char *what = item->word == GM_WORD_ENDS ? "ends:" : "alpha:";
+        for (size_t k = 0; constant && k < item->count + item->option_count; k++) {
+            const gm_node_id node = k < item->count ? item->nodes[k] : item->options[k - item->count].node;
+            need_only(system, node, NULL, 0, what, item);
         }
     }
 }
@@ -1039,21 +993,16 @@ static void check_masses(struct gm_user_system *system)
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_MASS, i)); i++) {
         const size_t field = gm_system_mass_field(system, item->nodes[0]);
-        if (field == system->n) {
-            gm_system_refuse(system, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
-        }
-        if (known[field]) {
-            gm_system_refuse(system, item->place, "the mass of %.60s is given twice",
-                             system->variables[field].name);
-        }
+        gm_system_refuse_if(system, field == system->n, item->place,
+                            "a mass is of one of the fields, as in mass: u - u_xx");
+        gm_system_refuse_if(system, known[field], item->place, "the mass of %.60s is given twice",
+                            system->variables[field].name);
         known[field] = true;
         gm_node_id line, rest;
         gm_arena_need(system->arena, gm_system_linear_part(system, item->nodes[0], &line, &rest));
-        if (!gm_is_constant(&system->graph, rest, 0)) {
-            gm_system_refuse(system, item->place,
-                             "a mass is linear in %.60s and its derivatives, with constant coefficients",
-                             system->variables[field].name);
-        }
+        gm_system_refuse_if(system, !gm_is_constant(&system->graph, rest, 0), item->place,
+                            "a mass is linear in %.60s and its derivatives, with constant coefficients",
+                            system->variables[field].name);
     }
 }
 
@@ -1065,7 +1014,7 @@ static void check_evolution(struct gm_user_system *system)
         in_rate[i] = i < n ? i : system->velocities + i - n;
     }
     for (size_t i = 0; i < n; i++) {
-        need_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field");
+        need_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field", NULL);
     }
     check_masses(system);
     check_line(system, derivatives + 1);
@@ -1076,10 +1025,9 @@ static void check_field(struct gm_user_system *system)
     enum { U, U_T };
     const size_t in_v[] = {U};
     need_smooth(system, "V");
-    need_only(system, system->energy, in_v, 1, "V");
-    if (system->variables[U_T].exact != GM_NO_NODE) {
-        gm_system_refuse(system, 0, "exact: is of %.60s alone", system->variables[U].name);
-    }
+    need_only(system, system->energy, in_v, 1, "V", NULL);
+    gm_system_refuse_if(system, system->variables[U_T].exact != GM_NO_NODE, 0, "exact: is of %.60s alone",
+                        system->variables[U].name);
     check_line(system, 2);
 }
 
@@ -1094,23 +1042,19 @@ static void check_skew(struct gm_user_system *system, size_t which)
         for (size_t j = 0; j <= i; j++) {
             const size_t pair[] = {i * n + j, j * n + i};
             for (size_t side = 0; side < 2; side++) {
-                need_only(system, entries[pair[side]], NULL, 0, "an entry of a matrix");
+                need_only(system, entries[pair[side]], NULL, 0, "an entry of a matrix", NULL);
             }
             for (size_t side = 0; side < 2; side++) {
                 const struct gm_node *entry = &system->graph.nodes[entries[pair[side]]];
-                if (entry->operation == GM_CONSTANT && !isfinite(entry->value)) {
-                    gm_system_refuse(system, places[pair[side]], "an entry of %s is not a finite number",
-                                     name);
-                }
+                gm_system_refuse_if(system, entry->operation == GM_CONSTANT && !isfinite(entry->value),
+                                    places[pair[side]], "an entry of %s is not a finite number", name);
             }
             const gm_node_id sum = gm_sum(&system->graph, entries[pair[0]], entries[pair[1]]);
             if (gm_equations_vanishes(system, sum) != GM_NOT_ZERO) {
                 continue;
             }
-            if (i == j) {
-                gm_system_refuse(system, places[pair[0]], "%s has to be skew: entry %zu, %zu is not 0", name,
-                                 i + 1, i + 1);
-            }
+            gm_system_refuse_if(system, i == j, places[pair[0]], "%s has to be skew: entry %zu, %zu is not 0",
+                                name, i + 1, i + 1);
             gm_system_refuse(system, places[pair[0]],
                              "%s has to be skew: entry %zu, %zu is not minus entry %zu, %zu", name, i + 1,
                              j + 1, j + 1, i + 1);
@@ -1142,7 +1086,7 @@ static void check_determined(struct gm_user_system *system)
         for (size_t i = 0; i < hessian.count; i++) {
             matrix[hessian.entries[i].row * n + hessian.entries[i].column] -= all[hessian.entries[i].node];
         }
-        rank_of(matrix, n, n, &free_one);
+        rank_of(matrix, n, n, 1e-10, &free_one);
     }
     if (free_one < n) {
         gm_system_refuse(system, gm_formula_origin(&system->graph, system->energy),
@@ -1157,13 +1101,13 @@ static void check_matrices(struct gm_user_system *system)
     for (size_t i = 0; i < system->n; i++) {
         in_s[i] = i;
         if (system->variables[i].jump != GM_NO_NODE) {
-            need_only(system, system->variables[i].jump, NULL, 0, "a jump");
+            need_only(system, system->variables[i].jump, NULL, 0, "a jump", NULL);
         }
     }
     check_skew(system, 0);
     check_skew(system, 1);
     need_smooth(system, "S");
-    need_only(system, system->energy, in_s, system->n, "S");
+    need_only(system, system->energy, in_s, system->n, "S", NULL);
     check_determined(system);
     check_line(system, 1);
 }

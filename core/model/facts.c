@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/model/equations.h"
 
@@ -516,7 +517,7 @@ static void find_mechanical(const struct search *search, gm_node_id *nodes)
         {GM_FACT_KEPLER_SPLIT, canonical && n == 4, find_kepler_split, nodes + n, 3},
         {GM_FACT_LAGRANGIAN, n == 2, find_one_degree, nodes + n + 3, 3},
     };
-    enum { FACETS = sizeof facets / sizeof *facets };
+    enum { FACETS = GM_COUNT(facets) };
     for (size_t i = 0; i < FACETS; i++) {
         struct gm_finding *finding = &search->findings[facets[i].fact];
         *finding = common;
@@ -814,7 +815,7 @@ bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
     }
-    /* the rates of forms are no formulas of numbers */
+    /* the rates of forms are not formulas of numbers */
     return system->facets && (gm_system_is_form(system) || gm_arena_run(system->arena, find_all, &search));
 }
 

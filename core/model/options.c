@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of a line, and texts with values in them. */
-#include "core/model/options.h"
+#include "core/model/scope.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -58,9 +58,7 @@ static void add_number(struct gm_reading *reading, struct gm_system_option *opti
     gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers);
     const double number = gm_reading_number(reading, span);
     option->numbers[option->count++] = number;
-    if (!isfinite(number)) {
-        gm_system_refuse(reading->system, span.begin, "this is not a finite number");
-    }
+    gm_system_refuse_if(reading->system, !isfinite(number), span.begin, "this is not a finite number");
 }
 
 /* Numbers separated by commas; "usual" stands for the default list. */
@@ -76,14 +74,11 @@ static void add_numbers(struct gm_reading *reading, struct gm_system_option *opt
 static void add_range(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
 {
     const size_t dots = gm_span_until(reading->text, span, "..");
-    if (dots == span.end) {
-        gm_system_refuse(reading->system, span.begin, "a range was expected, low .. high");
-    }
+    gm_system_refuse_if(reading->system, dots == span.end, span.begin, "a range was expected, low .. high");
     add_number(reading, option, (struct gm_span){span.begin, dots});
     add_number(reading, option, (struct gm_span){dots + 2, span.end});
-    if (!(option->numbers[0] < option->numbers[1])) {
-        gm_system_refuse(reading->system, span.begin, "a range's lower end comes first");
-    }
+    gm_system_refuse_if(reading->system, !(option->numbers[0] < option->numbers[1]), span.begin,
+                        "a range's lower end comes first");
 }
 
 /* F, or F = NAME */
@@ -93,9 +88,8 @@ static void add_formula(struct gm_reading *reading, struct gm_system_option *opt
     const size_t equals = named ? gm_span_until(reading->text, span, "=") : span.end;
     const struct gm_span name =
         gm_reading_between(reading, equals < span.end ? equals + 1 : equals, span.end);
-    if (named && name.begin == name.end) {
-        gm_system_refuse(reading->system, span.begin, "a unit has a name: unit 2*pi = h / T");
-    }
+    gm_system_refuse_if(reading->system, named && name.begin == name.end, span.begin,
+                        "a unit has a name: unit 2*pi = h / T");
     option->text = named ? gm_reading_text(reading, name) : NULL;
     option->node = gm_reading_formula(reading, gm_reading_between(reading, span.begin, equals));
 }
@@ -106,11 +100,10 @@ static void add_word(struct gm_reading *reading, struct gm_system_option *option
     static const char *const taken[] = {"all", "section", "modified", NULL};
     const size_t length = value.end - value.begin;
     option->text = gm_reading_text(reading, value);
-    if (gm_name_length(reading->text + value.begin, length) < length ||
-        gm_span_among(reading->text, value, taken) < 3) {
-        gm_system_refuse(reading->system, value.begin, "%.60s is not a new word for show=, as in show plane",
-                         option->text);
-    }
+    gm_system_refuse_if(reading->system,
+                        gm_name_length(reading->text + value.begin, length) < length ||
+                            gm_span_among(reading->text, value, taken) < 3,
+                        value.begin, "%.60s is not a new word for show=, as in show plane", option->text);
 }
 
 static void read_value(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
@@ -176,13 +169,11 @@ static void read_option(struct gm_reading *reading, struct gm_system_item *item,
                          gm_system_words[item->word].word, word, near ? "; did you mean " : "",
                          near ? near : "");
     }
-    if (gm_system_option(item, (enum gm_system_option_word)row)) {
-        gm_system_refuse(reading->system, piece.begin, "%s is given twice", word);
-    }
-    if (!is_range && some != (rows[row].follows != NOTHING)) {
-        gm_system_refuse(reading->system, some ? value.begin : piece.begin,
-                         some ? "nothing follows the option %s" : "the option %s needs a value", word);
-    }
+    gm_system_refuse_if(reading->system, gm_system_option(item, (enum gm_system_option_word)row), piece.begin,
+                        "%s is given twice", word);
+    gm_system_refuse_if(reading->system, !is_range && some != (rows[row].follows != NOTHING),
+                        some ? value.begin : piece.begin,
+                        some ? "nothing follows the option %s" : "the option %s needs a value", word);
     gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options);
     struct gm_system_option *option = &item->options[item->option_count++];
     *option = (struct gm_system_option){
@@ -205,10 +196,9 @@ static void read_braces(struct gm_reading *reading, struct gm_system_item *item,
     const size_t colon = gm_span_until(reading->text, inside, ":");
     struct gm_span formula = gm_reading_between(reading, inside.begin, colon);
     const struct gm_span format = {colon < inside.end ? colon + 1 : colon, inside.end};
-    if (format.begin < format.end && !formats[gm_span_among(reading->text, format, formats)]) {
-        gm_system_refuse(reading->system, format.begin,
-                         "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
-    }
+    gm_system_refuse_if(
+        reading->system, format.begin < format.end && !formats[gm_span_among(reading->text, format, formats)],
+        format.begin, "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     const char *name = reading->text + formula.begin;
     const size_t length = gm_name_length(name, formula.end - formula.begin);
     const bool is_key = gm_reading_reserves(name, length) && !gm_formula_reserves(name, length) &&
@@ -230,9 +220,7 @@ void gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struc
         if (comment || (c != '{' && c != '}')) {
             continue;
         }
-        if (!close) {
-            gm_system_refuse(reading->system, at, "this brace has no counterpart");
-        }
+        gm_system_refuse_if(reading->system, !close, at, "this brace has no counterpart");
         const size_t end = (size_t)(close - reading->text);
         read_braces(reading, item, (struct gm_span){at + 1, end});
         at = end;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/basics.h"
 #include "core/model/equations.h"
 
 /* The degree of a formula as a polynomial in variable 0; INFINITY if it is not written as one, or when out of
@@ -67,7 +68,7 @@ static enum gm_known_potential recognise(struct gm_user_system *system)
         [GM_POTENTIAL_SINE_GORDON] = gm_difference(graph, one, gm_simplified(graph, GM_OPERATION_COS, u, u)),
         [GM_POTENTIAL_PHI4] =
             gm_product(graph, gm_formula_constant(graph, 0.25), gm_product(graph, well, well))};
-    for (size_t i = GM_POTENTIAL_OWN + 1; i < sizeof known / sizeof *known && !graph->failed; i++) {
+    for (size_t i = GM_POTENTIAL_OWN + 1; i < GM_COUNT(known) && !graph->failed; i++) {
         const gm_node_id rest = gm_difference(graph, system->energy, known[i]);
         const enum gm_identity identity = graph->failed ? GM_UNTESTED : gm_equations_vanishes(system, rest);
         if (identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED) {

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads systems: lines, then declarations, then their formulas. */
-#include "core/model/reader.h"
+#include "core/model/scope.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/number.h"
-#include "core/model/declarations.h"
-#include "core/model/options.h"
 
 static const struct gm_span nameless = {0, 0};
 
@@ -63,34 +62,27 @@ static void assign(struct gm_reading *reading, struct gm_entry *entry, const str
         entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
     if (entry->role == GM_ENTRY_TIME && word == GM_WORD_START && system->kind == GM_EVOLUTION) {
         const struct gm_node *time = &system->graph.nodes[node];
-        if (time->operation != GM_CONSTANT || !isfinite(time->value)) {
-            gm_system_refuse(system, target->value.begin, "the time of the start is a number");
-        }
+        gm_system_refuse_if(system, time->operation != GM_CONSTANT || !isfinite(time->value),
+                            target->value.begin, "the time of the start is a number");
         system->variables[system->n].value = time->value;
         return;
     }
-    if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
-        gm_system_refuse(system, target->name.begin, "%.60s is not a component", entry->name);
-    }
+    gm_system_refuse_if(system, entry->role != GM_ENTRY_COMPONENT && !is_velocity, target->name.begin,
+                        "%.60s is not a component", entry->name);
     struct gm_system_variable *variable =
         &system->variables[(is_velocity ? system->velocities : 0) + entry->number];
-    if (gm_system_is_tangent(system, entry->number) && !is_velocity) {
-        gm_system_refuse(system, target->name.begin,
-                         "%s is of a tangent, whose start and rate follow from the system", variable->name);
-    }
+    gm_system_refuse_if(system, gm_system_is_tangent(system, entry->number) && !is_velocity,
+                        target->name.begin, "%s is of a tangent, whose start and rate follow from the system",
+                        variable->name);
     gm_node_id *place = word == GM_WORD_START   ? &variable->start
                         : word == GM_WORD_FORCE ? &variable->force
                         : word == GM_WORD_EXACT ? &variable->exact
                         : word == GM_WORD_JUMP  ? &variable->jump
                                                 : &system->rates[entry->number];
-    if (word == GM_WORD_FORCE && entry->number >= system->n / 2) {
-        gm_system_refuse(system, target->name.begin, "a force acts on a coordinate, not on %s",
-                         variable->name);
-    }
-    if (*place != GM_NO_NODE) {
-        gm_system_refuse(system, target->name.begin, "%s: %s is given twice", gm_system_words[word].word,
-                         variable->name);
-    }
+    gm_system_refuse_if(system, word == GM_WORD_FORCE && entry->number >= system->n / 2, target->name.begin,
+                        "a force acts on a coordinate, not on %s", variable->name);
+    gm_system_refuse_if(system, *place != GM_NO_NODE, target->name.begin, "%s: %s is given twice",
+                        gm_system_words[word].word, variable->name);
     *place = node;
     if (word == GM_WORD_START) {
         variable->start_place = target->name.begin;
@@ -142,26 +134,22 @@ static void read_bracket(struct gm_reading *reading, struct gm_span piece)
         rest = gm_span_trimmed(reading->text, rest);
         const size_t place = rest.begin;
         const struct gm_entry *entry = take_entry(reading, &rest);
-        if (entry->role != GM_ENTRY_COMPONENT) {
-            gm_system_refuse(system, place, "a bracket is of two components: bracket: x y = z");
-        }
+        gm_system_refuse_if(system, entry->role != GM_ENTRY_COMPONENT, place,
+                            "a bracket is of two components: bracket: x y = z");
         pair[i] = entry->number;
     }
     rest = gm_span_trimmed(reading->text, rest);
-    if (rest.begin == rest.end || reading->text[rest.begin] != '=') {
-        gm_system_refuse(system, rest.begin, "= was expected");
-    }
+    gm_system_refuse_if(system, rest.begin == rest.end || reading->text[rest.begin] != '=', rest.begin,
+                        "= was expected");
     rest.begin++;
     const char *const names[] = {system->variables[pair[0]].name, system->variables[pair[1]].name};
     gm_node_id *entry = &system->bracket[pair[0] * system->n + pair[1]],
                *opposite = &system->bracket[pair[1] * system->n + pair[0]];
-    if (pair[0] == pair[1]) {
-        gm_system_refuse(system, piece.begin, "the bracket of %s with itself is 0", names[0]);
-    }
+    gm_system_refuse_if(system, pair[0] == pair[1], piece.begin, "the bracket of %s with itself is 0",
+                        names[0]);
     const gm_node_id node = gm_reading_formula(reading, rest);
-    if (*entry != GM_NO_NODE) {
-        gm_system_refuse(system, piece.begin, "the bracket of %s and %s is given twice", names[0], names[1]);
-    }
+    gm_system_refuse_if(system, *entry != GM_NO_NODE, piece.begin, "the bracket of %s and %s is given twice",
+                        names[0], names[1]);
     *entry = node;
     system->bracket_place = piece.begin;
     *opposite = gm_negative(&system->graph, node);
@@ -180,11 +168,9 @@ static void generate(struct gm_reading *reading, struct gm_entry *entry, const s
 {
     const struct gm_user_system *system = reading->system;
     struct gm_system_item *item = data;
-    if (entry->role != GM_ENTRY_COMPONENT || entry->number >= item->count) {
-        gm_system_refuse(system, target->name.begin, "a %s moves %s, not %.60s",
-                         gm_system_words[item->word].word,
-                         system->kind <= GM_LAGRANGIAN ? "coordinates" : "components", entry->name);
-    }
+    gm_system_refuse_if(system, entry->role != GM_ENTRY_COMPONENT || entry->number >= item->count,
+                        target->name.begin, "a %s moves %s, not %.60s", gm_system_words[item->word].word,
+                        system->kind <= GM_LAGRANGIAN ? "coordinates" : "components", entry->name);
     item->nodes[entry->number] = node;
 }
 
@@ -209,9 +195,8 @@ static void read_symmetry(struct gm_reading *reading, const struct gm_read_line 
 static void number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
 {
     const long number = gm_reading_whole(reading, index);
-    if (number < 0) {
-        gm_system_refuse(reading->system, index.begin, "the index of a name is 0 or more, not %ld", number);
-    }
+    gm_system_refuse_if(reading->system, number < 0, index.begin, "the index of a name is 0 or more, not %ld",
+                        number);
     item->name = gm_arena_print(reading->system->arena, "%s%ld", item->name, number);
 }
 
@@ -222,17 +207,15 @@ static void read_named(struct gm_reading *reading, const struct gm_read_line *li
     struct gm_span rest = line->value;
     const struct gm_target target = gm_reading_assignment(reading, take_piece(reading, &rest));
     const bool indexed = target.index.begin < target.index.end;
-    if (indexed && reading->counter.begin == reading->counter.end) {
-        gm_system_refuse(system, target.index.begin, "this name has no index");
-    }
+    gm_system_refuse_if(system, indexed && reading->counter.begin == reading->counter.end, target.index.begin,
+                        "this name has no index");
     struct gm_system_item *item = add_item(reading, line, target.name);
     if (indexed) {
         number_item(reading, item, target.index);
     }
     const size_t length = strlen(item->name);
-    if (gm_reading_reserves(item->name, length)) {
-        gm_system_refuse(system, target.name.begin, "the name %.60s" GM_RESERVED, item->name);
-    }
+    gm_system_refuse_if(system, gm_reading_reserves(item->name, length), target.name.begin,
+                        "the name %.60s" GM_RESERVED, item->name);
     const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
     if (named && named->place != target.name.begin) {
         gm_reading_refuse_second(reading, target.name.begin, named);
@@ -262,9 +245,8 @@ static void read_part(struct gm_reading *reading, const struct gm_read_line *lin
         }
         return;
     }
-    if (gm_span_until(reading->text, rest, ";") == rest.end) {
-        gm_system_refuse(reading->system, rest.end, "a part of rates is a name, a semicolon and its rates");
-    }
+    gm_system_refuse_if(reading->system, gm_span_until(reading->text, rest, ";") == rest.end, rest.end,
+                        "a part of rates is a name, a semicolon and its rates");
     read_symmetry(reading, line);
 }
 
@@ -275,10 +257,8 @@ static void read_requirement(struct gm_reading *reading, const struct gm_read_li
     const struct gm_span formula = take_piece(reading, &rest);
     struct gm_system_item *item = add_item(reading, line, nameless);
     rest = gm_span_trimmed(reading->text, rest);
-    if (rest.begin == rest.end) {
-        gm_system_refuse(reading->system, formula.end, "a sentence was expected: %s: F; it says why not",
-                         word_of(line));
-    }
+    gm_system_refuse_if(reading->system, rest.begin == rest.end, formula.end,
+                        "a sentence was expected: %s: F; it says why not", word_of(line));
     add_formula(reading, item, formula);
     gm_text_read(reading, item, rest);
 }
@@ -292,9 +272,8 @@ static void read_level(struct gm_reading *reading, const struct gm_read_line *li
     if (item->in_section) {
         piece = take_piece(reading, &rest);
     }
-    if (item->in_section && !gm_reading_line(reading, GM_WORD_SECTION)) {
-        gm_system_refuse(reading->system, line->value.begin, "there is no line \"section\"");
-    }
+    gm_system_refuse_if(reading->system, item->in_section && !gm_reading_line(reading, GM_WORD_SECTION),
+                        line->value.begin, "there is no line \"section\"");
     gm_item_add(reading, item, gm_reading_formula_of_exact(reading, piece));
     if (!gm_span_take(reading->text, &rest, ";", &piece)) {
         gm_system_refuse(reading->system, piece.end, "a text was expected: level: F; the exact orbit");
@@ -310,10 +289,8 @@ static char *take_words(struct gm_reading *reading, struct gm_span *rest)
     char *words = gm_reading_text(reading, piece);
     const bool none = strcmp(words, "none") == 0;
     for (const char *word = words; *word && !none; word += strcspn(word, " "), word += *word == ' ') {
-        if (strcspn(word, "=") >= strcspn(word, " ")) {
-            gm_system_refuse(reading->system, piece.begin, "%.60s is not of the form key=value: until=100",
-                             word);
-        }
+        gm_system_refuse_if(reading->system, strcspn(word, "=") >= strcspn(word, " "), piece.begin,
+                            "%.60s is not of the form key=value: until=100", word);
     }
     return words;
 }
@@ -333,10 +310,8 @@ static void read_optional(struct gm_reading *reading, const struct gm_read_line 
     }
     rest = gm_span_trimmed(reading->text, rest);
     item->text = gm_reading_text(reading, rest);
-    if (rest.begin == rest.end) {
-        gm_system_refuse(reading->system, rest.begin,
-                         "a statement was expected: figure: NAME; scheme=rk4; what it shows");
-    }
+    gm_system_refuse_if(reading->system, rest.begin == rest.end, rest.begin,
+                        "a statement was expected: figure: NAME; scheme=rk4; what it shows");
 }
 
 /* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
@@ -350,30 +325,25 @@ static void read_section(struct gm_reading *reading, const struct gm_read_line *
     gm_span_take(text, &where, ",", &condition);
     if (!item->periodic) {
         const size_t equals = gm_span_until(text, condition, "=");
-        if (equals == condition.end ||
-            !gm_span_is(text, gm_reading_between(reading, equals + 1, condition.end), "0")) {
-            gm_system_refuse(reading->system, condition.begin,
-                             "a section is where something is 0, x = 0, or every T");
-        }
+        gm_system_refuse_if(
+            reading->system,
+            equals == condition.end ||
+                !gm_span_is(text, gm_reading_between(reading, equals + 1, condition.end), "0"),
+            condition.begin, "a section is where something is 0, x = 0, or every T");
         condition.end = equals;
     }
     add_formula(reading, item, condition);
     const double period = item->periodic ? gm_reading_number(reading, condition) : 1;
-    if (!(period > 0)) {
-        gm_system_refuse(reading->system, condition.begin,
-                         "the time between two looks is %g, and has to be above 0", period);
-    }
+    gm_system_refuse_if(reading->system, !(period > 0), condition.begin,
+                        "the time between two looks is %g, and has to be above 0", period);
     const struct gm_span shown = take_piece(reading, &rest);
     gm_item_add_formulas(reading, item, shown);
-    if (item->count != 3) {
-        gm_system_refuse(reading->system, shown.begin, "a section shows two values: ; x, p_x");
-    }
+    gm_system_refuse_if(reading->system, item->count != 3, shown.begin,
+                        "a section shows two values: ; x, p_x");
     rest = gm_span_trimmed(text, rest);
     item->alone = gm_span_is(text, rest, "alone");
-    if (rest.begin < rest.end && !item->alone) {
-        gm_system_refuse(reading->system, rest.begin,
-                         "\"alone\" was expected: the section is the usual picture");
-    }
+    gm_system_refuse_if(reading->system, rest.begin < rest.end && !item->alone, rest.begin,
+                        "\"alone\" was expected: the section is the usual picture");
     while (gm_span_take(text, &where, ",", &piece)) {
         gm_item_add(reading, item, gm_reading_condition(reading, piece));
     }
@@ -401,19 +371,16 @@ static void read_view(struct gm_reading *reading, const struct gm_read_line *lin
         dimensions = item->count - before;
         ends++;
     }
-    if (!equal || dimensions < 2 || dimensions > 3 || ends < wanted) {
-        gm_system_refuse(system, line->value.begin,
-                         line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
-                                                   : "a body has two or three coordinates: x, y");
-    }
+    gm_system_refuse_if(system, !equal || dimensions < 2 || dimensions > 3 || ends < wanted,
+                        line->value.begin,
+                        line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
+                                                  : "a body has two or three coordinates: x, y");
     gm_options_read(reading, item, rest);
     for (size_t i = 0; i + 1 < system->item_count; i++) {
         const size_t of_other = dimensions_of(&system->items[i]);
-        if (of_other > 0 && of_other != dimensions) {
-            gm_system_refuse(system, line->value.begin,
-                             "%zu coordinate%s, and those of the lines before are %zu", dimensions,
-                             gm_plural((double)dimensions), of_other);
-        }
+        gm_system_refuse_if(system, of_other > 0 && of_other != dimensions, line->value.begin,
+                            "%zu coordinate%s, and those of the lines before are %zu", dimensions,
+                            gm_plural((double)dimensions), of_other);
     }
 }
 
@@ -426,16 +393,13 @@ static void read_surface(struct gm_reading *reading, const struct gm_read_line *
     const struct gm_span word = take_piece(reading, &rest);
     const size_t shape = gm_span_among(reading->text, word, shapes);
     const bool sphere = shape == 0;
-    if (!shapes[shape]) {
-        gm_system_refuse(reading->system, word.begin, "a surface is a sphere or an ellipsoid: sphere; 1");
-    }
+    gm_system_refuse_if(reading->system, !shapes[shape], word.begin,
+                        "a surface is a sphere or an ellipsoid: sphere; 1");
     rest = gm_span_trimmed(reading->text, rest);
     gm_item_add_formulas(reading, item, rest);
-    if (item->count != (sphere ? 1 : 3)) {
-        gm_system_refuse(reading->system, rest.begin,
-                         sphere ? "a sphere has one radius: sphere; 1"
-                                : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
-    }
+    gm_system_refuse_if(reading->system, item->count != (sphere ? 1 : 3), rest.begin,
+                        sphere ? "a sphere has one radius: sphere; 1"
+                               : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
     while (item->count < 3) {
         gm_item_add(reading, item, item->nodes[0]);
     }
@@ -453,16 +417,13 @@ static void check_space(struct gm_reading *reading)
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_SURFACE && !in_space) {
-            gm_system_refuse(system, item->place, "a surface needs bodies in space: view: x, y, z");
-        }
-        for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
-            if (strcmp(item->name, keys[k]) == 0) {
-                gm_system_refuse(system, item->place, taken, keys[k]);
-            }
+        gm_system_refuse_if(system, item->word == GM_WORD_SURFACE && !in_space, item->place,
+                            "a surface needs bodies in space: view: x, y, z");
+        for (size_t k = 0; k < GM_COUNT(keys) && in_space; k++) {
+            gm_system_refuse_if(system, strcmp(item->name, keys[k]) == 0, item->place, taken, keys[k]);
         }
     }
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+    for (size_t k = 0; k < GM_COUNT(keys); k++) {
         const struct gm_entry *entry = gm_reading_entry(reading, keys[k], strlen(keys[k]), false, 0);
         if (entry && (in_space || entry->role == GM_ENTRY_CHOICE)) {
             gm_system_refuse(system, entry->place, taken, keys[k]);
@@ -481,10 +442,10 @@ static void read_angles(struct gm_reading *reading, const struct gm_read_line *l
             continue;
         }
         const struct gm_entry *entry = take_entry(reading, &rest);
-        if (entry->role != GM_ENTRY_COMPONENT ||
-            (system->kind != GM_RATES && entry->number >= system->n / 2)) {
-            gm_system_refuse(system, place, "an angle is one of the coordinates");
-        }
+        gm_system_refuse_if(system,
+                            entry->role != GM_ENTRY_COMPONENT ||
+                                (system->kind != GM_RATES && entry->number >= system->n / 2),
+                            place, "an angle is one of the coordinates");
         system->variables[entry->number].angle = true;
     }
 }
@@ -510,12 +471,12 @@ static void read_ring(struct gm_reading *reading, const struct gm_read_line *lin
     const size_t row = line->word - GM_WORD_HALF_LENGTH;
     struct gm_span rest = line->value;
     const double number = gm_reading_number(reading, take_piece(reading, &rest));
-    if (!(number >= ranges[row].low && number <= ranges[row].high) ||
-        (line->word == GM_WORD_POINTS && number != floor(number) &&
-         !gm_system_points_follow(reading->system))) {
-        gm_system_refuse(reading->system, line->value.begin, "%s is %g, and has to be %s", word_of(line),
-                         number, ranges[row].printed);
-    }
+    gm_system_refuse_if(reading->system,
+                        !(number >= ranges[row].low && number <= ranges[row].high) ||
+                            (line->word == GM_WORD_POINTS && number != floor(number) &&
+                             !gm_system_points_follow(reading->system)),
+                        line->value.begin, "%s is %g, and has to be %s", word_of(line), number,
+                        ranges[row].printed);
     read_weight(reading, line);
 }
 
@@ -540,17 +501,6 @@ static void read_text(struct gm_reading *reading, const struct gm_read_line *lin
     reading->system->texts[line->word] = gm_reading_text(reading, line->value);
 }
 
-static void read_star(struct gm_reading *reading, const struct gm_read_line *line)
-{
-    static const char *const words[] = {"auto",     "circumcentric", "barycentric",
-                                        "galerkin", "incentric",     NULL};
-    read_text(reading, line);
-    if (!words[gm_span_among(reading->text, line->value, words)]) {
-        gm_system_refuse(reading->system, line->value.begin,
-                         "star: is auto, circumcentric, barycentric, galerkin or incentric");
-    }
-}
-
 /* equation: NAME; left = right */
 static void read_equation(struct gm_reading *reading, const struct gm_read_line *line)
 {
@@ -560,17 +510,12 @@ static void read_equation(struct gm_reading *reading, const struct gm_read_line 
     const struct gm_entry *entry = gm_reading_named(reading, name);
     rest = gm_span_trimmed(reading->text, rest);
     const size_t equals = gm_span_until(reading->text, rest, "=");
-    if (!entry || entry->role != GM_ENTRY_COMPONENT || !system->forms[entry->number].unknown) {
-        gm_system_refuse(system, name.begin,
-                         "an equation begins with its unknown, as in equation: u; laplace(u) = 0");
-    }
+    gm_system_refuse_if(system,
+                        !entry || entry->role != GM_ENTRY_COMPONENT || !system->forms[entry->number].unknown,
+                        name.begin, "an equation begins with its unknown, as in equation: u; laplace(u) = 0");
     struct gm_form_declared *form = &system->forms[entry->number];
-    if (form->left != GM_NO_NODE) {
-        gm_system_refuse(system, name.begin, "%s has two equations", entry->name);
-    }
-    if (equals == rest.end) {
-        gm_system_refuse(system, rest.begin, "= was expected");
-    }
+    gm_system_refuse_if(system, form->left != GM_NO_NODE, name.begin, "%s has two equations", entry->name);
+    gm_system_refuse_if(system, equals == rest.end, rest.begin, "= was expected");
     form->left = gm_reading_formula(reading, (struct gm_span){rest.begin, equals});
     form->right = gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end});
 }
@@ -592,27 +537,32 @@ static void read_matrix(struct gm_reading *reading, const struct gm_read_line *l
                 system->matrices[at] = gm_reading_formula(reading, entry);
             }
         }
-        if (columns != n) {
-            gm_system_refuse(system, begin, "row %zu of %s has %zu entries for %zu components", rows + 1,
-                             word_of(line), columns, n);
-        }
+        gm_system_refuse_if(system, columns != n, begin, "row %zu of %s has %zu entries for %zu components",
+                            rows + 1, word_of(line), columns, n);
     }
-    if (rows != n) {
-        gm_system_refuse(system, line->value.begin, "%s has %zu rows for %zu components", word_of(line), rows,
-                         n);
-    }
+    gm_system_refuse_if(system, rows != n, line->value.begin, "%s has %zu rows for %zu components",
+                        word_of(line), rows, n);
 }
 
-/* Reads one of two words. */
-static void read_choice(struct gm_reading *reading, const struct gm_read_line *line, const char *one,
-                        const char *other)
+/* Reads one of a few words. */
+static void read_choice(struct gm_reading *reading, const struct gm_read_line *line)
 {
+    enum { MOST = 6 };
+    static const char *const words[GM_WORDS][MOST] = {
+        [GM_WORD_SPACE] = {"differences", "fourier"},
+        [GM_WORD_BOUNDARY] = {"ring", "walls"},
+        [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"}};
+    const char *const *among = words[line->word];
     read_text(reading, line);
-    const char *text = reading->system->texts[line->word];
-    if (strcmp(text, one) != 0 && strcmp(text, other) != 0) {
-        gm_system_refuse(reading->system, line->value.begin, "%s is %s or %s, not %.60s", word_of(line), one,
-                         other, text);
+    size_t k = 0;
+    while (among[k] && strcmp(among[k], reading->system->texts[line->word]) != 0) {
+        k++;
     }
+    const bool wrong = !among[k];
+    gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin,
+                        "star: is auto, circumcentric, barycentric, galerkin or incentric");
+    gm_system_refuse_if(reading->system, wrong, line->value.begin, "%s is %s or %s, not %.60s", word_of(line),
+                        among[0], among[1], reading->system->texts[line->word]);
 }
 
 /* Reads a graph for compiled kernels: `yes`, the graph of the file; N = 3 .. 5, for a parameter in an index;
@@ -631,15 +581,12 @@ static void read_compiled(struct gm_reading *reading, const struct gm_read_line 
     if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
         struct gm_written_choices tried = system->choices;
         const char *word = gm_reading_text(reading, value);
-        if (!gm_choices_take(&tried, entry->name, word)) {
-            gm_system_refuse(system, piece.begin, "compile: %s has no word %.60s", entry->name, word);
-        }
+        gm_system_refuse_if(system, !gm_choices_take(&tried, entry->name, word), piece.begin,
+                            "compile: %s has no word %.60s", entry->name, word);
         return;
     }
-    if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
-        gm_system_refuse(system, piece.begin,
-                         "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
-    }
+    gm_system_refuse_if(system, equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER,
+                        piece.begin, "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
     const size_t variable = system->parameters + entry->number;
     if (!gm_reading_bounds(reading, value, "graphs", &low, &high)) {
         const double number = gm_reading_number(reading, value);
@@ -679,11 +626,10 @@ static struct gm_span take_key(struct gm_reading *reading, struct gm_span *value
     const char *name = reading->text + target.name.begin;
     const size_t length = target.name.end - target.name.begin;
     *value = target.value;
-    if (target.index.begin < target.index.end || gm_reading_reserves(name, length) ||
-        gm_reading_named(reading, target.name)) {
-        gm_system_refuse(reading->system, target.name.begin, "the name %.*s is taken",
-                         gm_brief_length(length), name);
-    }
+    gm_system_refuse_if(reading->system,
+                        target.index.begin < target.index.end || gm_reading_reserves(name, length) ||
+                            gm_reading_named(reading, target.name),
+                        target.name.begin, "the name %.*s is taken", gm_brief_length(length), name);
     return target.name;
 }
 
@@ -695,18 +641,18 @@ static void read_timing(struct gm_reading *reading, const struct gm_read_line *l
     const struct gm_span key = counts || spreads ? take_key(reading, &value) : nameless;
     const double number = gm_reading_number(reading, value);
     const struct gm_written_range range = gm_reading_range(reading, rest);
-    if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
-        gm_system_refuse(reading->system, value.begin, "%s is %g, and has to be %s", word_of(line), number,
-                         line->word == GM_WORD_DT ? "above 0" : "0 or more");
-    }
-    if ((counts && (number < 1 || number != floor(number))) || ((counts || spreads) && number > 1e6)) {
-        gm_system_refuse(reading->system, value.begin, "%s is %g, and has to be a %s to 1e6", word_of(line),
-                         number, counts ? "whole number from 1" : "number from 0");
-    }
-    if (number < range.low || number > range.high) {
-        gm_system_refuse(reading->system, value.begin, "%s is %g, and its range is from %g to %g",
-                         word_of(line), number, range.low, range.high);
-    }
+    gm_system_refuse_if(reading->system,
+                        !(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0)),
+                        value.begin, "%s is %g, and has to be %s", word_of(line), number,
+                        line->word == GM_WORD_DT ? "above 0" : "0 or more");
+    gm_system_refuse_if(reading->system,
+                        (counts && (number < 1 || number != floor(number))) ||
+                            ((counts || spreads) && number > 1e6),
+                        value.begin, "%s is %g, and has to be a %s to 1e6", word_of(line), number,
+                        counts ? "whole number from 1" : "number from 0");
+    gm_system_refuse_if(reading->system, number < range.low || number > range.high, value.begin,
+                        "%s is %g, and its range is from %g to %g", word_of(line), number, range.low,
+                        range.high);
     reading->system->texts[line->word] = gm_reading_text(reading, value);
     struct gm_system_item *item = add_item(reading, line, key);
     add_formula(reading, item, value);
@@ -726,11 +672,11 @@ static void read_tie(struct gm_reading *reading, const struct gm_read_line *line
     const size_t times = product.begin + gm_name_length(text + product.begin, product.end - product.begin);
     const struct gm_span key = {product.begin, times};
     const struct gm_entry *entry = gm_reading_named(reading, key);
-    if (!gm_span_is(text, step, "dt") || times >= product.end || text[times] != '*' || !entry ||
-        entry->role != GM_ENTRY_PARAMETER) {
-        gm_system_refuse(reading->system, line->value.begin,
-                         "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
-    }
+    gm_system_refuse_if(reading->system,
+                        !gm_span_is(text, step, "dt") || times >= product.end || text[times] != '*' ||
+                            !entry || entry->role != GM_ENTRY_PARAMETER,
+                        line->value.begin,
+                        "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
     const size_t variable = reading->system->parameters + entry->number;
     struct gm_system_item *item = add_item(reading, line, key);
     item->variable = variable;
@@ -741,10 +687,8 @@ static void read_tie(struct gm_reading *reading, const struct gm_read_line *line
 static void read_version(struct gm_reading *reading, const struct gm_read_line *line)
 {
     const double number = gm_reading_number(reading, line->value);
-    if (number != 1) {
-        gm_system_refuse(reading->system, line->value.begin, "this program reads files of format 1, not %g",
-                         number);
-    }
+    gm_system_refuse_if(reading->system, number != 1, line->value.begin,
+                        "this program reads files of format 1, not %g", number);
 }
 
 /* mesh: a triangulation of forms, or X = F of a field */
@@ -759,14 +703,10 @@ static void read_shown_text(struct gm_reading *reading, const struct gm_read_lin
     read_text(reading, line);
     struct gm_system_item *item = add_item(reading, line, nameless);
     gm_text_read(reading, item, line->value);
-    if (line->word == GM_WORD_TITLE && item->count > 0 && !gm_reading_line(reading, GM_WORD_NAME)) {
-        gm_system_refuse(reading->system, line->place, "a title with values needs a line \"name\" for lists");
-    }
-}
-
-static void read_space(struct gm_reading *reading, const struct gm_read_line *line)
-{
-    read_choice(reading, line, "differences", "fourier");
+    gm_system_refuse_if(reading->system,
+                        line->word == GM_WORD_TITLE && item->count > 0 &&
+                            !gm_reading_line(reading, GM_WORD_NAME),
+                        line->place, "a title with values needs a line \"name\" for lists");
 }
 
 /* boundary: PART NAME = formula, of forms */
@@ -794,10 +734,9 @@ static void read_boundary(struct gm_reading *reading, const struct gm_read_line 
         read_held(reading, line);
         return;
     }
-    if (reading->system->texts[GM_WORD_BOUNDARY]) {
-        gm_system_refuse(reading->system, line->place, "boundary is given twice");
-    }
-    read_choice(reading, line, "ring", "walls");
+    gm_system_refuse_if(reading->system, reading->system->texts[GM_WORD_BOUNDARY], line->place,
+                        "boundary is given twice");
+    read_choice(reading, line);
 }
 
 static void read_jump(struct gm_reading *reading, const struct gm_read_line *line)
@@ -821,10 +760,8 @@ static void read_pair(struct gm_reading *reading, const struct gm_read_line *lin
 {
     struct gm_system_item *item = add_item(reading, line, nameless);
     gm_item_add_formulas(reading, item, line->value);
-    if (item->count != 2) {
-        gm_system_refuse(reading->system, line->value.begin, "%s: are two values, as in %s: -1, 1",
-                         word_of(line), word_of(line));
-    }
+    gm_system_refuse_if(reading->system, item->count != 2, line->value.begin,
+                        "%s: are two values, as in %s: -1, 1", word_of(line), word_of(line));
 }
 
 /* Names were read before. */
@@ -856,11 +793,9 @@ static void read_counted(struct gm_reading *reading, const struct gm_read_line *
         readers[line->word](reading, line);
         return;
     }
-    if (gm_reading_named(reading, counter)) {
-        gm_system_refuse(reading->system, counter.begin,
-                         "%.*s is a name of the system: an index is another one", gm_brief_length(name),
-                         reading->text + counter.begin);
-    }
+    gm_system_refuse_if(reading->system, gm_reading_named(reading, counter), counter.begin,
+                        "%.*s is a name of the system: an index is another one", gm_brief_length(name),
+                        reading->text + counter.begin);
     gm_reading_bounds(reading, bounds, "values of an index", &low, &high);
     const struct gm_read_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
     reading->counter = counter;
@@ -932,15 +867,13 @@ static void complete_forms(struct gm_user_system *system)
         form->start = variable->start != GM_NO_NODE ? variable->start : variable->exact;
         form->exact = variable->exact;
         variable->start = variable->exact = GM_NO_NODE;
-        if (form->unknown ? lacks_equation || !lacks_rate : lacks_rate) {
-            gm_system_refuse(system, form->place, "%s has no %s", variable->name,
-                             !form->unknown   ? "rate"
-                             : lacks_equation ? "equation"
-                                              : "rate: it is an unknown");
-        }
-        if (!form->unknown && form->start == GM_NO_NODE) {
-            gm_system_refuse(system, form->place, "%s has no value at the start", variable->name);
-        }
+        gm_system_refuse_if(system, form->unknown ? lacks_equation || !lacks_rate : lacks_rate, form->place,
+                            "%s has no %s", variable->name,
+                            !form->unknown   ? "rate"
+                            : lacks_equation ? "equation"
+                                             : "rate: it is an unknown");
+        gm_system_refuse_if(system, !form->unknown && form->start == GM_NO_NODE, form->place,
+                            "%s has no value at the start", variable->name);
     }
 }
 
@@ -974,10 +907,9 @@ static void complete(struct gm_reading *reading)
         const bool by_velocity =
             system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
             system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
-        if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
-            gm_system_refuse(system, start ? start->value.begin : reading->length,
-                             "%s has no value at the start", system->variables[i].name);
-        }
+        gm_system_refuse_if(system, system->variables[i].start == GM_NO_NODE && !by_velocity,
+                            start ? start->value.begin : reading->length, "%s has no value at the start",
+                            system->variables[i].name);
         if (system->variables[i].start != GM_NO_NODE && by_velocity) {
             gm_system_refuse(system, start->value.begin, "%s and its velocity are both given at the start",
                              system->variables[i].name);
@@ -989,9 +921,7 @@ static void read_system(struct gm_arena *arena, void *data)
 {
     struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
-    if (reading->length > GM_LARGEST_SYSTEM) {
-        gm_system_refuse(system, 0, "a system has at most 100 MB");
-    }
+    gm_system_refuse_if(system, reading->length > GM_LARGEST_SYSTEM, 0, "a system has at most 100 MB");
     system->source = gm_arena_take(arena, reading->length + 1, 1); /* it ends with a zero */
     system->length = reading->length;
     reading->text = memcpy(system->source, reading->text, reading->length);
@@ -1008,10 +938,8 @@ static void read_system(struct gm_arena *arena, void *data)
     system->rates = gm_system_no_nodes(system, n);
     if (system->kind == GM_POISSON) {
         const struct gm_read_line *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
-        if (n > MOST_OF_BRACKET) {
-            gm_system_refuse(system, components ? components->value.begin : 0,
-                             "a system with a bracket has at most %d components", MOST_OF_BRACKET);
-        }
+        gm_system_refuse_if(system, n > MOST_OF_BRACKET, components ? components->value.begin : 0,
+                            "a system with a bracket has at most %d components", MOST_OF_BRACKET);
         system->bracket = gm_system_no_nodes(system, n * n);
     }
     if (system->kind == GM_MATRICES) {

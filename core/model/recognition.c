@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/model/equations.h"
 
 enum { ONE = GM_EQUATION_CONSTANTS, MOST_TERMS = 6 };
@@ -109,7 +110,7 @@ bool gm_equation_recognise(struct gm_user_system *system, struct gm_recognised *
         const bool varies = i < system->n || (i > system->velocities && i < system->initial);
         zeros[i] = varies ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
     }
-    for (size_t i = 0; zeros && i < sizeof known_equations / sizeof *known_equations && !found->name; i++) {
+    for (size_t i = 0; zeros && i < GM_COUNT(known_equations) && !found->name; i++) {
         if (known_equations[i].fields == system->n && system->kind == GM_EVOLUTION &&
             !gm_system_item_of(system, GM_WORD_MASS, 0) &&
             is_equation(system, &known_equations[i], zeros, values)) {

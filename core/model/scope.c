@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 
@@ -134,7 +135,7 @@ bool gm_reading_reserves(const char *name, size_t length)
         "show",      "members",      "t",      "lane",     "meta",        "compensated", "binding", "tau0",
         "tolerance", "spread",       "scene",  "status",   "evaluations", "solves",      "seconds", "stopped",
         "shape",     "newmark_beta", "trails", "portrait", "window"};
-    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
+    for (size_t i = 0; i < GM_COUNT(reserved); i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;
         }
@@ -146,8 +147,7 @@ bool gm_reading_reserves(const char *name, size_t length)
 static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
 {
     static const char *const keys[] = {"half_length", "points", "space", "boundary"};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system) && !entry->read;
-         i++) {
+    for (size_t i = 0; i < GM_COUNT(keys) && gm_system_is_field(reading->system) && !entry->read; i++) {
         if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
             return true;
         }
@@ -183,18 +183,17 @@ static void grow(struct gm_reading *reading)
 
 void gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
 {
-    if (is_place(reading, &entry)) {
-        gm_system_refuse(reading->system, entry.place, "x is the place in a field: take another name");
-    }
+    gm_system_refuse_if(reading->system, is_place(reading, &entry), entry.place,
+                        "x is the place in a field: take another name");
     const size_t word = gm_line_word(&words, entry.name, (struct gm_span){0, entry.length});
     /* a choice between starts may be called so */
     const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START;
-    if (is_word || is_of_ring(reading, &entry) ||
-        (gm_system_is_form(reading->system) && operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
-        (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
-        gm_system_refuse(reading->system, entry.place, "the name %.*s" GM_RESERVED,
-                         gm_brief_length(entry.length), entry.name);
-    }
+    gm_system_refuse_if(reading->system,
+                        is_word || is_of_ring(reading, &entry) ||
+                            (gm_system_is_form(reading->system) &&
+                             operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
+                            (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length)),
+                        entry.place, "the name %.*s" GM_RESERVED, gm_brief_length(entry.length), entry.name);
     if (reading->entry_count == reading->entry_capacity) {
         grow(reading);
     }
@@ -284,29 +283,18 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         reading->wanted = (uint32_t)(entry - reading->entries);
         return GM_POSTPONED;
     }
-    switch (entry->role) {
-    case GM_ENTRY_NAMED:
-    case GM_ENTRY_OBSERVED:
+    const size_t first[] = {[GM_ENTRY_COMPONENT] =
+                                (name->initial ? system->initial : 0) + (name->exact ? system->exact : 0),
+                            [GM_ENTRY_VELOCITY] = system->velocities,
+                            [GM_ENTRY_PARAMETER] = system->parameters,
+                            [GM_ENTRY_TIME] = system->n};
+    if (entry->role >= GM_ENTRY_NAMED) {
         *node = entry->node;
-        break;
-    case GM_ENTRY_PARAMETER:
-        if (fixed) {
-            system->variables[system->parameters + entry->number].fixed |= name->fixed || reading->structural;
-            *node = entry->node;
-        } else {
-            *node = gm_formula_variable(&system->graph, system->parameters + entry->number);
-        }
-        break;
-    case GM_ENTRY_COMPONENT:
-        *node = gm_formula_variable(&system->graph, entry->number + (name->initial ? system->initial : 0) +
-                                                        (name->exact ? system->exact : 0));
-        break;
-    case GM_ENTRY_TIME:
-        *node = gm_formula_variable(&system->graph, system->n);
-        break;
-    default:
-        *node = gm_formula_variable(&system->graph, system->velocities + entry->number);
-        break;
+    } else if (entry->role == GM_ENTRY_PARAMETER && fixed) {
+        system->variables[system->parameters + entry->number].fixed |= name->fixed || reading->structural;
+        *node = entry->node;
+    } else {
+        *node = gm_formula_variable(&system->graph, first[entry->role] + entry->number);
     }
     return GM_KNOWN;
 }
@@ -405,9 +393,7 @@ static struct gm_scope scope_of(struct gm_reading *reading)
 static void need_postponed(const struct gm_reading *reading, const struct gm_fault *fault)
 {
     gm_system_need_graph(reading->system);
-    if (fault->sentence[0]) {
-        gm_system_refuse(reading->system, fault->offset, "%s", fault->sentence);
-    }
+    gm_system_refuse_if(reading->system, fault->sentence[0], fault->offset, "%s", fault->sentence);
 }
 
 /* Makes one attempt; GM_NO_NODE if another name must be read first. */
@@ -444,7 +430,7 @@ void gm_reading_check(struct gm_reading *reading, struct gm_definition *definiti
     }
 }
 
-/* Refuses a name that waits for another one in the stack, and with it for itself. */
+/* Refuses names of the stack that need each other in a circle. */
 static void refuse_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
 {
     size_t first = 0, used = 0;
@@ -543,19 +529,17 @@ static double read_whole(struct gm_reading *reading, struct gm_span span)
     reading->structural = true;
     const double number = gm_reading_number(reading, span);
     reading->structural = false;
-    if (number != floor(number)) {
-        gm_system_refuse(reading->system, span.begin, "an index has to be a whole number, not %g", number);
-    }
+    gm_system_refuse_if(reading->system, number != floor(number), span.begin,
+                        "an index has to be a whole number, not %g", number);
     return number;
 }
 
 long gm_reading_whole(struct gm_reading *reading, struct gm_span span)
 {
     const double number = read_whole(reading, span);
-    if (fabs(number) > GM_LARGEST_INDEX) {
-        gm_system_refuse(reading->system, span.begin, "an index lies between -%d and %d, and this is %g",
-                         GM_LARGEST_INDEX, GM_LARGEST_INDEX, number);
-    }
+    gm_system_refuse_if(reading->system, fabs(number) > GM_LARGEST_INDEX, span.begin,
+                        "an index lies between -%d and %d, and this is %g", GM_LARGEST_INDEX,
+                        GM_LARGEST_INDEX, number);
     return (long)number;
 }
 
@@ -574,14 +558,11 @@ struct gm_target gm_reading_target(struct gm_reading *reading, struct gm_span *r
     if (rest->begin < rest->end && reading->text[rest->begin] == '[') {
         const struct gm_span inside = {rest->begin + 1, rest->end};
         const size_t close = gm_span_until(reading->text, inside, "]");
-        if (close == rest->end) {
-            gm_system_refuse(reading->system, rest->begin, "this bracket is not closed");
-        }
+        gm_system_refuse_if(reading->system, close == rest->end, rest->begin, "this bracket is not closed");
         target.index = gm_reading_between(reading, inside.begin, close);
         rest->begin = close + 1;
-        if (target.index.begin == target.index.end) {
-            gm_system_refuse(reading->system, close, "an index was expected");
-        }
+        gm_system_refuse_if(reading->system, target.index.begin == target.index.end, close,
+                            "an index was expected");
     }
     return target;
 }
@@ -590,13 +571,11 @@ struct gm_target gm_reading_assignment(struct gm_reading *reading, struct gm_spa
 {
     struct gm_target target = gm_reading_target(reading, &span);
     span = gm_span_trimmed(reading->text, span);
-    if (span.begin == span.end || reading->text[span.begin] != '=') {
-        gm_system_refuse(reading->system, span.begin, "= was expected");
-    }
+    gm_system_refuse_if(reading->system, span.begin == span.end || reading->text[span.begin] != '=',
+                        span.begin, "= was expected");
     target.value = gm_reading_between(reading, span.begin + 1, span.end);
-    if (target.value.begin == target.value.end) {
-        gm_system_refuse(reading->system, span.begin + 1, "a formula was expected");
-    }
+    gm_system_refuse_if(reading->system, target.value.begin == target.value.end, span.begin + 1,
+                        "a formula was expected");
     return target;
 }
 
@@ -619,14 +598,11 @@ bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const ch
     }
     const struct gm_span first = {span.begin, dots}, last = gm_reading_between(reading, dots + 2, span.end);
     const double lowest = read_whole(reading, first), highest = read_whole(reading, last);
-    if (highest - lowest >= GM_MOST_COMPONENTS) {
-        gm_system_refuse(reading->system, span.begin, "%g .. %g are too many: there are at most %d %s",
-                         lowest, highest, GM_MOST_COMPONENTS, what);
-    }
-    if (highest < lowest - 1) {
-        gm_system_refuse(reading->system, span.begin, "%g .. %g runs downwards: the lower end comes first",
-                         lowest, highest);
-    }
+    gm_system_refuse_if(reading->system, highest - lowest >= GM_MOST_COMPONENTS, span.begin,
+                        "%g .. %g are too many: there are at most %d %s", lowest, highest, GM_MOST_COMPONENTS,
+                        what);
+    gm_system_refuse_if(reading->system, highest < lowest - 1, span.begin,
+                        "%g .. %g runs downwards: the lower end comes first", lowest, highest);
     *low = gm_reading_whole(reading, first);
     *high = gm_reading_whole(reading, last);
     return true;
@@ -644,9 +620,8 @@ struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_t
     }
     gm_node_id node;
     char sentence[GM_FAULT_SENTENCE] = "", word[64];
-    if (find(reading, &used, &node, sentence) == GM_REFUSED) {
-        gm_system_refuse(reading->system, target->name.begin, "%s", sentence);
-    }
+    gm_system_refuse_if(reading->system, find(reading, &used, &node, sentence) == GM_REFUSED,
+                        target->name.begin, "%s", sentence);
     snprintf(word, sizeof word, "%.*s", gm_brief_length(used.length), used.text);
     const char *near = gm_nearest(word, reading->entry_count, known, reading);
     gm_system_refuse(reading->system, target->name.begin, "there is no name %s%s%s", word,
@@ -672,10 +647,8 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
                      !is_same(reading, index, reading->counter) && !gm_reading_named(reading, index);
     const bool indexed = index.begin < index.end;
     long low = 0, high = 0;
-    if (all && !list_of(reading, name, length, &low, &high)) {
-        gm_system_refuse(reading->system, target->name.begin, "there is no list %.*s",
-                         gm_brief_length(length), name);
-    }
+    gm_system_refuse_if(reading->system, all && !list_of(reading, name, length, &low, &high),
+                        target->name.begin, "there is no list %.*s", gm_brief_length(length), name);
     if (!all) {
         low = high = indexed ? gm_reading_whole(reading, index) : 0;
     }
@@ -712,14 +685,10 @@ struct gm_written_range gm_reading_range(struct gm_reading *reading, struct gm_s
     if (ends.begin == ends.end) {
         return range;
     }
-    if (dots == ends.end) {
-        gm_system_refuse(reading->system, ends.begin, "a range was expected, low .. high");
-    }
+    gm_system_refuse_if(reading->system, dots == ends.end, ends.begin, "a range was expected, low .. high");
     range.low = gm_reading_number(reading, gm_reading_between(reading, ends.begin, dots));
     range.high = gm_reading_number(reading, gm_reading_between(reading, dots + 2, ends.end));
-    if (!(range.low <= range.high)) {
-        gm_system_refuse(reading->system, ends.begin, "a range's lower end comes first, and %g is above %g",
-                         range.low, range.high);
-    }
+    gm_system_refuse_if(reading->system, !(range.low <= range.high), ends.begin,
+                        "a range's lower end comes first, and %g is above %g", range.low, range.high);
     return range;
 }

@@ -144,4 +144,30 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
                                       const struct gm_target *target, gm_node_id node, void *data),
                          void *data);
 
+/* ---- core/model/options.c ---- */
+
+/* Adds a node, or the nodes of formulas separated by commas, to an item. */
+void gm_item_add(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node);
+void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
+/* Reads options, separated by semicolons, into the item of their line. */
+void gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
+/* Reads a text with {FORMULA}, {FORMULA:pi} and the like into an item. The formulas become its nodes, in
+   order; GM_NO_NODE stands for a key of the scene that the system does not define ({dt}, {schemes}). */
+void gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span);
+
+/* ---- core/model/declarations.c, in this order: each needs the earlier ones ---- */
+
+/* Finds the kind of the system, and checks that every line belongs to it. */
+void gm_declared_kind(struct gm_reading *reading);
+/* Finds the lets with arguments, which every formula may call. */
+void gm_declared_functions(struct gm_reading *reading);
+void gm_declared_parameters(struct gm_reading *reading);
+/* Declares components, velocities and the time; the variables then have the order of struct
+   gm_system_variable. */
+void gm_declared_state(struct gm_reading *reading);
+/* Reads the formulas of parameters in other parameters, after all have their numbers. */
+void gm_declared_relations(struct gm_reading *reading);
+/* Declares lets and observables, except elements of a list. */
+void gm_declared_lets(struct gm_reading *reading);
+
 #endif

@@ -15,15 +15,31 @@ void gm_system_close(struct gm_user_system *system)
     *system = (struct gm_user_system){0};
 }
 
-void gm_system_refuse(const struct gm_user_system *system, size_t place, const char *format, ...)
+static _Noreturn void refuse(const struct gm_user_system *system, size_t place, const char *format,
+                             va_list arguments)
 {
-    gm_system_need_graph(system); /* what a graph that failed says is no fault of the text */
-    va_list arguments;
-    va_start(arguments, format);
+    gm_system_need_graph(system); /* values of a graph that failed are not a fault of the text */
     vsnprintf(system->fault->sentence, sizeof system->fault->sentence, format, arguments);
-    va_end(arguments);
     system->fault->offset = place;
     gm_arena_leave(system->arena);
+}
+
+void gm_system_refuse(const struct gm_user_system *system, size_t place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    refuse(system, place, format, arguments);
+}
+
+void gm_system_refuse_if(const struct gm_user_system *system, bool wrong, size_t place, const char *format,
+                         ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
+        refuse(system, place, format, arguments);
+    }
+    va_end(arguments);
 }
 
 void gm_system_need_graph(const struct gm_user_system *system)

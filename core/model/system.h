@@ -174,11 +174,18 @@ struct gm_system_value {
     const char *name, *text;
 };
 
+/* Reads a system, without derived equations (gm_equations_open). False with a fault, whose sentence is empty
+   when out of memory. The caller closes the system in both cases. */
+bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
+                    const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 void gm_system_close(struct gm_user_system *system);
 
 /* Leaves the body of the system's arena with a fault at this place of the text. */
 __attribute__((format(printf, 3, 4))) _Noreturn void gm_system_refuse(const struct gm_user_system *system,
                                                                       size_t place, const char *format, ...);
+/* The same if something is wrong. */
+__attribute__((format(printf, 4, 5))) void
+gm_system_refuse_if(const struct gm_user_system *system, bool wrong, size_t place, const char *format, ...);
 /* Leaves it for lack of memory if the graph has failed. */
 void gm_system_need_graph(const struct gm_user_system *system);
 
