@@ -43,7 +43,7 @@ enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_t
     if (base->carry) { /* a scheme without compensation leaves it unchanged */
         memcpy(base->carry_out, base->carry, base->problem.n * base->problem.m * sizeof *y);
     }
-    gm_loop *advance = gm_scheme_loop(base->scheme, &base->problem);
+    gm_loop *advance = base->advance ? base->advance : gm_scheme_loop(base->scheme, &base->problem);
     const struct gm_progress made =
         advance ? advance(&step) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
     progress->evaluations += made.evaluations;

@@ -10,6 +10,7 @@ struct gm_base_scheme {
     const struct gm_scheme *scheme;
     struct gm_problem problem;
     void *workspace;
+    gm_loop *advance;    /* its loop, if the caller has found it for several steps; else NULL */
     const double *carry; /* the compensations of the sums, before and after the next step; NULL: plain */
     double *carry_out;
     int64_t steps_before; /* the step is not counted as the run's first if the run has made some */

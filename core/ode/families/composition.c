@@ -108,6 +108,10 @@ static struct gm_progress loop(const struct gm_task *task)
     const size_t bytes = task->problem->n * task->problem->m * sizeof(double);
     struct gm_progress progress = {.status = GM_OK};
     const double *y = task->y, *carry = task->carry;
+    for (int i = 0; i < substeps->count; i++) {
+        work->bases[i].steps_before = task->steps_before;
+        work->bases[i].advance = gm_scheme_loop(substeps->at[i].scheme, task->problem);
+    }
     for (; progress.done < task->steps; progress.done++) {
         for (int i = 0; i < substeps->count; i++) {
             struct gm_base_scheme *base = &work->bases[i];
@@ -115,7 +119,6 @@ static struct gm_progress loop(const struct gm_task *task)
             double *out = there ? work->state : task->out;
             base->carry = carry;
             base->carry_out = there ? work->carry : task->carry_out;
-            base->steps_before = task->steps_before;
             progress.status =
                 gm_base_step(base, task, substeps->at[i].fraction * task->dt, y, out, &progress);
             if (progress.status != GM_OK) {

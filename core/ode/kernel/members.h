@@ -51,12 +51,10 @@ void *gm_members_workspace(const struct gm_problem *problem, const struct gm_sch
 void gm_members_close(void *members);
 
 /* The fields of a struct gm_family that every such family has, with those of its struct gm_member_family. */
-#define GM_MEMBERS_OF_NO_ROWS(...)                                                                           \
+#define GM_MEMBERS_BY(family)                                                                                \
     .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = gm_members_close,    \
-    .members = &(const struct gm_member_family)                                                              \
-    {                                                                                                        \
-        __VA_ARGS__                                                                                          \
-    }
+    .members = family
+#define GM_MEMBERS_OF_NO_ROWS(...) GM_MEMBERS_BY((&(const struct gm_member_family){__VA_ARGS__}))
 /* The kind, and the rows of a list `schemes`. */
 #define GM_ROWS .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
 #define GM_MEMBERS(...) GM_ROWS, GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)

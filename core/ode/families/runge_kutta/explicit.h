@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit Runge-Kutta methods:
-       k_i = f(y0 + h sum_{j<i} a_ij k_j)
-       y1  = y0 + h sum_i b_i k_i
-   A scheme is one row of core/ode/families/runge_kutta/explicit.def. */
+/* The rows of explicit Runge-Kutta methods, from the list explicit.def. */
 #ifndef GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
 #define GM_CORE_ODE_FAMILIES_RUNGE_KUTTA_EXPLICIT_H
 

@@ -37,8 +37,5 @@ const struct gm_family gm_family_newmark = {
     .title = "variational Newmark",
     GM_ROWS,
     .parameters = gm_settings_of_newmark,
-    .loop = gm_members_loop,
-    .members = &gm_variational_members,
-    .workspace_open = gm_members_workspace,
-    .workspace_close = gm_members_close,
+    GM_MEMBERS_BY(&gm_variational_members),
 };
