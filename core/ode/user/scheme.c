@@ -451,27 +451,19 @@ static struct own *make_parts(const struct making *making, const struct gm_writt
 
 /* ---- compositions ---- */
 
-/* Steps of schemes, one after the other. */
-struct substeps {
-    int count;
-    struct {
-        const struct gm_scheme *scheme;
-        struct gm_written_number fraction;
-    } at[GM_MOST_SUBSTEPS];
-};
-
-/* The pieces of substeps that are all splittings into the same parts. */
-static struct own *flatten(const struct making *making, const struct substeps *substeps, size_t place)
+/* The pieces of steps that are all splittings into the same parts. */
+static struct own *flatten(const struct making *making, const struct named *steps,
+                           const struct gm_written_number *fractions, size_t place)
 {
     struct pieces pieces = {0};
     unsigned needs = 0;
-    for (int k = 0; k < substeps->count; k++) {
-        needs |= substeps->at[k].scheme->needs;
-        if (!add_pieces(making, &pieces, substeps->at[k].scheme, &substeps->at[k].fraction, false)) {
+    for (int k = 0; k < steps->count; k++) {
+        needs |= steps->at[k]->needs;
+        if (!add_pieces(making, &pieces, steps->at[k], &fractions[k], false)) {
             fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
         }
     }
-    return of_pieces(making, &pieces, needs, parts_of(substeps->at[0].scheme));
+    return of_pieces(making, &pieces, needs, parts_of(steps->at[0]));
 }
 
 /* True if the flows of two splittings are of the same parts, each by its exact flow. */
@@ -489,53 +481,52 @@ static bool splits_alike(const struct gm_scheme *a, const struct gm_scheme *b)
     return same;
 }
 
-/* Composes the exact coefficients of substeps. Does nothing if a substep has none, or they are too many. */
-static void open_exact(const struct making *making, struct gm_coefficients *exact,
-                       const struct substeps *substeps)
+/* Composes the exact coefficients of steps. Does nothing if one has none, or they are too many. */
+static void open_exact(const struct making *making, struct gm_coefficients *exact, const struct named *steps,
+                       const struct gm_written_number *fractions)
 {
-    const size_t count = (size_t)substeps->count;
+    const size_t count = (size_t)steps->count;
     struct gm_coefficients *parts = take_coefficients(making, count);
-    struct gm_ball *fractions = gm_arena_take(making->arena, count, sizeof *fractions);
+    struct gm_ball *balls = gm_arena_take(making->arena, count, sizeof *balls);
     int stages = 0;
     for (size_t k = 0; k < count; k++) {
-        const struct gm_scheme *scheme = substeps->at[k].scheme;
-        if (!has_coefficients(scheme)) {
+        if (!has_coefficients(steps->at[k])) {
             return;
         }
-        gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &parts[k]));
-        fractions[k] = substeps->at[k].fraction.ball;
+        gm_arena_need(making->arena, gm_scheme_coefficients_open(steps->at[k], &parts[k]));
+        balls[k] = fractions[k].ball;
         stages += parts[k].stages;
         if (stages > MOST_STAGES) {
             return;
         }
     }
-    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
+    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, balls, steps->count));
 }
 
-/* Makes a composition; faults are reported at `place`. */
-static struct own *compose(const struct making *making, const struct substeps *substeps, size_t place)
+/* Makes a composition of steps of schemes, one after the other, of these fractions; faults are reported at `place`. */
+static struct own *compose(const struct making *making, const struct named *steps,
+                           const struct gm_written_number *fractions, size_t place)
 {
     bool splittings = true, carrying = true;
     unsigned needs = 0;
-    for (int i = 0; i < substeps->count; i++) {
-        const struct gm_scheme *scheme = substeps->at[i].scheme;
-        splittings = splittings && splits_alike(substeps->at[0].scheme, scheme);
-        carrying = carrying && scheme->family->carries_passive;
-        needs |= scheme->needs;
+    for (int i = 0; i < steps->count; i++) {
+        splittings = splittings && splits_alike(steps->at[0], steps->at[i]);
+        carrying = carrying && steps->at[i]->family->carries_passive;
+        needs |= steps->at[i]->needs;
     }
     if (splittings) {
-        return flatten(making, substeps, place);
+        return flatten(making, steps, fractions, place);
     }
     struct own *self =
-        open_user(making, sizeof(struct gm_substeps) + (size_t)substeps->count * sizeof(struct gm_substep));
-    open_exact(making, &self->exact, substeps);
+        open_user(making, sizeof(struct gm_substeps) + (size_t)steps->count * sizeof(struct gm_substep));
+    open_exact(making, &self->exact, steps, fractions);
     struct gm_substeps *row = self->coefficients;
     self->row.family = carrying ? &gm_family_composition_carrying : &gm_family_composition;
     /* on an energy that splits, schemes for others are schemes that it has under another name */
     self->row.needs = needs & GM_NEEDS_SPLIT ? needs & ~(unsigned)GM_NEEDS_INSEPARABLE : needs;
-    row->count = substeps->count;
-    for (int i = 0; i < substeps->count; i++) {
-        row->at[i] = (struct gm_substep){substeps->at[i].scheme, substeps->at[i].fraction.value};
+    row->count = steps->count;
+    for (int i = 0; i < steps->count; i++) {
+        row->at[i] = (struct gm_substep){steps->at[i], fractions[i].value};
     }
     return self;
 }
@@ -793,13 +784,12 @@ static struct own *make_composition(const struct making *making, const struct gm
 {
     const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
     const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
-    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
-    for (int i = 0; i < steps->columns; i++) {
-        substeps->at[i].scheme = bases->at[i % bases->count];
-        substeps->at[i].fraction = steps->numbers[i];
+    const size_t count = (size_t)steps->columns;
+    struct named parts = {steps->columns, gm_arena_take(making->arena, count, sizeof(*parts.at))};
+    for (int i = 0; i < parts.count; i++) {
+        parts.at[i] = bases->at[i % bases->count];
     }
-    substeps->count = steps->columns;
-    return compose(making, substeps, written->lines[GM_SCHEME_WORD_BASE].value.begin);
+    return compose(making, &parts, steps->numbers, written->lines[GM_SCHEME_WORD_BASE].value.begin);
 }
 
 static struct own *make_processed(const struct making *making, const struct gm_written_scheme *written,
@@ -808,17 +798,13 @@ static struct own *make_processed(const struct making *making, const struct gm_w
     const struct gm_scheme *kernel = schemes[GM_SCHEME_WORD_KERNEL].at[0],
                            *processor = schemes[GM_SCHEME_WORD_PROCESSOR].at[0];
     struct own *adjoint = adjoint_of(making, processor, written->lines[GM_SCHEME_WORD_PROCESSOR].value.begin);
-    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
-    const struct gm_scheme *const parts[] = {&adjoint->row, kernel, processor};
+    const struct gm_scheme *parts[] = {&adjoint->row, kernel, processor};
+    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)},
+                                   back = {.value = -1, .ball = gm_ball_of(-1)},
+                                   fractions[] = {back, one, one};
     adjoint->row.name = processor->name;
-    for (int i = 0; i < 3; i++) {
-        const double fraction = i == 0 ? -1 : 1;
-        substeps->at[i].scheme = parts[i];
-        substeps->at[i].fraction =
-            (struct gm_written_number){.value = fraction, .ball = gm_ball_of(fraction)};
-    }
-    substeps->count = 3;
-    return compose(making, substeps, written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
+    return compose(making, &(struct named){3, parts}, fractions,
+                   written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
 }
 
 /* The name in a piece of the line, of those that are held before it. */
