@@ -41,20 +41,15 @@ struct own {
     struct gm_arena *arena; /* the opened scheme's: owns all its parts */
 };
 
-/* Coefficients, each with one decimal moved, which the scheme takes over. */
-struct moved {
-    struct gm_coefficients *at;
-    int count;
-};
-
 /* The body of an arena, which a fault leaves; the sentence is empty when out of memory. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
     struct gm_arena *arena;
     int depth;
-    struct moved *moved; /* the whole scheme's; or NULL */
-    struct own *made;    /* the whole scheme */
+    struct gm_coefficients
+        *moved;       /* its copies, each with one decimal moved, go to the whole scheme; or NULL */
+    struct own *made; /* the whole scheme */
 };
 
 /* The schemes that a line names. */
@@ -1040,9 +1035,9 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     const struct gm_decimals *decimals = making->source->decimals;
     const bool tried = decimals && (decimals->instead || decimals->alone);
     if (making->depth == 1 && making->moved && row->exact) {
-        self->exact.moved = making->moved->at;
-        self->exact.moved_count = making->moved->count;
-        *making->moved = (struct moved){0};
+        self->exact.moved = making->moved->moved;
+        self->exact.moved_count = making->moved->moved_count;
+        *making->moved = (struct gm_coefficients){0};
     }
     if (making->depth == 1 && !making->source->part && !tried && row->exact) {
         check_weights(making, written, row->exact);
@@ -1084,8 +1079,7 @@ static struct own *make_adjoint(const struct making *making, const struct gm_wri
                       written->lines[GM_SCHEME_WORD_BASE].value.begin);
 }
 
-static struct own *make_written(const struct making *making, const struct gm_written_scheme *written,
-                                const char *name, const char *title)
+static struct own *make(const struct making *outer, struct gm_span span, const char *name, const char *title)
 {
     static struct own *(*const makers[GM_WRITTEN_KINDS])(
         const struct making *, const struct gm_written_scheme *, const struct named *) = {
@@ -1106,27 +1100,21 @@ static struct own *make_written(const struct making *making, const struct gm_wri
     };
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
+    struct making making = *outer;
     struct named schemes[GM_SCHEME_WORDS] = {{0}};
+    if (++making.depth > DEEPEST) {
+        fail(outer, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
+    }
+    struct gm_written_scheme *written = gm_arena_take(making.arena, 1, sizeof *written);
+    gm_arena_keep(making.arena, written, close_written);
+    gm_arena_need(making.arena, gm_written_open(written, making.source->text, span.begin, span.end,
+                                                making.source->decimals, making.fault));
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
-        schemes[of_schemes[i]] = schemes_of(making, written, of_schemes[i]);
+        schemes[of_schemes[i]] = schemes_of(&making, written, of_schemes[i]);
     }
-    struct own *own = makers[written->kind](making, written, schemes);
-    finish(making, written, own, name, title, schemes);
+    struct own *own = makers[written->kind](&making, written, schemes);
+    finish(&making, written, own, name, title, schemes);
     return own;
-}
-
-static struct own *make(const struct making *making, struct gm_span span, const char *name, const char *title)
-{
-    const struct gm_user_scheme_source *source = making->source;
-    struct making inner = *making;
-    if (++inner.depth > DEEPEST) {
-        fail(making, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
-    }
-    struct gm_written_scheme *written = gm_arena_take(making->arena, 1, sizeof *written);
-    gm_arena_keep(making->arena, written, close_written);
-    gm_arena_need(making->arena, gm_written_open(written, source->text, span.begin, span.end,
-                                                 source->decimals, making->fault));
-    return make_written(&inner, written, name, title);
 }
 
 static void make_whole(struct gm_arena *arena, void *data)
@@ -1138,7 +1126,7 @@ static void make_whole(struct gm_arena *arena, void *data)
 }
 
 /* `moved` may be NULL. */
-static struct own *open_source(const struct gm_user_scheme_source *source, struct moved *moved,
+static struct own *open_source(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
                                struct gm_fault *fault)
 {
     struct making making = {.source = source, .fault = fault, .arena = gm_arena_open(), .moved = moved};
@@ -1152,7 +1140,7 @@ static struct own *open_source(const struct gm_user_scheme_source *source, struc
 
 /* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
    nothing if there are too many. False with a fault. */
-static bool open_moved(const struct gm_user_scheme_source *source, struct moved *moved,
+static bool open_moved(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
                        struct gm_fault *fault)
 {
     enum { MOST = 1000 }; /* decimals times stages */
@@ -1162,16 +1150,12 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
     decimals.alone = true;
     struct own *self = open_source(&tried, NULL, fault);
     const size_t all = decimals.count;
-    const bool asked = self && self->exact.stages > 0 && all > 0 && all * (size_t)self->exact.stages <= MOST;
+    const size_t asked = self && self->exact.stages > 0 && all * (size_t)self->exact.stages <= MOST ? all : 0;
+    struct gm_ball *x = malloc((asked + 1) * sizeof *x);
+    moved->moved = asked ? calloc(asked, sizeof *moved->moved) : NULL;
+    bool good = self && x && (moved->moved || !asked);
     close_user(self);
-    if (!asked) {
-        free(decimals.at);
-        return self != NULL;
-    }
-    struct gm_ball *x = malloc(all * sizeof *x);
-    moved->at = calloc(all, sizeof *moved->at);
-    bool good = x && moved->at;
-    for (size_t k = 0; good && k < all; k++) {
+    for (size_t k = 0; good && k < asked; k++) {
         for (size_t i = 0; i < all; i++) {
             x[i] = decimals.at[i].ball;
             x[i].radius = 0;
@@ -1179,8 +1163,8 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
         x[k] = gm_ball_add(x[k], gm_ball_of(decimals.at[k].ball.radius));
         decimals.instead = x;
         struct own *other = open_source(&tried, NULL, fault);
-        good = other && gm_coefficients_copy(&moved->at[k], &other->exact);
-        moved->count += good;
+        good = other && gm_coefficients_copy(&moved->moved[k], &other->exact);
+        moved->moved_count += good;
         close_user(other);
     }
     free(x);
@@ -1191,12 +1175,9 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault)
 {
-    struct moved moved = {0};
+    struct gm_coefficients moved = {0};
     const bool good = source->decimals || open_moved(source, &moved, fault);
     struct own *self = good ? open_source(source, &moved, fault) : NULL;
-    for (int k = 0; k < moved.count; k++) {
-        gm_coefficients_close(&moved.at[k]);
-    }
-    free(moved.at);
+    gm_coefficients_close(&moved);
     return self ? &self->row : NULL;
 }
