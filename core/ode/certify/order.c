@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_fit.h>
 
 #include "core/certify.h"
 #include "core/ode/certify/measure.h"
@@ -83,11 +82,19 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
     return error;
 }
 
-static double slope(const double *x, const double *y, size_t count)
+/* the slope by least squares */
+static double slope(const double *x, const double *y, int count)
 {
-    double at_0, slope, variances[3], squares;
-    gsl_fit_linear(x, 1, y, 1, count, &at_0, &slope, &variances[0], &variances[1], &variances[2], &squares);
-    return slope;
+    double mean_x = 0, mean_y = 0, above = 0, below = 0;
+    for (int i = 0; i < count; i++) {
+        mean_x += x[i] / count;
+        mean_y += y[i] / count;
+    }
+    for (int i = 0; i < count; i++) {
+        above += (x[i] - mean_x) * (y[i] - mean_y);
+        below += (x[i] - mean_x) * (x[i] - mean_x);
+    }
+    return above / below;
 }
 
 /* Returns the slope against the tolerance or, for a scheme with an order, against the mean step. */

@@ -42,16 +42,6 @@ void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t 
     }
 }
 
-void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m)
-{
-    const struct gm_tape *tape = gm_late_tape(late);
-    if (tape && m == 1) {
-        gm_tape_values(tape, inputs, outputs, m);
-    } else {
-        gm_late_tape_block(late, inputs, m, outputs, m, m);
-    }
-}
-
 void gm_late_tape_close(void *late)
 {
     close_tape(atomic_load(&((struct gm_late_tape *)late)->tape));

@@ -20,10 +20,21 @@ struct gm_late_tape {
 
 /* Returns the tape, which the first thread makes. NULL: out of memory. */
 const struct gm_tape *gm_late_tape(struct gm_late_tape *late);
-/* The counterparts of gm_tape_values and gm_tape_block; NaN when out of memory. */
-void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m);
+/* The counterparts of gm_tape_block and gm_tape_values; NaN when out of memory. */
 void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t inputs_apart, double *outputs,
                         size_t outputs_apart, size_t m);
+static inline void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs,
+                                       size_t m)
+{
+    const struct gm_tape *tape = atomic_load_explicit(&late->tape, memory_order_acquire);
+    tape = tape ? tape : gm_late_tape(late);
+    if (tape && m == 1) {
+        gm_tape_values(tape, inputs, outputs, m);
+    } else {
+        gm_late_tape_block(late, inputs, m, outputs, m, m);
+    }
+}
+
 void gm_late_tape_close(void *late); /* for arenas */
 
 #endif

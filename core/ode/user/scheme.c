@@ -39,20 +39,15 @@ struct own {
     struct gm_arena *arena; /* the opened scheme's: owns all its parts */
 };
 
-/* Coefficients, each with one decimal moved, which the scheme takes over. */
-struct moved {
-    struct gm_coefficients *at;
-    int count;
-};
-
 /* The body of an arena, which a fault leaves; the sentence is empty when out of memory. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
     struct gm_arena *arena;
     int depth;
-    struct moved *moved; /* the whole scheme's; or NULL */
-    struct own *made;    /* the whole scheme */
+    struct gm_coefficients
+        *moved;       /* its copies, each with one decimal moved, go to the whole scheme; or NULL */
+    struct own *made; /* the whole scheme */
 };
 
 /* The schemes that a line names. */
@@ -448,27 +443,19 @@ static struct own *make_parts(const struct making *making, const struct gm_writt
 
 /* ---- compositions ---- */
 
-/* Steps of schemes, one after the other. */
-struct substeps {
-    int count;
-    struct {
-        const struct gm_scheme *scheme;
-        struct gm_written_number fraction;
-    } at[GM_MOST_SUBSTEPS];
-};
-
-/* The pieces of substeps that are all splittings into the same parts. */
-static struct own *flatten(const struct making *making, const struct substeps *substeps, size_t place)
+/* The pieces of steps that are all splittings into the same parts. */
+static struct own *flatten(const struct making *making, const struct named *steps,
+                           const struct gm_written_number *fractions, size_t place)
 {
     struct pieces pieces = {0};
     unsigned needs = 0;
-    for (int k = 0; k < substeps->count; k++) {
-        needs |= substeps->at[k].scheme->needs;
-        if (!add_pieces(making, &pieces, substeps->at[k].scheme, &substeps->at[k].fraction, false)) {
+    for (int k = 0; k < steps->count; k++) {
+        needs |= steps->at[k]->needs;
+        if (!add_pieces(making, &pieces, steps->at[k], &fractions[k], false)) {
             fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
         }
     }
-    return of_pieces(making, &pieces, needs, parts_of(substeps->at[0].scheme));
+    return of_pieces(making, &pieces, needs, parts_of(steps->at[0]));
 }
 
 /* True if the flows of two splittings are of the same parts, each by its exact flow. */
@@ -486,53 +473,52 @@ static bool splits_alike(const struct gm_scheme *a, const struct gm_scheme *b)
     return same;
 }
 
-/* Composes the exact coefficients of substeps. Does nothing if a substep has none, or they are too many. */
-static void open_exact(const struct making *making, struct gm_coefficients *exact,
-                       const struct substeps *substeps)
+/* Composes the exact coefficients of steps. Does nothing if one has none, or they are too many. */
+static void open_exact(const struct making *making, struct gm_coefficients *exact, const struct named *steps,
+                       const struct gm_written_number *fractions)
 {
-    const size_t count = (size_t)substeps->count;
+    const size_t count = (size_t)steps->count;
     struct gm_coefficients *parts = take_coefficients(making, count);
-    struct gm_ball *fractions = gm_arena_take(making->arena, count, sizeof *fractions);
+    struct gm_ball *balls = gm_arena_take(making->arena, count, sizeof *balls);
     int stages = 0;
     for (size_t k = 0; k < count; k++) {
-        const struct gm_scheme *scheme = substeps->at[k].scheme;
-        if (!has_coefficients(scheme)) {
+        if (!has_coefficients(steps->at[k])) {
             return;
         }
-        gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, &parts[k]));
-        fractions[k] = substeps->at[k].fraction.ball;
+        gm_arena_need(making->arena, gm_scheme_coefficients_open(steps->at[k], &parts[k]));
+        balls[k] = fractions[k].ball;
         stages += parts[k].stages;
         if (stages > MOST_STAGES) {
             return;
         }
     }
-    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, fractions, substeps->count));
+    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, balls, steps->count));
 }
 
-/* Makes a composition; faults are reported at `place`. */
-static struct own *compose(const struct making *making, const struct substeps *substeps, size_t place)
+/* Makes a composition of steps of schemes, one after the other, of these fractions; faults are reported at `place`. */
+static struct own *compose(const struct making *making, const struct named *steps,
+                           const struct gm_written_number *fractions, size_t place)
 {
     bool splittings = true, carrying = true;
     unsigned needs = 0;
-    for (int i = 0; i < substeps->count; i++) {
-        const struct gm_scheme *scheme = substeps->at[i].scheme;
-        splittings = splittings && splits_alike(substeps->at[0].scheme, scheme);
-        carrying = carrying && scheme->family->carries_passive;
-        needs |= scheme->needs;
+    for (int i = 0; i < steps->count; i++) {
+        splittings = splittings && splits_alike(steps->at[0], steps->at[i]);
+        carrying = carrying && steps->at[i]->family->carries_passive;
+        needs |= steps->at[i]->needs;
     }
     if (splittings) {
-        return flatten(making, substeps, place);
+        return flatten(making, steps, fractions, place);
     }
     struct own *self =
-        open_user(making, sizeof(struct gm_substeps) + (size_t)substeps->count * sizeof(struct gm_substep));
-    open_exact(making, &self->exact, substeps);
+        open_user(making, sizeof(struct gm_substeps) + (size_t)steps->count * sizeof(struct gm_substep));
+    open_exact(making, &self->exact, steps, fractions);
     struct gm_substeps *row = self->coefficients;
     self->row.family = carrying ? &gm_family_composition_carrying : &gm_family_composition;
     /* on an energy that splits, schemes for others are schemes that it has under another name */
     self->row.needs = needs & GM_NEEDS_SPLIT ? needs & ~(unsigned)GM_NEEDS_INSEPARABLE : needs;
-    row->count = substeps->count;
-    for (int i = 0; i < substeps->count; i++) {
-        row->at[i] = (struct gm_substep){substeps->at[i].scheme, substeps->at[i].fraction.value};
+    row->count = steps->count;
+    for (int i = 0; i < steps->count; i++) {
+        row->at[i] = (struct gm_substep){steps->at[i], fractions[i].value};
     }
     return self;
 }
@@ -790,13 +776,12 @@ static struct own *make_composition(const struct making *making, const struct gm
 {
     const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
     const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
-    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
-    for (int i = 0; i < steps->columns; i++) {
-        substeps->at[i].scheme = bases->at[i % bases->count];
-        substeps->at[i].fraction = steps->numbers[i];
+    const size_t count = (size_t)steps->columns;
+    struct named parts = {steps->columns, gm_arena_take(making->arena, count, sizeof(*parts.at))};
+    for (int i = 0; i < parts.count; i++) {
+        parts.at[i] = bases->at[i % bases->count];
     }
-    substeps->count = steps->columns;
-    return compose(making, substeps, written->lines[GM_SCHEME_WORD_BASE].value.begin);
+    return compose(making, &parts, steps->numbers, written->lines[GM_SCHEME_WORD_BASE].value.begin);
 }
 
 static struct own *make_processed(const struct making *making, const struct gm_written_scheme *written,
@@ -805,17 +790,13 @@ static struct own *make_processed(const struct making *making, const struct gm_w
     const struct gm_scheme *kernel = schemes[GM_SCHEME_WORD_KERNEL].at[0],
                            *processor = schemes[GM_SCHEME_WORD_PROCESSOR].at[0];
     struct own *adjoint = adjoint_of(making, processor, written->lines[GM_SCHEME_WORD_PROCESSOR].value.begin);
-    struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
-    const struct gm_scheme *const parts[] = {&adjoint->row, kernel, processor};
+    const struct gm_scheme *parts[] = {&adjoint->row, kernel, processor};
+    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)},
+                                   back = {.value = -1, .ball = gm_ball_of(-1)},
+                                   fractions[] = {back, one, one};
     adjoint->row.name = processor->name;
-    for (int i = 0; i < 3; i++) {
-        const double fraction = i == 0 ? -1 : 1;
-        substeps->at[i].scheme = parts[i];
-        substeps->at[i].fraction =
-            (struct gm_written_number){.value = fraction, .ball = gm_ball_of(fraction)};
-    }
-    substeps->count = 3;
-    return compose(making, substeps, written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
+    return compose(making, &(struct named){3, parts}, fractions,
+                   written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
 }
 
 /* The name in a piece of the line, of those that are held before it. */
@@ -1051,9 +1032,9 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     const struct gm_decimals *decimals = making->source->decimals;
     const bool tried = decimals && (decimals->instead || decimals->alone);
     if (making->depth == 1 && making->moved && row->exact) {
-        self->exact.moved = making->moved->at;
-        self->exact.moved_count = making->moved->count;
-        *making->moved = (struct moved){0};
+        self->exact.moved = making->moved->moved;
+        self->exact.moved_count = making->moved->moved_count;
+        *making->moved = (struct gm_coefficients){0};
     }
     if (making->depth == 1 && !making->source->part && !tried && row->exact) {
         check_weights(making, written, row->exact);
@@ -1095,8 +1076,7 @@ static struct own *make_adjoint(const struct making *making, const struct gm_wri
                       written->lines[GM_SCHEME_WORD_BASE].value.begin);
 }
 
-static struct own *make_written(const struct making *making, const struct gm_written_scheme *written,
-                                const char *name, const char *title)
+static struct own *make(const struct making *outer, struct gm_span span, const char *name, const char *title)
 {
     static struct own *(*const makers[GM_WRITTEN_KINDS])(
         const struct making *, const struct gm_written_scheme *, const struct named *) = {
@@ -1117,27 +1097,21 @@ static struct own *make_written(const struct making *making, const struct gm_wri
     };
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
+    struct making making = *outer;
     struct named schemes[GM_SCHEME_WORDS] = {{0}};
+    if (++making.depth > DEEPEST) {
+        fail(outer, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
+    }
+    struct gm_written_scheme *written = gm_arena_take(making.arena, 1, sizeof *written);
+    gm_arena_keep(making.arena, written, close_written);
+    gm_arena_need(making.arena, gm_written_open(written, making.source->text, span.begin, span.end,
+                                                making.source->decimals, making.fault));
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
-        schemes[of_schemes[i]] = schemes_of(making, written, of_schemes[i]);
+        schemes[of_schemes[i]] = schemes_of(&making, written, of_schemes[i]);
     }
-    struct own *own = makers[written->kind](making, written, schemes);
-    finish(making, written, own, name, title, schemes);
+    struct own *own = makers[written->kind](&making, written, schemes);
+    finish(&making, written, own, name, title, schemes);
     return own;
-}
-
-static struct own *make(const struct making *making, struct gm_span span, const char *name, const char *title)
-{
-    const struct gm_user_scheme_source *source = making->source;
-    struct making inner = *making;
-    if (++inner.depth > DEEPEST) {
-        fail(making, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
-    }
-    struct gm_written_scheme *written = gm_arena_take(making->arena, 1, sizeof *written);
-    gm_arena_keep(making->arena, written, close_written);
-    gm_arena_need(making->arena, gm_written_open(written, source->text, span.begin, span.end,
-                                                 source->decimals, making->fault));
-    return make_written(&inner, written, name, title);
 }
 
 static void make_whole(struct gm_arena *arena, void *data)
@@ -1149,7 +1123,7 @@ static void make_whole(struct gm_arena *arena, void *data)
 }
 
 /* `moved` may be NULL. */
-static struct own *open_source(const struct gm_user_scheme_source *source, struct moved *moved,
+static struct own *open_source(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
                                struct gm_fault *fault)
 {
     struct making making = {.source = source, .fault = fault, .arena = gm_arena_open(), .moved = moved};
@@ -1163,7 +1137,7 @@ static struct own *open_source(const struct gm_user_scheme_source *source, struc
 
 /* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
    nothing if there are too many. False with a fault. */
-static bool open_moved(const struct gm_user_scheme_source *source, struct moved *moved,
+static bool open_moved(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
                        struct gm_fault *fault)
 {
     enum { MOST = 1000 }; /* decimals times stages */
@@ -1173,16 +1147,12 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
     decimals.alone = true;
     struct own *self = open_source(&tried, NULL, fault);
     const size_t all = decimals.count;
-    const bool asked = self && self->exact.stages > 0 && all > 0 && all * (size_t)self->exact.stages <= MOST;
+    const size_t asked = self && self->exact.stages > 0 && all * (size_t)self->exact.stages <= MOST ? all : 0;
+    struct gm_ball *x = malloc((asked + 1) * sizeof *x);
+    moved->moved = asked ? calloc(asked, sizeof *moved->moved) : NULL;
+    bool good = self && x && (moved->moved || !asked);
     close_user(self);
-    if (!asked) {
-        free(decimals.at);
-        return self != NULL;
-    }
-    struct gm_ball *x = malloc(all * sizeof *x);
-    moved->at = calloc(all, sizeof *moved->at);
-    bool good = x && moved->at;
-    for (size_t k = 0; good && k < all; k++) {
+    for (size_t k = 0; good && k < asked; k++) {
         for (size_t i = 0; i < all; i++) {
             x[i] = decimals.at[i].ball;
             x[i].radius = 0;
@@ -1190,8 +1160,8 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
         x[k] = gm_ball_add(x[k], gm_ball_of(decimals.at[k].ball.radius));
         decimals.instead = x;
         struct own *other = open_source(&tried, NULL, fault);
-        good = other && gm_coefficients_copy(&moved->at[k], &other->exact);
-        moved->count += good;
+        good = other && gm_coefficients_copy(&moved->moved[k], &other->exact);
+        moved->moved_count += good;
         close_user(other);
     }
     free(x);
@@ -1202,12 +1172,9 @@ static bool open_moved(const struct gm_user_scheme_source *source, struct moved 
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault)
 {
-    struct moved moved = {0};
+    struct gm_coefficients moved = {0};
     const bool good = source->decimals || open_moved(source, &moved, fault);
     struct own *self = good ? open_source(source, &moved, fault) : NULL;
-    for (int k = 0; k < moved.count; k++) {
-        gm_coefficients_close(&moved.at[k]);
-    }
-    free(moved.at);
+    gm_coefficients_close(&moved);
     return self ? &self->row : NULL;
 }
