@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/ode/families/base_scheme.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "core/kind.h"
@@ -27,19 +26,18 @@ void gm_base_reset(const struct gm_base_scheme *base)
 enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_task *task, double h,
                             const double *y, double *out, struct gm_progress *progress)
 {
-    const struct gm_task step = {.problem = &base->problem,
-                                 .scheme = base->scheme,
-                                 .dt = h,
-                                 .steps = 1,
-                                 .steps_before = base->steps_before,
-                                 .limit = task->limit,
-                                 .y = y,
-                                 .out = out,
-                                 .carry = base->carry,
-                                 .carry_out = base->carry_out,
-                                 .until = INFINITY,
-                                 .workspace = base->workspace,
-                                 .settings = task->settings};
+    struct gm_task step = *task; /* fewer instructions than to set what is not used */
+    step.problem = &base->problem;
+    step.scheme = base->scheme;
+    step.dt = h;
+    step.steps = 1;
+    step.steps_before = base->steps_before;
+    step.y = y;
+    step.out = out;
+    step.carry = base->carry;
+    step.carry_out = base->carry_out;
+    step.memory = step.memory_out = NULL;
+    step.workspace = base->workspace;
     if (base->carry) { /* a scheme without compensation leaves it unchanged */
         memcpy(base->carry_out, base->carry, base->problem.n * base->problem.m * sizeof *y);
     }

@@ -16,8 +16,8 @@
 
 #include "core/expression/lines.h"
 #include "core/files/generated.h"
-#include "core/scheme.h"
 #include "core/model/written_scheme.h"
+#include "core/scheme.h"
 
 static void put_numbers(FILE *out, const struct gm_written_number *numbers, int count)
 {

@@ -193,9 +193,8 @@ static void put_layout(FILE *out)
         const char *type;
         size_t size;
     } layout[] = {
-        GM_LAID_OUT(gm_task),    GM_LAID_OUT(gm_problem),       GM_LAID_OUT(gm_progress),
-        GM_LAID_OUT(gm_scheme),  GM_LAID_OUT(gm_ode),           GM_LAID_OUT(gm_loops),
-        GM_LAID_OUT(gm_tableau), GM_LAID_OUT(gm_splitting),
+        GM_LAID_OUT(gm_task), GM_LAID_OUT(gm_problem), GM_LAID_OUT(gm_progress), GM_LAID_OUT(gm_scheme),
+        GM_LAID_OUT(gm_ode),  GM_LAID_OUT(gm_loops),   GM_LAID_OUT(gm_tableau),  GM_LAID_OUT(gm_splitting),
     };
 #undef GM_LAID_OUT
     for (size_t i = 0; i < GM_COUNT(layout); i++) {

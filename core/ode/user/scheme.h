@@ -3,8 +3,8 @@
 #ifndef GM_CORE_ODE_USER_SCHEME_H
 #define GM_CORE_ODE_USER_SCHEME_H
 
-#include "core/scheme.h"
 #include "core/model/written_scheme.h"
+#include "core/scheme.h"
 
 struct gm_user_scheme_source {
     const char *text; /* a word, or the content of a file */
