@@ -112,11 +112,13 @@ static void find_forces(struct gm_mesh_solver *solver, const struct layout *of, 
     }
 }
 
-static bool residual(struct gm_mesh_solver *solver, const double *unknowns, double *out)
+/* It is compiled for each number of stages, which unrolls its inner loops. */
+static inline __attribute__((always_inline)) bool residual_of(struct gm_mesh_solver *solver, size_t stages,
+                                                              const double *unknowns, double *out)
 {
     const struct layout of = layout_of(solver);
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
-    const size_t points = solver->mesh.points, stages = solver->stages, per_node = solver->per_node;
+    const size_t points = solver->mesh.points, per_node = solver->per_node;
     const size_t acting = of.slack > 0 ? stages - 1 : stages; /* the last column of abar is zero then */
     const double h = solver->h, *state = solver->state, *momenta = solver->momenta;
     if (of.slack > 0) {
@@ -182,6 +184,18 @@ static bool residual(struct gm_mesh_solver *solver, const double *unknowns, doub
         }
     }
     return true;
+}
+
+static bool residual(struct gm_mesh_solver *solver, const double *unknowns, double *out)
+{
+    switch (solver->stages) {
+    case 1:
+        return residual_of(solver, 1, unknowns, out);
+    case 2:
+        return residual_of(solver, 2, unknowns, out);
+    default:
+        return residual_of(solver, GM_STAGES, unknowns, out);
+    }
 }
 
 /* Derivatives of z and zdot at the stages by an unknown of one stage: dy/dt and dX/dt move places by h a_im, and X
