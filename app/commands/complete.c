@@ -14,6 +14,7 @@
 #include "app/output/say.h"
 #include "app/words/names.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/aliases.h"
 #include "core/basics.h"

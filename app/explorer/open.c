@@ -13,6 +13,7 @@
 #include "app/explorer/view/view.h"
 #include "app/grid/grid.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"

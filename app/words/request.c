@@ -12,6 +12,7 @@
 #include "app/words/names.h"
 #include "app/words/scheme.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
 #include "core/memory.h"

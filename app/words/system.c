@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes of systems and rooms, from files and from formulas. */
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas that are typed become lines of a system's file. */
-#include "app/words/system.h"
+#include "app/words/typed_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -11,6 +11,7 @@
 
 #include "app/words/request.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/basics.h"
 #include "core/run.h"
