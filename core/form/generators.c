@@ -70,7 +70,7 @@ bool gm_rectangle_is_acute(const struct gm_rectangle *r)
     return h > a / 2 * (1 + 1e-9) && h < a * (1 - 1e-9);
 }
 
-enum { MOST = 1000000 }; /* edges or strips: more make no mesh that a machine holds */
+enum { MOST_STRIPS = 1000000 }; /* edges or strips: more make no mesh that a machine holds */
 
 /* The height of a strip in edges. */
 static const double best_ratio = 0.758;
@@ -78,14 +78,14 @@ static const double best_ratio = 0.758;
 long gm_rectangle_edges(const struct gm_rectangle *r)
 {
     const double along = r->transposed ? r->height : r->width;
-    return (long)fmin(fmax(4, round(best_ratio * along / strip_height(r))), MOST);
+    return (long)fmin(fmax(4, round(best_ratio * along / strip_height(r))), MOST_STRIPS);
 }
 
 long gm_rectangle_strips(double width, double height, long edges, bool transposed)
 {
     const double along = transposed ? height : width, across = transposed ? width : height;
     const double strips = across / (best_ratio * along / (double)edges);
-    return 2 * (long)fmin(fmax(1, round(strips / 2)), MOST);
+    return 2 * (long)fmin(fmax(1, round(strips / 2)), MOST_STRIPS);
 }
 
 /* c such that the wall triangle's apex and the corner beside it are equally wide. */

@@ -31,33 +31,19 @@ struct exponential {
     } * terms;
 };
 
-static const struct term euler_terms[] = {{1, WHOLE, 0, 0}, {1, WHOLE + 1, 0, 1}, {0}};
+static const struct term euler_terms[] = {{1, WHOLE, 0, 0}, {1, WHOLE + 1, 0, 1}, {.factor = 0}};
 static const struct term lawson_terms[] = {
     {1, HALF, 0, 0},      {0.5, HALF, 0, 1},    {1, HALF, 1, 0},      {0.5, UNIT, 1, 2},
     {1, WHOLE, 2, 0},     {1, HALF, 2, 3},      {1, WHOLE, 3, 0},     {1. / 6, WHOLE, 3, 1},
-    {1. / 3, HALF, 3, 2}, {1. / 3, HALF, 3, 3}, {1. / 6, UNIT, 3, 4}, {0},
+    {1. / 3, HALF, 3, 2}, {1. / 3, HALF, 3, 3}, {1. / 6, UNIT, 3, 4}, {.factor = 0},
 };
 /* psi (E - 1) = phi_1(h L) - phi_1(h L/2), as E phi_1(h L/2) = 2 phi_1(h L) - phi_1(h L/2) */
 static const struct term etd_terms[] = {
-    {1, HALF, 0, 0},
-    {0.5, HALF + 1, 0, 1},
-    {1, HALF, 1, 0},
-    {0.5, HALF + 1, 1, 2},
-    {1, WHOLE, 2, 0},
-    {1, WHOLE + 1, 2, 1},
-    {-1, HALF + 1, 2, 1},
-    {1, HALF + 1, 2, 3},
-    {1, WHOLE, 3, 0},
-    {1, WHOLE + 1, 3, 1},
-    {-3, WHOLE + 2, 3, 1},
-    {4, WHOLE + 3, 3, 1},
-    {2, WHOLE + 2, 3, 2},
-    {-4, WHOLE + 3, 3, 2},
-    {2, WHOLE + 2, 3, 3},
-    {-4, WHOLE + 3, 3, 3},
-    {-1, WHOLE + 2, 3, 4},
-    {4, WHOLE + 3, 3, 4},
-    {0},
+    {1, HALF, 0, 0},       {0.5, HALF + 1, 0, 1}, {1, HALF, 1, 0},       {0.5, HALF + 1, 1, 2},
+    {1, WHOLE, 2, 0},      {1, WHOLE + 1, 2, 1},  {-1, HALF + 1, 2, 1},  {1, HALF + 1, 2, 3},
+    {1, WHOLE, 3, 0},      {1, WHOLE + 1, 3, 1},  {-3, WHOLE + 2, 3, 1}, {4, WHOLE + 3, 3, 1},
+    {2, WHOLE + 2, 3, 2},  {-4, WHOLE + 3, 3, 2}, {2, WHOLE + 2, 3, 3},  {-4, WHOLE + 3, 3, 3},
+    {-1, WHOLE + 2, 3, 4}, {4, WHOLE + 3, 3, 4},  {.factor = 0},
 };
 
 /* to += factor from, for `size` numbers */

@@ -4,9 +4,9 @@
 #define GM_CORE_ODE_USER_DATA_H
 
 #include "core/ode/kernel/loops.h"
+#include "core/ode/user/formulas.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/lazy_tape.h"
-#include "core/ode/user/model.h"
 
 /* The formulas of a problem, behind those of its kernels. */
 enum gm_user_formula {
