@@ -97,6 +97,14 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
     return whole;
 }
 
+bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data)
+{
+    struct gm_arena *arena = gm_arena_open();
+    const bool whole = gm_arena_run(arena, body, data);
+    gm_arena_close(arena);
+    return whole;
+}
+
 const char *gm_arena_reason(const struct gm_arena *arena)
 {
     return arena ? arena->reason : no_memory;
@@ -114,6 +122,18 @@ void gm_arena_refuse(struct gm_arena *arena, const char *format, ...)
     vsnprintf(arena->reason, sizeof arena->reason, format, arguments);
     va_end(arguments);
     gm_arena_leave(arena);
+}
+
+void gm_arena_refuse_if(struct gm_arena *arena, bool wrong, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
+        vsnprintf(arena->reason, sizeof arena->reason, format, arguments);
+        va_end(arguments);
+        gm_arena_leave(arena);
+    }
+    va_end(arguments);
 }
 
 void gm_arena_check(struct gm_arena *arena, bool done, const char *message)

@@ -21,6 +21,8 @@ void gm_arena_close(struct gm_arena *arena);
 /* Calls the body. Returns false if it was left: all that it took or kept is closed, and gm_arena_reason
    has the reason. A NULL arena means out of memory. */
 bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, void *data), void *data);
+/* The same in an arena that is closed afterwards. */
+bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data);
 /* The sentence with which the last body was left: "not enough memory", or from gm_arena_refuse. */
 const char *gm_arena_reason(const struct gm_arena *arena);
 
@@ -46,6 +48,9 @@ void gm_arena_release(struct gm_arena *arena, size_t mark);
 void gm_arena_need(struct gm_arena *arena, bool there);
 /* Leaves the body, with this message, if something could not be done. */
 void gm_arena_check(struct gm_arena *arena, bool done, const char *message);
+/* Leaves the body, with a message, if that is so. */
+__attribute__((format(printf, 3, 4))) void gm_arena_refuse_if(struct gm_arena *arena, bool wrong,
+                                                              const char *format, ...);
 /* Leave the body, with a message, or with a reason in the body's data. */
 __attribute__((format(printf, 2, 3))) _Noreturn void gm_arena_refuse(struct gm_arena *arena,
                                                                      const char *format, ...);

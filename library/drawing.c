@@ -9,7 +9,6 @@
 #include "app/output/printer.h"
 #include "core/memory.h"
 #include "library/handle.h"
-#include "library/host.h"
 #include "render/cells/text.h"
 #include "render/pixels/canvas.h"
 
@@ -56,11 +55,13 @@ static bool print(struct drawing *drawing, char *message)
     return gm_still_write(&print, &drawing->handle->request, drawing->lanes, message);
 }
 
-static void draw(void *data)
+/* The body of a thread, where no OpenGL context of the host is current: so none is replaced. */
+static void *draw(void *data)
 {
     struct drawing *drawing = data;
     geomint *handle = drawing->handle;
     char message[GM_MESSAGE] = "";
+    uselocale(gm_library_locale);
     if (gm_handle_follow(handle)) {
         for (size_t i = 0; i < handle->request.count; i++) {
             drawing->lanes[i] = handle->drawn[i].lane;
@@ -74,6 +75,7 @@ static void draw(void *data)
     } else if (gm_memory_refusals() > 0) { /* of this thread, which gm_call_end does not see */
         gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
     }
+    return NULL;
 }
 
 /* Returns true if the sizes of a picture are in range, otherwise false with a message. */
@@ -101,11 +103,13 @@ static int draw_alone(struct drawing *drawing)
     geomint *handle = drawing->handle;
     const struct gm_call call = gm_call_begin(handle);
     const size_t count = geomint_lanes(handle);
+    pthread_t thread;
     if (gm_handle_has(handle, 0) && check(handle, &drawing->look)) {
         drawing->lanes = calloc(count, sizeof *drawing->lanes);
         pthread_mutex_lock(&turn);
         gm_memory_forget(); /* a shortage that is over spoils no picture */
-        if (!(drawing->lanes && gm_host_spare(draw, drawing))) {
+        if (!drawing->lanes || pthread_create(&thread, NULL, draw, drawing) != 0 ||
+            pthread_join(thread, NULL) != 0) {
             gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
         }
         pthread_mutex_unlock(&turn);

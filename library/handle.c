@@ -13,7 +13,17 @@
 #include "core/arena.h"
 #include "core/memory.h"
 #include "core/schemes.h"
-#include "library/host.h"
+
+locale_t gm_library_locale;
+
+/* When the library is loaded. It is never freed: a thread may be in it while the host ends. */
+__attribute__((constructor)) static void make_locale(void)
+{
+    gm_library_locale = newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0);
+    if (!gm_library_locale) {
+        gm_library_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    }
+}
 
 const char *geomint_version(void)
 {
@@ -48,7 +58,7 @@ struct gm_call gm_call_begin(geomint *handle)
         handle->status = GEOMINT_OK;
         handle->message[0] = '\0';
     }
-    return (struct gm_call){handle, gm_host_leave_outside(), gm_memory_refusals()};
+    return (struct gm_call){handle, uselocale(gm_library_locale), gm_memory_refusals()};
 }
 
 bool gm_handle_refuse(geomint *handle, int status, const char *sentence)
@@ -68,7 +78,7 @@ int gm_call_end(const struct gm_call *call)
     if (gm_memory_refusals() != call->refusals) {
         gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
     }
-    gm_host_return(call->outside);
+    uselocale(call->outside);
     return geomint_status(handle);
 }
 

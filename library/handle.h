@@ -32,6 +32,10 @@ struct geomint {
     char message[GM_MESSAGE];
 };
 
+/* The locale of the library's calls and threads, in which numbers have a point and texts are UTF-8, whatever the
+   host's is; 0: there was no memory for it, and the host's stays. */
+extern locale_t gm_library_locale;
+
 /* Begin and end a call of the host. The call starts with the status GEOMINT_OK; a refusal of memory during it
    becomes its status. All functions accept a NULL handle, which has no lanes; its status stays. */
 struct gm_call {

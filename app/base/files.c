@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "core/expression/reader.h"
 #include "core/memory.h"
 #include "render/files/regular_file.h"
@@ -150,4 +151,61 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
         each_of_folder(kind, find_folder(kind, which, folder), each, data);
     }
     return gm_files_folder_opens(kind, message);
+}
+
+/* ---- the place of a fault in a text ---- */
+
+void gm_place_report(const char *path, const char *text, const struct gm_fault *fault, char *message)
+{
+    size_t line, column, other, behind;
+    char first[48] = "";
+    gm_text_place(text, fault->offset, &line, &column);
+    if (fault->earlier > 0) {
+        gm_text_place(text, fault->earlier, &other, &behind);
+        snprintf(first, sizeof first, ", first in line %zu", other);
+    }
+    gm_refuse(message, "%.150s:%zu:%zu: %.250s%s", path, line, column, fault->sentence, first);
+}
+
+void gm_place_show(const char *text, size_t length, size_t offset, char *message)
+{
+    enum { BEFORE = 60, WIDTH = 100 };
+    size_t begin = offset;
+    while (begin > 0 && text[begin - 1] != '\n' && offset - begin < BEFORE) {
+        begin--;
+    }
+    while (begin < offset && ((unsigned char)text[begin] & 0xc0) == 0x80) {
+        begin++;
+    }
+    char line[WIDTH + 1];
+    int shown = 0, columns = 0;
+    for (size_t i = begin; i < length && text[i] != '\n' && i - begin < WIDTH; i++) {
+        const unsigned char byte = (unsigned char)text[i];
+        if ((byte & 0xc0) != 0x80) {
+            line[shown++] = (char)(byte == '\t' ? ' ' : byte < ' ' || byte > '~' ? '?' : byte);
+            columns += i < offset;
+        }
+    }
+    gm_append(message, GM_MESSAGE, "\n    %.*s\n    %*s^", shown, line, columns, "");
+}
+
+/* ---- pages that the program completes ---- */
+
+const char *gm_page_text(const char *name)
+{
+    return gm_built_in_find(GM_FILE_PAGE, name)->text;
+}
+
+bool gm_page_next(FILE *page, const char **text, char slot[GM_PAGE_SLOT])
+{
+    const char *open = strstr(*text, "{{"), *close = open ? strstr(open, "}}") : NULL;
+    if (!close) {
+        fputs(*text, page);
+        return false;
+    }
+    fwrite(*text, 1, (size_t)(open - *text), page);
+    snprintf(slot, GM_PAGE_SLOT, "%.*s", (int)(close - open) - 2, open + 2);
+    const bool alone = open[-1] == '\n' && close[2] == '\n'; /* a page does not begin with a slot */
+    *text = close + (alone ? 3 : 2);
+    return true;
 }

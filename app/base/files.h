@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "core/files/files.h"
 
@@ -37,6 +38,13 @@ bool gm_files_each(enum gm_file_kind kind, void (*each)(const struct gm_listed *
                    const void *data, char *message);
 /* Returns true if the environment names no folder or one that can be opened; else false with the sentence. */
 bool gm_files_folder_opens(enum gm_file_kind kind, char *message);
+
+enum { GM_PAGE_SLOT = 16 };
+/* A page of the program, in which {{SLOT}} stands for what is written there: it stands alone in its line, which it
+   replaces, or among words. Its text; and this writes the text up to the next slot and sets the slot's name
+   and the text after it, or returns false after the last one. */
+const char *gm_page_text(const char *name);
+bool gm_page_next(FILE *page, const char **text, char slot[GM_PAGE_SLOT]);
 
 /* The place of a fault in some words. */
 struct gm_word_place {

@@ -215,12 +215,10 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     }
     gm_arena_keep(options->arena, request, gm_request_close);
     const bool recalled = gm_request_recall(request, texts[ARGUMENTS], message);
-    if (!recalled && gm_request_refusal(request) == GM_EXIT_USAGE) {
-        gm_command_end(options, GM_EXIT_FILE,
-                       "%s cannot be redrawn from the words of an earlier version, \"%.300s\"; "
-                       "render them without the refused one: %s",
-                       options->arguments.words[0], texts[ARGUMENTS], message);
-    }
+    gm_command_end_if(options, !recalled && gm_request_refusal(request) == GM_EXIT_USAGE, GM_EXIT_FILE,
+                      "%s cannot be redrawn from the words of an earlier version, \"%.300s\"; "
+                      "render them without the refused one: %s",
+                      options->arguments.words[0], texts[ARGUMENTS], message);
     if (!recalled) {
         refuse(options, message);
     }
@@ -251,29 +249,25 @@ int gm_command_again(const struct gm_options *options)
         return gm_give_up(GM_EXIT_USAGE, "again makes one picture as it was made; \"%.60s\" is too much",
                           options->arguments.words[1]);
     }
-    if (options->arguments.count == 0) {
-        return gm_give_up(GM_EXIT_USAGE, "again which picture? A PNG or SVG file that geomint made");
-    }
+    gm_command_end_if(options, options->arguments.count == 0, GM_EXIT_USAGE,
+                      "again which picture? A PNG or SVG file that geomint made");
     char message[GM_MESSAGE], *texts[TEXTS];
     const char *path = options->arguments.words[0];
     enum gm_format format = GM_FORMAT_PNG;
     const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
-    if (format == GM_FORMAT_PDF) {
-        return gm_give_up(
-            GM_EXIT_FILE,
-            "again reads PNG and SVG files; a PDF, such as %.300s, does not record how it was made", path);
-    }
-    if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, format == GM_FORMAT_PDF, GM_EXIT_FILE,
+                      "again reads PNG and SVG files; a PDF, such as %.300s, does not record how it was made",
+                      path);
+    gm_command_end_if(options,
+                      !(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message),
+                      GM_EXIT_FILE, "%s", message);
     for (size_t i = 0; i < TEXTS; i++) {
         if (texts[i]) {
             gm_arena_keep(options->arena, texts[i], free);
         }
     }
-    if (!drawn && !take_painter(options, texts[PAINTER], message)) {
-        gm_command_end(options, GM_EXIT_USAGE, "%.300s cannot be reproduced: %s", path, message);
-    }
+    gm_command_end_if(options, !drawn && !take_painter(options, texts[PAINTER], message), GM_EXIT_USAGE,
+                      "%.300s cannot be reproduced: %s", path, message);
     recall_system(options, texts);
     return texts[COMMAND] ? chart_again(options, texts[COMMAND]) : picture_again(options, texts);
 }

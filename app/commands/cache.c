@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint cache: the loops that were compiled, listed and removed. */
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,9 +17,7 @@ int gm_command_cache(const struct gm_options *options)
     if (options->arguments.count > 0) {
         return gm_give_up(GM_EXIT_USAGE, "cache takes no word: \"%.60s\"", options->arguments.words[0]);
     }
-    if (!gm_cache_folder(folder, message)) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !gm_cache_folder(folder, message), GM_EXIT_FILE, "%s", message);
     if (options->clear) {
         size_t removed;
         const bool all = gm_cache_clear(folder, &removed, message);

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/output/say.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
 #include "core/arena.h"
@@ -38,6 +37,19 @@ void gm_command_end(const struct gm_options *options, int status, const char *fo
     va_end(arguments);
     *options->end = status;
     gm_arena_refuse(options->arena, "%s", sentence);
+}
+
+void gm_command_end_if(const struct gm_options *options, bool wrong, int status, const char *format, ...)
+{
+    char sentence[GM_MESSAGE];
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) { /* else what it quotes may not be written */
+        vsnprintf(sentence, sizeof sentence, format, arguments);
+        va_end(arguments);
+        gm_command_end(options, status, "%s", sentence);
+    }
+    va_end(arguments);
 }
 
 /* ---- long runs ---- */

@@ -71,6 +71,9 @@ struct gm_option {
 };
 extern const struct gm_option gm_option_rows[];
 extern const size_t gm_option_count;
+/* The row of this command for an option, with or without its =VALUE, or else one of the same name that other
+   commands have, or NULL. */
+const struct gm_option *gm_option_find(const char *word, enum gm_command command);
 /* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
 const char *gm_option_name(const char *word);
 
@@ -88,6 +91,10 @@ struct gm_command_row {
 /* Ends the command with an exit status and a sentence on standard error. */
 __attribute__((format(printf, 3, 4))) _Noreturn void gm_command_end(const struct gm_options *options,
                                                                     int status, const char *format, ...);
+
+/* The same if that is so. */
+__attribute__((format(printf, 4, 5))) void gm_command_end_if(const struct gm_options *options, bool wrong,
+                                                             int status, const char *format, ...);
 
 extern const struct gm_command_row gm_commands[]; /* the first is the explorer */
 extern const size_t gm_command_count;

@@ -131,6 +131,25 @@ static void offer_named(const struct stem *stem, const char *names)
 static void offer_values(const struct gm_option *option, const struct stem *stem,
                          const struct gm_scene *scene)
 {
+    static const struct {
+        const char *option, *value, *help;
+        unsigned commands;
+    } rows[] = {
+        {"--judge", "bounded", "what is conserved stays within a factor of two", ~0U},
+        {"--judge", "accurate", "the error is at most 0.1", ~0U},
+        {"--judge", "accurate=1e-2", "or an error of yours", ~0U},
+        {"--engine", "auto", "compiled if that is faster", ~0U},
+        {"--engine", "interpreted", "at once, everywhere", ~0U},
+        {"--engine", "native", "compiled first", ~0U},
+        {"--theme", "light", "for paper", ~0U},
+        {"--theme", "dark", "for a screen", ~0U},
+        {"--theme", "mono", "without colours", GM_TUI},
+    };
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        if (strcmp(option->name, rows[i].option) == 0 && option->commands & rows[i].commands) {
+            offer(stem, rows[i].value, rows[i].help);
+        }
+    }
     if (strcmp(option->name, "--measure") == 0) {
         const char *comma = option->commands & (GM_SWEEP | GM_RUN) ? strrchr(stem->begin, ',') : NULL;
         struct stem last = *stem;
@@ -143,24 +162,10 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
         offer_schemes(stem, NULL);
-    } else if (strcmp(option->name, "--judge") == 0) {
-        offer(stem, "bounded", "what is conserved stays within a factor of two");
-        offer(stem, "accurate", "the error is at most 0.1");
-        offer(stem, "accurate=1e-2", "or an error of yours");
     } else if (strcmp(option->name, "--on") == 0) {
         offer_scenes(stem);
     } else if (strcmp(option->name, "--format") == 0) {
         offer_named(stem, option->value);
-    } else if (strcmp(option->name, "--engine") == 0) {
-        offer(stem, "auto", "compiled if that is faster");
-        offer(stem, "interpreted", "at once, everywhere");
-        offer(stem, "native", "compiled first");
-    } else if (strcmp(option->name, "--theme") == 0) {
-        offer(stem, "light", "for paper");
-        offer(stem, "dark", "for a screen");
-        if (option->commands & GM_TUI) {
-            offer(stem, "mono", "without colours");
-        }
     } else if (strcmp(option->name, "--graphics") == 0 || strcmp(option->name, "--colours") == 0) {
         offer_named(stem, option->help);
     }
@@ -243,16 +248,8 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
 
 static const struct gm_option *option_of(const struct gm_command_row *command, const char *word)
 {
-    word = gm_option_name(word);
-    const size_t length = strcspn(word, "=");
-    for (size_t i = 0; i < gm_option_count; i++) {
-        const struct gm_option *option = &gm_option_rows[i];
-        if ((option->commands & command->bit) && strlen(option->name) == length &&
-            strncmp(option->name, word, length) == 0) {
-            return option;
-        }
-    }
-    return NULL;
+    const struct gm_option *option = gm_option_find(gm_option_name(word), command->bit);
+    return option && option->commands & command->bit ? option : NULL;
 }
 
 static void offer_options(const struct gm_command_row *command, const char *word,

@@ -111,25 +111,16 @@ static void plan_user_figures(struct series *series, const struct gm_arguments *
             continue;
         }
         const struct gm_scene *scene = own_scene(words->words[i], &status, message);
-        if (!scene) {
-            gm_command_end(series->options, status, "%s", message);
-        }
+        gm_command_end_if(series->options, !scene, status, "%s", message);
         for (int k = 0; k < i; k++) {
-            if (series->user[k].name && strcmp(series->user[k].name, scene->name) == 0) {
-                gm_command_end(series->options, GM_EXIT_USAGE,
-                               "the pictures of %.200s and %.200s would have one name", words->words[k],
-                               words->words[i]);
-            }
+            gm_command_end_if(series->options,
+                              series->user[k].name && strcmp(series->user[k].name, scene->name) == 0,
+                              GM_EXIT_USAGE, "the pictures of %.200s and %.200s would have one name",
+                              words->words[k], words->words[i]);
         }
         series->user[i] = (struct gm_figure){.name = scene->name, .statement = scene->title, .arguments = ""};
         gm_figure_plan(&series->jobs[series->count++], scene, &series->user[i], false);
     }
-}
-
-static void unmap_outcomes(void *data)
-{
-    struct series *series = data;
-    munmap(series->outcomes, series->most * sizeof *series->outcomes);
 }
 
 static struct series *open_series(const struct gm_options *options)
@@ -151,10 +142,8 @@ static struct series *open_series(const struct gm_options *options)
     }
     series->outcomes = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (series->outcomes == MAP_FAILED) {
-        gm_command_end(options, GM_EXIT_FILE, "not enough memory");
-    }
-    gm_arena_keep(options->arena, series, unmap_outcomes);
+    gm_command_end_if(options, series->outcomes == MAP_FAILED, GM_EXIT_FILE, "not enough memory");
+
     for (size_t s = 0; s < gm_scene_count(); s++) {
         const struct gm_scene *scene = gm_scene_at(s);
         for (size_t f = 0; f < scene->figure_count; f++) {
@@ -275,10 +264,13 @@ static void print_text(const struct gm_figure_job *job, const struct gm_outcome 
 
 static void print_outcome(const struct series *series, size_t i)
 {
-    if (series->options->json) {
-        print_json(&series->jobs[i], &series->outcomes[i]);
-    } else {
-        print_text(&series->jobs[i], &series->outcomes[i]);
+    (series->options->json ? print_json : print_text)(&series->jobs[i], &series->outcomes[i]);
+}
+
+static void clear_progress(const struct series *series)
+{
+    if (series->progress) {
+        fputs("\r\033[K", stderr);
     }
 }
 
@@ -286,12 +278,9 @@ static void print_outcome(const struct series *series, size_t i)
 static void print_finished(struct series *series)
 {
     while (series->printed < series->count && series->outcomes[series->printed].progress >= GM_MADE) {
-        if (series->progress) {
-            fputs("\r\033[K", stderr);
-        }
-        print_outcome(series, series->printed);
+        clear_progress(series);
+        print_outcome(series, series->printed++);
         fflush(stdout);
-        series->printed++;
     }
 }
 
@@ -299,11 +288,10 @@ static bool write_page(struct series *series, int *status)
 {
     char message[GM_MESSAGE];
     series->page_written = gm_clock_seconds();
-    if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
-        *status = gm_give_up(GM_EXIT_FILE, "%s", message);
-        return false;
-    }
-    return true;
+    const bool written =
+        gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message);
+    *status = written ? *status : gm_give_up(GM_EXIT_FILE, "%s", message);
+    return written;
 }
 
 /* The result of a worker that has ended; it is composed here if the worker was killed or crashed. */
@@ -323,9 +311,7 @@ static void take_end(struct series *series, size_t job, int end)
         outcome->verdict_count = 0;
     }
     if (outcome->progress == GM_NOT_MADE && !gm_interrupted) {
-        if (series->progress) {
-            fputs("\r\033[K", stderr);
-        }
+        clear_progress(series);
         gm_complain("%s was not made: %s", series->jobs[job].figure->name, outcome->message);
     }
 }
@@ -358,34 +344,23 @@ static void start(struct series *series, struct worker *worker)
 /* Waits until a worker ends, and passes interruptions on. Returns false when all are idle. */
 static bool wait_for_one(struct series *series)
 {
-    bool any = false;
-    for (size_t i = 0; i < series->worker_count; i++) {
-        any |= series->workers[i].process != 0;
-    }
-    for (bool told = false; any;) {
+    int end = 0;
+    pid_t process;
+    for (bool told = false; (process = waitpid(-1, &end, WNOHANG)) == 0; told |= gm_interrupted) {
         for (size_t i = 0; i < series->worker_count && gm_interrupted && !told; i++) {
             if (series->workers[i].process) {
                 kill(series->workers[i].process, SIGTERM);
             }
         }
-        told |= gm_interrupted;
-        int end = 0;
-        const pid_t process = waitpid(-1, &end, WNOHANG);
-        for (size_t i = 0; i < series->worker_count; i++) {
-            if (process > 0 && series->workers[i].process == process) {
-                series->workers[i].process = 0;
-                take_end(series, series->workers[i].job, end);
-                return true;
-            }
-        }
-        if (process < 0 && errno != EINTR) {
-            return false;
-        }
-        if (process == 0) {
-            nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    }
+    for (size_t i = 0; i < series->worker_count && process > 0; i++) {
+        if (series->workers[i].process == process) {
+            series->workers[i].process = 0;
+            take_end(series, series->workers[i].job, end);
         }
     }
-    return any;
+    return process > 0;
 }
 
 static void run(struct series *series, int *status)
@@ -403,9 +378,7 @@ static void run(struct series *series, int *status)
             write_page(series, status);
         }
     } while (wait_for_one(series));
-    if (series->progress) {
-        fputs("\r\033[K", stderr);
-    }
+    clear_progress(series);
 }
 
 static void print_sum(const struct series *series, bool page)
@@ -429,9 +402,7 @@ int gm_command_figures(const struct gm_options *options)
     char message[GM_MESSAGE];
     int status = GM_EXIT_OK;
     struct series *series = open_series(options);
-    if (!gm_folder_make(options->out, message)) {
-        gm_command_end(options, GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !gm_folder_make(options->out, message), GM_EXIT_FILE, "%s", message);
     gm_catch_interrupts();
     run(series, &status);
     /* finished ones that follow an interrupted one */

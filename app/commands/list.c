@@ -465,9 +465,8 @@ static int list_named_scheme(const char *name, const struct gm_options *options)
     char message[GM_MESSAGE];
     bool unreadable;
     const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
-    if (!scheme && message[0]) {
-        return gm_give_up(unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
-    }
+    gm_command_end_if(options, !scheme && message[0], unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s",
+                      message);
     return scheme ? list_schemes_like(scheme, options) : refuse_name(name);
 }
 
@@ -479,24 +478,18 @@ int gm_command_list(const struct gm_options *options)
     const bool equations =
         options->latex || options->invariants || options->arguments.count > 1 || !gm_scene_find(first);
     const bool is_system = *first && equations && find_file(GM_FILE_SYSTEM, first, &file);
-    if (options->degree && !options->invariants) {
-        return gm_give_up(GM_EXIT_USAGE, "--degree is that of --invariants, which is missing");
-    }
+    gm_command_end_if(options, options->degree && !options->invariants, GM_EXIT_USAGE,
+                      "--degree is that of --invariants, which is missing");
     if ((is_system || typed) && !options->markdown && !options->source) {
         return gm_list_system(options, typed ? NULL : &file);
     }
-    if (options->invariants) {
-        return gm_give_up(GM_EXIT_USAGE, "--invariants are those of a system: list kepler --invariants");
-    }
-    if (options->latex) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "--latex writes the equations of a system, such as share/systems/toda.system");
-    }
-    if (options->arguments.count > 1) {
-        return gm_give_up(
-            GM_EXIT_USAGE,
-            "list takes one name, and values only after the name of a system: list kepler eccentricity=0.3");
-    }
+    gm_command_end_if(options, options->invariants, GM_EXIT_USAGE,
+                      "--invariants are those of a system: list kepler --invariants");
+    gm_command_end_if(options, options->latex, GM_EXIT_USAGE,
+                      "--latex writes the equations of a system, such as share/systems/toda.system");
+    gm_command_end_if(
+        options, options->arguments.count > 1, GM_EXIT_USAGE,
+        "list takes one name, and values only after the name of a system: list kepler eccentricity=0.3");
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->source) {
         return list_source(what);
@@ -516,9 +509,7 @@ int gm_command_list(const struct gm_options *options)
         int status;
         char message[GM_MESSAGE];
         scene = gm_system_scene(1, options->arguments.words, &status, message);
-        if (!scene) {
-            return gm_give_up(status, "%s", message);
-        }
+        gm_command_end_if(options, !scene, status, "%s", message);
     }
     return scene ? list_scene(scene, what, from_file ? &file : NULL, options)
                  : list_named_scheme(what, options);

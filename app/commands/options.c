@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -290,8 +289,8 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
         wrong = gm_sink_is_movie(value) ? NULL : "is no .mp4, .webm or .gif file";
         break;
     case WORD:
-        return gm_arguments_print(&options->arguments, "%s=%s", row->name + strlen("--"), value) ||
-               gm_refuse(message, "not enough memory");
+        gm_arguments_print(&options->arguments, "%s=%s", row->name + strlen("--"), value);
+        return true;
     case TEXT:
         break;
     }
@@ -303,10 +302,10 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
     return true;
 }
 
-/* The row of this command, or else one of the same name that others have. */
-static const struct gm_option *find(const char *word, size_t length, enum gm_command command)
+const struct gm_option *gm_option_find(const char *word, enum gm_command command)
 {
     const struct gm_option *found = NULL;
+    const size_t length = strcspn(word, "=");
     for (size_t i = 0; i < ROWS; i++) {
         if (strlen(gm_option_rows[i].name) == length && strncmp(gm_option_rows[i].name, word, length) == 0 &&
             (!found || gm_option_rows[i].commands & command)) {
@@ -331,7 +330,7 @@ static void refuse_option(char *message, const char *word, const char *next, con
     char name[64], meant[128] = "";
     const size_t length = strcspn(word, "=");
     snprintf(name, sizeof name, "%.*s", (int)length, word);
-    const bool elsewhere = find(word, length, command);
+    const bool elsewhere = gm_option_find(word, command);
     const struct gm_scene *scene =
         options->arguments.count > 0 ? gm_scene_called(options->arguments.words[0]) : NULL;
     if (scene && !elsewhere) {
@@ -349,16 +348,6 @@ static void refuse_option(char *message, const char *word, const char *next, con
             between = ", ";
         }
     }
-}
-
-static bool is_given(const bool given[ROWS], const char *name)
-{
-    for (size_t i = 0; i < ROWS; i++) {
-        if (given[i] && strcmp(gm_option_rows[i].name, name) == 0) {
-            return true;
-        }
-    }
-    return false;
 }
 
 /* The folder of a path, and its name there; false: the folder is missing. */
@@ -433,30 +422,29 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
                         char *message)
 {
     static const struct {
-        const char *one, *why, *others[7];
+        const char *one, *why, *others;
     } pairs[] = {
-        {"--at",
-         "the first makes one picture",
-         {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
-        {"--frames", "each sets the number of frames", {"--every", "--rate"}},
-        {"--every", "each sets the number of frames", {"--rate"}},
-        {"--every", "each selects the steps that have a row", {"--interval"}},
-        {"--output", "the first names the file", {"--out"}},
-        {"--output",
-         "the first makes one picture",
-         {"--frames", "--every", "--rate", "--fps", "--from", "--movie"}},
-        {"--json", "they are two formats", {"--markdown", "--latex"}},
-        {"--invariants", "each is a list of its own", {"--markdown", "--latex", "--source", "--long"}},
-        {"--latex", "they are two formats", {"--markdown"}},
-        {"--list", "the first only lists steps", {"--movie", "--out"}},
-        {"--join", "the first makes no run", {"--table", "--shard", "--retry"}},
-        {"--region", "a region has no error", {"--judge"}},
-        {"--join", "the tables have the columns that they have", {"--measure"}},
+        {"--at", "the first makes one picture", "--frames --every --rate --fps --from --movie "},
+        {"--frames", "each sets the number of frames", "--every --rate "},
+        {"--every", "each sets the number of frames", "--rate "},
+        {"--every", "each selects the steps that have a row", "--interval "},
+        {"--output", "the first names the file", "--out "},
+        {"--output", "the first makes one picture", "--frames --every --rate --fps --from --movie "},
+        {"--json", "they are two formats", "--markdown --latex "},
+        {"--invariants", "each is a list of its own", "--markdown --latex --source --long "},
+        {"--latex", "they are two formats", "--markdown "},
+        {"--list", "the first only lists steps", "--movie --out "},
+        {"--join", "the first makes no run", "--table --shard --retry "},
+        {"--region", "a region has no error", "--judge "},
+        {"--join", "the tables have the columns that they have", "--measure "},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {
-        for (const char *const *other = pairs[i].others; *other; other++) {
-            if (is_given(given, pairs[i].one) && is_given(given, *other)) {
-                return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, *other,
+        const struct gm_option *one = gm_option_find(pairs[i].one, command);
+        for (const char *at = pairs[i].others; *at && given[one - gm_option_rows]; at = strchr(at, ' ') + 1) {
+            char name[16];
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+            if (given[gm_option_find(name, command) - gm_option_rows]) {
+                return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, name,
                                  pairs[i].why);
             }
         }
@@ -475,13 +463,11 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         const char *word = gm_option_name(argv[i]);
         if (strncmp(word, "--", 2) != 0 ||
             command == GM_COMPLETE) { /* a word to complete may be an unfinished option */
-            if (!gm_arguments_add(&options->arguments, argv[i])) {
-                return gm_refuse(message, "not enough memory");
-            }
+            gm_arguments_add(&options->arguments, argv[i]);
             continue;
         }
         const char *equals = strchr(word, '=');
-        const struct gm_option *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
+        const struct gm_option *row = gm_option_find(word, command);
         if (!row || !(row->commands & command)) {
             refuse_option(message, word, i + 1 < argc ? argv[i + 1] : NULL, options, command);
             return false;
@@ -504,7 +490,8 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
             return false;
         }
     }
-    return check_pairs(options, command, given, message) && settle_size(options, message) &&
+    return (!options->arguments.failed || gm_refuse(message, "not enough memory")) &&
+           check_pairs(options, command, given, message) && settle_size(options, message) &&
            settle_format(options, message);
 }
 

@@ -28,6 +28,7 @@
 struct work {
     struct gm_request *request;
     const struct gm_options *options;
+    const char *name; /* how the names of files begin */
     struct gm_drive *drives;
     struct gm_lane **lanes;
     struct gm_canvas *canvas;
@@ -89,48 +90,49 @@ static void put_picture(struct work *work, unsigned char *rgb, long frame)
     gm_arena_release(arena, mark);
 }
 
-static bool paint_frame(struct work *work, long frame, char *message)
+static unsigned char *frame_of(const struct work *work, struct gm_sink *sink)
 {
-    if (!drive_to(work, frame, message)) {
-        return false;
+    unsigned char *rgb = gm_sink_frame(sink);
+    if (!rgb) {
+        gm_arena_leave(work->options->arena); /* the sink reports the reason when it is closed */
     }
+    return rgb;
+}
+
+static void paint_frame(struct work *work, long frame)
+{
+    char message[GM_MESSAGE];
+    struct gm_arena *arena = work->options->arena;
+    gm_arena_check(arena, drive_to(work, frame, message), message);
     if (gm_interrupted) {
-        return true;
+        return;
     }
-    unsigned char *rgb = gm_sink_frame(work->pictures);
-    unsigned char *copy = work->movie && rgb ? gm_sink_frame(work->movie) : NULL;
-    if (!rgb || (work->movie && !copy)) {
-        return false; /* the sink reports the reason when it is closed */
-    }
+    unsigned char *rgb = frame_of(work, work->pictures),
+                  *copy = work->movie ? frame_of(work, work->movie) : NULL;
     gm_picture_clear(work->picture);
     gm_lanes_draw(lanes_of(work), work->request->count, work->picture);
-    if (!gm_canvas_paint(work->canvas, work->picture, rgb) || gm_memory_was_short()) {
-        return gm_refuse(message, "not enough memory to paint");
-    }
+    gm_arena_refuse_if(arena, !gm_canvas_paint(work->canvas, work->picture, rgb) || gm_memory_was_short(),
+                       "not enough memory to paint");
     if (copy) {
         memcpy(copy, rgb, 3 * (size_t)work->options->look.width * (size_t)work->options->look.height);
         gm_sink_put(work->movie, copy, frame, NULL, 0);
     }
     put_picture(work, rgb, frame);
-    return true;
 }
 
 /* An existing frame goes into the movie as it is. */
-static bool reuse_frame(struct work *work, long frame, char *message)
+static void reuse_frame(const struct work *work, long frame)
 {
-    if (!work->movie) {
-        return true;
+    char message[GM_MESSAGE];
+    const struct gm_appearance *look = &work->options->look;
+    if (work->movie) {
+        unsigned char *rgb = frame_of(work, work->movie);
+        gm_arena_check(
+            work->options->arena,
+            gm_png_read(gm_frames_path(&work->frames, frame), look->width, look->height, rgb, message),
+            message);
+        gm_sink_put(work->movie, rgb, frame, NULL, 0);
     }
-    unsigned char *rgb = gm_sink_frame(work->movie);
-    if (!rgb) {
-        return false; /* the sink reports the reason when it is closed */
-    }
-    if (!gm_png_read(gm_frames_path(&work->frames, frame), work->options->look.width,
-                     work->options->look.height, rgb, message)) {
-        return false;
-    }
-    gm_sink_put(work->movie, rgb, frame, NULL, 0);
-    return true;
 }
 
 static void close_lanes(struct work *work)
@@ -141,53 +143,48 @@ static void close_lanes(struct work *work)
     }
 }
 
-static bool open_lanes(struct work *work, char *message)
+static void open_lanes(struct work *work)
 {
+    char message[GM_MESSAGE];
     for (size_t i = 0; i < work->request->count; i++) {
-        struct gm_lane *lane = gm_request_open_lane(work->request, i, message);
-        if (!lane) {
-            return false;
-        }
-        work->drives[i] = (struct gm_drive){.lane = lane, .request = work->request, .index = i};
-        work->lanes[i] = lane;
+        work->lanes[i] = gm_request_open_lane(work->request, i, message);
+        gm_arena_check(work->options->arena, work->lanes[i], message);
+        work->drives[i] = (struct gm_drive){.lane = work->lanes[i], .request = work->request, .index = i};
     }
-    return true;
 }
 
 /* Loads the state after the frame before the first missing one, if a checkpoint has it. */
-static bool resume(struct work *work, char *message)
+static void resume(struct work *work)
 {
     const long first = gm_frames_missing(&work->frames, false);
     long frame = -1;
     bool spoilt = false;
     if (first < 0 || !work->checkpoint) {
-        return true;
+        return;
     }
     const bool read = gm_checkpoint_read(work->checkpoint, &work->frames, &frame, work->lanes,
                                          work->request->count, &spoilt);
-    if (gm_memory_was_short()) {
-        return gm_refuse(message, "not enough memory to read %.300s", work->checkpoint);
-    }
-    if (read && frame < first) {
-        return true;
-    }
-    if (read || spoilt) {
-        /* a frame before it is missing: all begins at the start again */
+    gm_arena_refuse_if(work->options->arena, gm_memory_was_short(), "not enough memory to read %.300s",
+                       work->checkpoint);
+    if ((read && frame >= first) ||
+        spoilt) { /* a frame before it is missing: all begins at the start again */
         close_lanes(work);
-        return open_lanes(work, message);
+        open_lanes(work);
     }
-    return true;
 }
 
 /* Saves the lanes' state after a frame, when all frames up to it are written. */
-static bool keep_state(struct work *work, long frame, char *message)
+static void keep_state(const struct work *work, long frame)
 {
-    return !gm_sink_flush(work->pictures) ||
-           gm_checkpoint_write(work->checkpoint, &work->frames, frame, lanes_of(work), work->request->count,
-                               message);
+    char message[GM_MESSAGE];
+    gm_arena_check(work->options->arena,
+                   !gm_sink_flush(work->pictures) ||
+                       gm_checkpoint_write(work->checkpoint, &work->frames, frame, lanes_of(work),
+                                           work->request->count, message),
+                   message);
 }
 
-static bool make_frames(struct work *work, char *message)
+static void make_frames(struct work *work)
 {
     enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; part of the time that they may take */
     const double started = gm_clock_seconds();
@@ -201,14 +198,10 @@ static bool make_frames(struct work *work, char *message)
             continue;
         }
         if (work->frames.there[frame]) {
-            if (!reuse_frame(work, frame, message)) {
-                return false;
-            }
+            reuse_frame(work, frame);
             continue;
         }
-        if (!paint_frame(work, frame, message)) {
-            return false;
-        }
+        paint_frame(work, frame);
         if (!gm_interrupted) {
             made++;
             work->done++;
@@ -216,9 +209,7 @@ static bool make_frames(struct work *work, char *message)
         }
         const double now = gm_clock_seconds();
         if (work->checkpoint && painted >= 0 && (now > due || (gm_interrupted && made > 0))) {
-            if (!keep_state(work, painted, message)) {
-                return false;
-            }
+            keep_state(work, painted);
             const double after = gm_clock_seconds();
             due = after + fmax(INTERVAL, SHARE * (after - now));
         }
@@ -229,21 +220,13 @@ static bool make_frames(struct work *work, char *message)
     if (progress) {
         fputc('\n', stderr);
     }
-    return true;
 }
 
-/* The folder of the frames: --out, or one beside the movie until it is complete. */
-static const char *folder_of(const struct gm_options *options)
+static void open_sinks(struct work *work)
 {
-    const char *named = options->out ? options->out : ".";
-    return options->pace.movie && !options->out
-               ? gm_arena_print(options->arena, "%s.frames", options->pace.movie)
-               : named;
-}
-
-static bool open_sinks(struct work *work, const char *name, char *message)
-{
+    char message[GM_MESSAGE];
     const struct gm_options *options = work->options;
+    const char *movie = options->pace.movie, *folder = options->out ? options->out : ".";
     const struct gm_sink_settings settings = {
         .width = options->look.width,
         .height = options->look.height,
@@ -254,20 +237,40 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         .interruptions = &gm_interrupted,
     };
     /* the parts that can fail come first */
-    if (options->pace.movie &&
-        (!gm_folder_make_for(options->pace.movie, message) ||
-         !(work->movie = gm_sink_open_movie(options->pace.movie, &settings, message)))) {
-        return false;
+    if (movie) {
+        gm_arena_check(options->arena,
+                       gm_folder_make_for(movie, message) &&
+                           (work->movie = gm_sink_open_movie(movie, &settings, message)),
+                       message);
+        /* the frames are beside the movie until it is complete */
+        folder = options->out ? folder : gm_arena_print(options->arena, "%s.frames", movie);
     }
-    gm_frames_open(&work->frames, options->arena, &work->schedule, folder_of(options), name,
-                   &work->provenance);
+    gm_frames_open(&work->frames, options->arena, &work->schedule, folder, work->name, &work->provenance);
     if (gm_checkpoint_fits(work->request)) {
         work->checkpoint = gm_checkpoint_path(&work->frames);
     }
     const char *pattern =
         gm_arena_print(options->arena, "%s/%s-%%06ld.png", work->frames.folder, work->frames.name);
     work->pictures = gm_sink_open_png(pattern, &settings, message);
-    return work->pictures != NULL;
+    gm_arena_check(options->arena, work->pictures, message);
+}
+
+static void make_all(struct gm_arena *arena, void *data)
+{
+    char message[GM_MESSAGE];
+    struct work *work = data;
+    const struct gm_appearance *look = &work->options->look;
+    work->canvas = gm_canvas_open(look, message);
+    gm_arena_check(arena, work->canvas, message);
+    gm_arena_need(
+        arena, gm_provenance_make(&work->provenance, work->request, look, gm_canvas_backend(work->canvas)));
+    open_sinks(work);
+    if (work->frames.found > 0) {
+        gm_complain("%ld of %ld frame%s %s there already", work->frames.found, work->schedule.ours,
+                    gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
+    }
+    resume(work);
+    make_frames(work);
 }
 
 /* The failures of lanes in the shard's last frame, painted now or read from its file. */
@@ -351,25 +354,15 @@ static int close_sinks(struct work *work, bool painted, char *message)
     return written && moving;
 }
 
-static int paint_all(struct work *work, const char *name)
+static int paint_all(struct work *work)
 {
     char message[GM_MESSAGE] = "";
     const struct gm_options *options = work->options;
     *options->end = GM_EXIT_FILE;
-    work->canvas = gm_canvas_open(&options->look, message);
-    const bool opened = work->canvas &&
-                        (gm_provenance_make(&work->provenance, work->request, &options->look,
-                                            gm_canvas_backend(work->canvas)) ||
-                         gm_refuse(message, "not enough memory")) &&
-                        open_sinks(work, name, message);
-    if (opened && work->frames.found > 0) {
-        gm_complain("%ld of %ld frame%s %s there already", work->frames.found, work->schedule.ours,
-                    gm_plural((double)work->schedule.ours), work->frames.found == 1 ? "is" : "are");
-    }
-    const bool painted = opened && resume(work, message) && make_frames(work, message);
+    const bool painted = gm_arena_run(options->arena, make_all, work);
     gm_interrupts_seen();
-    const bool closed = close_sinks(work, painted, message);
-    if (!closed || !painted) {
+    gm_refuse(message, "%s", gm_arena_reason(options->arena));
+    if (!close_sinks(work, painted, message) || !painted) {
         gm_complain("%s", message);
         if (!gm_interrupted) {
             return GM_EXIT_FILE;
@@ -391,31 +384,27 @@ static int paint_all(struct work *work, const char *name)
     return status;
 }
 
-/* A large picture takes long to paint and to pack. */
-static bool write_still(struct gm_print *print, struct work *work, char *message)
-{
-    gm_interrupts_end(true);
-    const bool written = gm_still_write(print, work->request, lanes_of(work), message);
-    gm_interrupts_end(false);
-    return written;
-}
-
 /* Paints a single picture, without files for a resumed render. */
-static int paint_still(struct work *work, const char *name)
+static int paint_still(struct work *work)
 {
     char message[GM_MESSAGE];
     const struct gm_options *options = work->options;
     const char *path = options->output
                            ? options->output
                            : gm_arena_print(options->arena, "%s/%s.%s", options->out ? options->out : ".",
-                                            name, gm_format_name(options->format));
+                                            work->name, gm_format_name(options->format));
     struct gm_print print = {.path = path, .format = options->format, .look = options->look};
     gm_printer_expect(print.format);
-    const bool driven = drive_to(work, 0, message);
+    bool written = drive_to(work, 0, message);
     if (gm_interrupted) {
         return GM_EXIT_INTERRUPTED;
     }
-    if (!driven || !write_still(&print, work, message)) {
+    if (written) { /* a large picture takes long to paint and to pack */
+        gm_interrupts_end(true);
+        written = gm_still_write(&print, work->request, lanes_of(work), message);
+        gm_interrupts_end(false);
+    }
+    if (!written) {
         const int status = gm_printer_fail(path, message);
         return gm_interrupted ? GM_EXIT_INTERRUPTED : status; /* a pipe may wait for its reader */
     }
@@ -435,35 +424,30 @@ static void close_work(void *data)
     gm_canvas_close(work->canvas);
 }
 
-/* Frames are pixels. */
-static bool takes_format(const struct work *work, char *message)
-{
-    return work->schedule.still || work->options->format == GM_FORMAT_PNG ||
-           gm_refuse(message, "--format %s is for one picture: frames are PNG",
-                     gm_format_name(work->options->format));
-}
-
-/* Renders a request; output files below options->out begin with `name`. */
+/* Output files below options->out begin with `name`. */
 static int render(struct gm_request *request, const struct gm_options *options, const char *name)
 {
     char message[GM_MESSAGE];
     struct work *work = gm_arena_take(options->arena, 1, sizeof *work);
     work->request = request;
     work->options = options;
+    work->name = name;
     work->drives = gm_arena_take(options->arena, request->count, sizeof *work->drives);
     work->lanes = gm_arena_take(options->arena, request->count, sizeof *work->lanes);
     gm_arena_keep(options->arena, work, close_work);
     work->picture = gm_picture_open();
     gm_arena_need(options->arena, work->picture);
-    if (!gm_schedule_make(&work->schedule, request, &options->pace, message) ||
-        !takes_format(work, message) || !open_lanes(work, message)) {
-        gm_command_end(options, GM_EXIT_USAGE, "%s", message);
-    }
+    *options->end = GM_EXIT_USAGE;
+    gm_arena_check(options->arena, gm_schedule_make(&work->schedule, request, &options->pace, message),
+                   message);
+    gm_arena_refuse_if(options->arena, !work->schedule.still && options->format != GM_FORMAT_PNG,
+                       "--format %s is for one picture: frames are PNG", gm_format_name(options->format));
+    open_lanes(work);
     gm_lane_note(work->lanes[0], message);
     if (message[0]) {
         gm_complain("%s", message);
     }
-    return (work->schedule.still ? paint_still : paint_all)(work, name);
+    return (work->schedule.still ? paint_still : paint_all)(work);
 }
 
 /* "LANE:STEP:KEY=VALUE,...", as the explorer writes them. */
@@ -481,15 +465,12 @@ static void take_changes(const struct gm_options *options, struct gm_request *re
             colons++;
         }
     }
-    if (!gm_changes_parse(request, text)) {
-        gm_command_end(options, GM_EXIT_USAGE,
-                       "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are",
-                       options->changes);
-    }
+    gm_command_end_if(options, !gm_changes_parse(request, text), GM_EXIT_USAGE,
+                      "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are",
+                      options->changes);
     for (size_t i = 0; i < request->change_count; i++) {
-        if (!gm_change_check(request, &request->changes[i], sentence)) {
-            gm_command_end(options, GM_EXIT_USAGE, "--changes %.60s: %.400s", options->changes, sentence);
-        }
+        gm_command_end_if(options, !gm_change_check(request, &request->changes[i], sentence), GM_EXIT_USAGE,
+                          "--changes %.60s: %.400s", options->changes, sentence);
     }
 }
 

@@ -765,18 +765,15 @@ static void tell(const struct outcome *outcome, const struct gm_options *options
 /* Standard output goes to one reader. */
 static void check_options(const struct gm_options *options)
 {
-    if (options->state && !options->json) {
-        gm_command_end(options, GM_EXIT_USAGE, "--state needs --json");
-    }
-    if (is_standard_output(options->csv) + is_standard_output(options->profile) + (options->json != 0) > 1) {
-        gm_command_end(options, GM_EXIT_USAGE,
-                       "standard output takes one of --csv -, --profile - and --json");
-    }
-    if ((options->pace.every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
-        gm_command_end(options, GM_EXIT_USAGE,
-                       "--%s selects the steps that have a row: it needs --csv or --save",
-                       options->pace.every > 0 ? "every" : "interval");
-    }
+    gm_command_end_if(options, options->state && !options->json, GM_EXIT_USAGE, "--state needs --json");
+    gm_command_end_if(
+        options,
+        is_standard_output(options->csv) + is_standard_output(options->profile) + (options->json != 0) > 1,
+        GM_EXIT_USAGE, "standard output takes one of --csv -, --profile - and --json");
+    gm_command_end_if(
+        options, (options->pace.every > 0 || !isnan(options->interval)) && !options->csv && !options->save,
+        GM_EXIT_USAGE, "--%s selects the steps that have a row: it needs --csv or --save",
+        options->pace.every > 0 ? "every" : "interval");
 }
 
 /* Returns true if the scene has its own profiles, or its states have nodes on a line. */

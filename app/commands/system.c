@@ -640,9 +640,8 @@ static void check_values(const struct gm_options *options, const struct gm_user_
         if (choice || (i < system->velocities && !gm_number_parse(values[k].text, &number))) {
             refuse_value(options, values[k].name, values[k].text);
         }
-        if (i >= system->velocities) {
-            gm_command_end(options, GM_EXIT_USAGE, "this system has no parameter \"%.60s\"", values[k].name);
-        }
+        gm_command_end_if(options, i >= system->velocities, GM_EXIT_USAGE,
+                          "this system has no parameter \"%.60s\"", values[k].name);
     }
 }
 
@@ -730,9 +729,7 @@ static struct report *open_report(const struct gm_options *options, const struct
     report->arena = options->arena;
     gm_arena_keep(options->arena, report, close_report);
     const int status = gm_system_open(&report->system, file, arguments, values, count, message);
-    if (status != GM_EXIT_OK) {
-        gm_command_end(options, status, "%s", message);
-    }
+    gm_command_end_if(options, status != GM_EXIT_OK, status, "%s", message);
     check_values(options, &report->system, values, count);
     return report;
 }
@@ -752,9 +749,7 @@ static void check_scene(const struct gm_options *options, bool typed)
     const int status = trial.scene ? GM_EXIT_USAGE : trial.status;
     gm_words_close(&read);
     gm_system_trial_close(&trial);
-    if (!known) {
-        gm_command_end(options, status, "%s", message);
-    }
+    gm_command_end_if(options, !known, status, "%s", message);
 }
 
 void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *schemes,
@@ -905,10 +900,8 @@ static int list_invariants(const struct gm_options *options, struct report *repo
     const size_t usual = 4, degree = options->degree ? (size_t)options->degree : usual;
     struct found found;
     gm_invariants_find(&report->system, options->arena, degree, &found.invariants);
-    if (found.invariants.lacks) {
-        return gm_give_up(GM_EXIT_USAGE, "the invariants of this system are not searched: %s",
-                          found.invariants.lacks);
-    }
+    gm_command_end_if(options, found.invariants.lacks, GM_EXIT_USAGE,
+                      "the invariants of this system are not searched: %s", found.invariants.lacks);
     found.symmetry_count =
         gm_symmetries_find(&report->system, options->arena, &found.symmetries, &found.symmetries_unwritten);
     gm_arena_need(options->arena, !gm_memory_was_short());
@@ -922,10 +915,8 @@ static int list_forms(const struct gm_options *options, struct report *report)
     struct gm_user_system *system = &report->system;
     struct gm_form_model model;
     struct gm_fault fault;
-    if (options->json || options->latex || options->invariants) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "list of a system of forms has neither --json nor --latex nor --invariants");
-    }
+    gm_command_end_if(options, options->json || options->latex || options->invariants, GM_EXIT_USAGE,
+                      "list of a system of forms has neither --json nor --latex nor --invariants");
     if (!gm_form_model_open(&model, system, &fault)) {
         return gm_give_up(GM_EXIT_USAGE, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
     }

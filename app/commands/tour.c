@@ -71,9 +71,9 @@ static int list_steps(const struct gm_tour *tour)
 static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
 {
     const bool dark = options->terminal.theme && strcmp(options->terminal.theme, "dark") == 0;
-    if (options->terminal.theme && !dark && strcmp(options->terminal.theme, "light") != 0) {
-        return gm_give_up(GM_EXIT_USAGE, "--theme %.60s is none of: light, dark", options->terminal.theme);
-    }
+    gm_command_end_if(options,
+                      options->terminal.theme && !dark && strcmp(options->terminal.theme, "light") != 0,
+                      GM_EXIT_USAGE, "--theme %.60s is none of: light, dark", options->terminal.theme);
     struct gm_tour_output output = {.movie = options->pace.movie,
                                     .folder = options->out,
                                     .fps = isnan(options->pace.fps) ? 30 : options->pace.fps,
@@ -111,39 +111,29 @@ int gm_command_tour(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_file file;
-    struct gm_tour tour;
+    struct gm_tour *tour = gm_arena_take(options->arena, 1, sizeof *tour);
     bool unreadable = false;
-    if (options->arguments.count > 1) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "tour takes one name; put a name of several words in quotation marks");
-    }
-    if (options->arguments.count == 0 && (options->pace.movie || options->out)) {
-        return gm_give_up(GM_EXIT_USAGE, "which tour? geomint tour lists them");
-    }
+    gm_command_end_if(options, options->arguments.count > 1, GM_EXIT_USAGE,
+                      "tour takes one name; put a name of several words in quotation marks");
+    gm_command_end_if(options, options->arguments.count == 0 && (options->pace.movie || options->out),
+                      GM_EXIT_USAGE, "which tour? geomint tour lists them");
     if (options->arguments.count == 0) {
         return gm_list_tours(options);
     }
     const bool found = gm_tour_find(options->arguments.words[0], &file, &unreadable, message);
-    if (!found || !gm_tour_read(&tour, &file, message)) {
-        return gm_give_up(found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
-    }
-    int status = GM_EXIT_OK;
+    gm_command_end_if(options, !found || !gm_tour_read(tour, &file, message),
+                      found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    gm_arena_keep(options->arena, tour, gm_tour_close);
     if (options->listing) {
-        status = list_steps(&tour);
-    } else if (options->pace.movie || options->out) {
-        status = make_movie(&tour, options);
-    } else {
-        status = explore(options, "tour", NULL, &tour);
+        return list_steps(tour);
     }
-    gm_tour_close(&tour);
-    return status;
+    const bool moving = options->pace.movie || options->out;
+    return moving ? make_movie(tour, options) : explore(options, "tour", NULL, tour);
 }
 
 int gm_command_terminal(const struct gm_options *options)
 {
-    if (options->arguments.count > 0) {
-        return gm_give_up(GM_EXIT_USAGE, "terminal takes no arguments");
-    }
+    gm_command_end_if(options, options->arguments.count > 0, GM_EXIT_USAGE, "terminal takes no arguments");
     return gm_finish(gm_terminal_report(&options->terminal));
 }
 

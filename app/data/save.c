@@ -298,17 +298,13 @@ static bool copy(FILE *file, const void *context)
     return bytes.why == 0;
 }
 
-static bool is_want_of_room(int why)
-{
-    return why == ENOSPC || why == EFBIG || why == EDQUOT;
-}
-
 /* Writes the list of all rows; without room for it, the last rows are dropped. */
 static bool publish_list(struct gm_save *save)
 {
     while (!gm_temporary_make(save->saving.path, list, save)) {
         const int why = errno;
-        if (!is_want_of_room(why) || save->saving.kept || !save->format->drop(&save->saving, present(save))) {
+        const bool full = why == ENOSPC || why == EFBIG || why == EDQUOT;
+        if (!full || save->saving.kept || !save->format->drop(&save->saving, present(save))) {
             errno = why;
             return false;
         }

@@ -38,33 +38,23 @@ enum section { FIELD, POINT, CELL, PLACES, TOPOLOGY, SECTIONS };
 enum { SOLID = 3 /* VTK's vectors have three components */, LONGEST = 32 };
 enum { VTK_POLY_VERTEX = 2, VTK_POLY_LINE = 4, VTK_TRIANGLE = 5 };
 
-/* An array of a file: the entries of its head, and its writer. */
+/* An array of a file: the entries of its head, and its content. */
 struct array {
     enum section section;
     const char *name, *type;
     size_t components, tuples, item; /* item: bytes of a number */
     bool fixed;                      /* the same in all rows */
+    enum { TIME, QUANTITY, POSITIONS, CONNECTIVITY, OFFSETS, TYPES } content;
     const struct gm_quantity *quantity;
-    void (*write)(const struct group *group, struct gm_column *out);
 };
 
+/* The first quantity on a support that is the axis 1, 2, 3, or for 0 not a coordinate; or NULL. */
 static const struct gm_quantity *axis_of(const struct gm_saved *lane, enum gm_support support, int axis)
 {
     for (size_t i = 0; i < lane->count; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
         if (quantity->support == support && quantity->axis == axis) {
             return quantity;
-        }
-    }
-    return NULL;
-}
-
-/* The first quantity on a support that is not a coordinate, or NULL. */
-static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_support support)
-{
-    for (size_t i = 0; i < lane->count; i++) {
-        if (lane->quantities[i].support == support && lane->quantities[i].axis == 0) {
-            return &lane->quantities[i];
         }
     }
     return NULL;
@@ -83,10 +73,10 @@ static bool group_of(const struct gm_saved *lane, const struct gm_run *run, enum
     }
     group->points = group->axes[0]->count * lane->members;
     if (support == GM_ON_NODES) {
-        group->corners = first_on(lane, GM_ON_CELLS);
+        group->corners = axis_of(lane, GM_ON_CELLS, 0);
         group->shape = group->corners ? TRIANGLES : LINE;
         group->cells = group->corners ? group->corners->count : 1;
-        group->height = group->corners ? NULL : first_on(lane, support);
+        group->height = group->corners ? NULL : axis_of(lane, support, 0);
         group->apart = group->corners && (group->axes[0]->period[0] > 0 || group->axes[0]->period[1] > 0);
         group->points = group->apart ? group->corners->width * group->cells : group->points;
     }
@@ -171,27 +161,6 @@ static void write_connectivity(const struct group *group, struct gm_column *out)
     }
 }
 
-static void write_offsets(const struct group *group, struct gm_column *out)
-{
-    for (size_t k = 1; k <= group->cells; k++) {
-        write_whole(out, (int64_t)(group->corners ? group->corners->width * k : group->points));
-    }
-}
-
-static void write_types(const struct group *group, struct gm_column *out)
-{
-    const unsigned char types[] = {
-        [POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
-    for (size_t k = 0; k < group->cells; k++) {
-        gm_column_put(out, &types[group->shape], 1);
-    }
-}
-
-static void write_time(const struct group *group, struct gm_column *out)
-{
-    gm_column_put(out, &group->run->t, sizeof group->run->t);
-}
-
 static void write_values(const struct group *group, const struct array *array, struct gm_column *out)
 {
     const struct gm_quantity *quantity = array->quantity;
@@ -208,6 +177,36 @@ static void write_values(const struct group *group, const struct array *array, s
         double vector[SOLID] = {0};
         memcpy(vector, values + quantity->width * k, quantity->width * sizeof *values);
         gm_column_put(out, vector, SOLID * sizeof *vector);
+    }
+}
+
+static void write_array(const struct group *group, const struct array *array, struct gm_column *out)
+{
+    static const unsigned char types[] = {
+        [POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
+    switch (array->content) {
+    case TIME:
+        gm_column_put(out, &group->run->t, sizeof group->run->t);
+        break;
+    case QUANTITY:
+        write_values(group, array, out);
+        break;
+    case POSITIONS:
+        write_places(group, out);
+        break;
+    case CONNECTIVITY:
+        write_connectivity(group, out);
+        break;
+    case OFFSETS:
+        for (size_t k = 1; k <= group->cells; k++) {
+            write_whole(out, (int64_t)(group->corners ? group->corners->width * k : group->points));
+        }
+        break;
+    case TYPES:
+        for (size_t k = 0; k < group->cells; k++) {
+            gm_column_put(out, &types[group->shape], 1);
+        }
+        break;
     }
 }
 
@@ -231,33 +230,29 @@ static enum section section_of(const struct group *group, const struct gm_quanti
 static size_t list_arrays(const struct group *group, struct array arrays[LONGEST])
 {
     size_t count = 0;
-    arrays[count++] = (struct array){FIELD, "TimeValue", "Float64", 1, 1, 8, false, NULL, write_time};
+    arrays[count++] = (struct array){FIELD, "TimeValue", "Float64", 1, 1, 8, false, TIME, NULL};
     for (size_t i = 0; i < group->lane->count; i++) {
         const struct gm_quantity *quantity = &group->lane->quantities[i];
         const enum section section = section_of(group, quantity);
+        const size_t components = quantity->width > 1 ? SOLID : 1,
+                     all = quantity->count * group->lane->members,
+                     tuples = section == POINT && group->apart ? group->points : all;
         if (section != SECTIONS) {
-            arrays[count++] = (struct array){
-                section,
-                quantity->name,
-                "Float64",
-                quantity->width > 1 ? SOLID : 1,
-                section == POINT && group->apart ? group->points : quantity->count * group->lane->members,
-                8,
-                quantity->fixed,
-                quantity,
-                NULL};
+            arrays[count++] = (struct array){section, quantity->name,  "Float64", components, tuples,
+                                             8,       quantity->fixed, QUANTITY,  quantity};
         }
     }
-    const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
-    const bool stays = !group->height && group->axes[0]->fixed;
-    arrays[count++] =
-        (struct array){PLACES, "Points", "Float64", SOLID, group->points, 8, stays, NULL, write_places};
-    arrays[count++] =
-        (struct array){TOPOLOGY, "connectivity", "Int64", 1, corners, 8, true, NULL, write_connectivity};
-    arrays[count++] =
-        (struct array){TOPOLOGY, "offsets", "Int64", 1, group->cells, 8, true, NULL, write_offsets};
-    arrays[count++] = (struct array){TOPOLOGY, "types", "UInt8", 1, group->cells, 1, true, NULL, write_types};
-    return count;
+    const size_t points = group->points, cells = group->cells,
+                 corners = group->corners ? group->corners->width * cells : points;
+    const struct array others[] = {
+        {PLACES, "Points", "Float64", SOLID, points, 8, !group->height && group->axes[0]->fixed, POSITIONS,
+         NULL},
+        {TOPOLOGY, "connectivity", "Int64", 1, corners, 8, true, CONNECTIVITY, NULL},
+        {TOPOLOGY, "offsets", "Int64", 1, cells, 8, true, OFFSETS, NULL},
+        {TOPOLOGY, "types", "UInt8", 1, cells, 1, true, TYPES, NULL},
+    };
+    memcpy(&arrays[count], others, sizeof others);
+    return count + GM_COUNT(others);
 }
 
 static uint64_t bytes_of(const struct array *array)
@@ -293,15 +288,6 @@ static void write_head(const struct group *group, const struct array *arrays, si
         }
     }
     gm_column_print(out, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-}
-
-static void write_array(const struct group *group, const struct array *array, struct gm_column *out)
-{
-    if (array->write) {
-        array->write(group, out);
-    } else {
-        write_values(group, array, out);
-    }
 }
 
 /* Writes from a place of a file on; column 0 is the list. */
@@ -418,8 +404,7 @@ static void find_places(const struct gm_saved *lane, const struct gm_run *run, s
         const size_t all = list_arrays(&places->group[places->groups], arrays);
         size_t count = 0;
         for (size_t i = 0; i < all; i++) {
-            if (arrays[i].write == write_time || arrays[i].write == write_offsets ||
-                arrays[i].write == write_types) {
+            if (arrays[i].content == TIME || arrays[i].content == OFFSETS || arrays[i].content == TYPES) {
                 continue; /* the list has the time, the topology's name the types */
             }
             arrays[count++] = arrays[i];

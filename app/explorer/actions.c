@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The keys of an open scene: the table of actions, and the keys of pages, of the list of schemes and of a typed
-   value. */
+   value; and the mouse. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -18,8 +20,8 @@ struct key {
 
 static void order(struct gm_explorer *explorer, const struct key *key)
 {
-    gm_worker_order(explorer->open.worker,
-                    (struct gm_order){.kind = (enum gm_order_kind)key->meaning, .amount = key->amount});
+    gm_explorer_order(explorer,
+                      (struct gm_order){.kind = (enum gm_order_kind)key->meaning, .amount = key->amount});
 }
 
 /* ---- orders that depend on the screen ---- */
@@ -34,10 +36,9 @@ static void order_picture(struct gm_explorer *explorer, const struct key *key)
 
 static void visit(struct gm_explorer *explorer, const struct key *key)
 {
-    gm_worker_order(explorer->open.worker,
-                    (struct gm_order){.kind = GM_ORDER_VISIT,
-                                      .amount = key->amount,
-                                      .value = key->code == KEY_END ? explorer->open.shot->reach : 0});
+    const double moment = key->code == KEY_END ? explorer->open.shot->reach : 0;
+    gm_explorer_order(explorer,
+                      (struct gm_order){.kind = GM_ORDER_VISIT, .amount = key->amount, .value = moment});
 }
 
 /* Shows or hides the phase portrait. */
@@ -45,8 +46,8 @@ static void order_portrait(struct gm_explorer *explorer, const struct key *key)
 {
     const struct gm_parameter *row = gm_scene_parameter(explorer->open.scene, "portrait");
     if (row) {
-        gm_worker_order(explorer->open.worker,
-                        (struct gm_order){.kind = GM_ORDER_MOVE, .amount = key->amount, .row = row});
+        gm_explorer_order(explorer,
+                          (struct gm_order){.kind = GM_ORDER_MOVE, .amount = key->amount, .row = row});
     }
 }
 
@@ -56,9 +57,9 @@ static void order_parameter(struct gm_explorer *explorer, const struct key *key)
     const size_t chosen = explorer->face.parameter;
     explorer->face.explaining = true;
     if (chosen < shot->parameter_count) {
-        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = (enum gm_order_kind)key->meaning,
-                                                                 .amount = key->amount,
-                                                                 .row = shot->parameters[chosen].row});
+        gm_explorer_order(explorer, (struct gm_order){.kind = (enum gm_order_kind)key->meaning,
+                                                      .amount = key->amount,
+                                                      .row = shot->parameters[chosen].row});
     }
 }
 
@@ -68,11 +69,8 @@ static void order_look(struct gm_explorer *explorer, const struct key *key)
     enum { DEGREES = 5 };
     const bool across = key->meaning == GM_ORDER_NUDGE;
     if (explorer->open.shot->in_space) {
-        const int degrees = DEGREES * key->amount;
-        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_LOOK,
-                                                                 .x = across ? degrees : 0,
-                                                                 .y = across ? 0 : degrees,
-                                                                 .value = 1});
+        const int x = across ? DEGREES * key->amount : 0, y = across ? 0 : DEGREES * key->amount;
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_LOOK, .x = x, .y = y, .value = 1});
     } else if (across) {
         order_parameter(explorer, key);
     }
@@ -80,8 +78,8 @@ static void order_look(struct gm_explorer *explorer, const struct key *key)
 
 static void order_zoom(struct gm_explorer *explorer, const struct key *key)
 {
-    gm_worker_order(explorer->open.worker,
-                    (struct gm_order){.kind = GM_ORDER_LOOK, .value = key->amount > 0 ? 1.25 : 1 / 1.25});
+    const double factor = key->amount > 0 ? 1.25 : 1 / 1.25;
+    gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_LOOK, .value = factor});
 }
 
 /* ---- the screen ---- */
@@ -180,7 +178,7 @@ static void go_in_tour(struct gm_explorer *explorer, const struct key *key)
     if (key->amount > 0 && !guide->answered) {
         guide->answered = true;
         gm_open_study(open);
-        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_RUN});
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_RUN});
         return;
     }
     const size_t step = guide->step + (size_t)key->amount; /* before the first: a number without a step */
@@ -212,14 +210,15 @@ static bool act_on(struct gm_explorer *explorer, int key)
 {
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         for (size_t k = 0; k < CODES && rows[i].keys[k].code; k++) {
-            if (rows[i].keys[k].code == key && rows[i].act) {
+            if (rows[i].keys[k].code != key) {
+                continue;
+            }
+            if (rows[i].act) {
                 rows[i].act(explorer, &rows[i].keys[k]);
-                return true;
-            }
-            if (rows[i].keys[k].code == key) {
+            } else {
                 rows[i].call(explorer);
-                return true;
             }
+            return true;
         }
     }
     return false;
@@ -259,7 +258,7 @@ static void press_in_page(struct gm_explorer *explorer, int key)
     } else {
         if (key == 's' && command) {
             explorer->open.unsaved = false;
-            gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
+            gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_SYSTEM});
         } else if (face->page == GM_PAGE_HELP) {
             face->watched = NULL; /* the sentence on what to watch is shown again */
         }
@@ -289,10 +288,8 @@ static void press_in_chooser(struct gm_explorer *explorer, int key)
         face->choosing = GM_CHOOSE_NOTHING;
     } else if (key == '\n' && face->choice) {
         gm_explorer_choose(explorer, face->choice);
-    } else if (key == KEY_UP || key == KEY_BTAB) {
-        move_choice(face, shot, -1);
-    } else if (key == KEY_DOWN || key == '\t') {
-        move_choice(face, shot, 1);
+    } else if (key == KEY_UP || key == KEY_BTAB || key == KEY_DOWN || key == '\t') {
+        move_choice(face, shot, key == KEY_UP || key == KEY_BTAB ? -1 : 1);
     } else if (key == KEY_PPAGE || key == KEY_NPAGE) {
         move_choice(face, shot, key == KEY_PPAGE ? -PAGE : PAGE);
     } else if (key == '?' && face->choice && face->choice != &gm_chooser_user) {
@@ -318,9 +315,9 @@ static void press_in_prompt(struct gm_explorer *explorer, int key)
                                  .row = ahead ? NULL : shot->parameters[face->parameter].row};
         snprintf(order.text, sizeof order.text, "%s", face->typed);
         if (!face->typed[0]) {
-            gm_prompt_ahead(shot, order.text, sizeof order.text);
+            snprintf(order.text, sizeof order.text, "%.6g", shot->ahead);
         }
-        gm_worker_order(explorer->open.worker, order);
+        gm_explorer_order(explorer, order);
     }
 }
 
@@ -342,7 +339,7 @@ static void press_in_scene(struct gm_explorer *explorer, int key)
     if (key == GM_KEY_REDRAW) {
         gm_explorer_resize(explorer);
     } else if (shot->running_ahead && key != 'q') { /* any key stops running ahead */
-        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_HALT});
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_HALT});
     } else if (face->page != GM_PAGE_SCENE) {
         press_in_page(explorer, key);
     } else if (face->choosing != GM_CHOOSE_NOTHING) {
@@ -359,17 +356,11 @@ static void press_in_scene(struct gm_explorer *explorer, int key)
     }
 }
 
-/* Returns one code for the keys of one meaning. */
-static int usual(int key)
-{
-    const bool enter = key == '\r' || key == KEY_ENTER, erase = key == 127 || key == 8;
-    return enter ? '\n' : erase ? KEY_BACKSPACE : key;
-}
-
 void gm_explorer_key(struct gm_explorer *explorer, int key)
 {
     struct gm_face *face = &explorer->face;
-    key = usual(key);
+    const bool enter = key == '\r' || key == KEY_ENTER, erase = key == 127 || key == 8;
+    key = enter ? '\n' : erase ? KEY_BACKSPACE : key; /* one code for the keys of one meaning */
     explorer->dirty = true;
     if (face->loss) {
         face->loss = NULL;
@@ -390,5 +381,181 @@ void gm_explorer_key(struct gm_explorer *explorer, int key)
         gm_explorer_show_start(explorer);
     } else if (key == 'n' || key == 'N' || key == 'a') {
         act_on(explorer, key);
+    }
+}
+
+/* ---- the mouse: clicks, drags and the wheel ---- */
+
+/* Moves a slider with the pressed button; `begins`: it was just pressed. */
+static void drag(struct gm_explorer *explorer, int column, bool begins)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    const struct gm_hit *held = &explorer->pointer.held;
+    const double part = held->width > 1 ? (double)(column - held->column) / (held->width - 1) : 0;
+    struct gm_order order = {.kind = GM_ORDER_VISIT, .value = fmin(fmax(part, 0), 1)};
+    if (shot && held->kind == GM_HIT_PAST) {
+        order.value *= shot->reach;
+    } else if (shot && held->kind == GM_HIT_SLIDER && held->index < shot->parameter_count) {
+        order.kind = GM_ORDER_SLIDE;
+        order.amount = begins;
+        order.row = shot->parameters[held->index].row;
+    } else {
+        return;
+    }
+    gm_explorer_order(explorer, order);
+}
+
+/* Chooses a parameter. One without a slider takes its next value at a second click. */
+static void click_parameter(struct gm_explorer *explorer, size_t index)
+{
+    const struct gm_shot_parameter *parameter = &explorer->open.shot->parameters[index];
+    bool again = explorer->face.parameter == index;
+    explorer->face.parameter = index;
+    explorer->face.explaining = true;
+    if (again && parameter->position < 0) {
+        gm_explorer_order(explorer,
+                          (struct gm_order){.kind = GM_ORDER_MOVE, .amount = 1, .row = parameter->row});
+    }
+}
+
+static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_order order = {.kind = GM_ORDER_POINT};
+    const struct gm_screen *screen = &explorer->screen;
+    if (!explorer->open.shot->scene->point) {
+        return;
+    }
+    struct gm_picture *picture = explorer->open.shot->picture;
+    const struct gm_panel *panel =
+        screen->pixels.columns > 0
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            : gm_cells_locate(&screen->picture.cells, picture, screen->picture.blocks,
+                              event->column - screen->picture_column, event->row - screen->picture_row,
+                              &order.x, &order.y);
+    if (panel) {
+        gm_explorer_order(explorer, order);
+    }
+}
+
+/* Opens the run at a point of a map; the map's key shows the map again. */
+static void click_study(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_open *open = &explorer->open;
+    struct gm_typed_fault fault;
+    char *words = gm_studies_pick(&open->studies, explorer->face.blocks, event->column, event->row);
+    if (words && !gm_explorer_open_line(explorer, words, &fault)) {
+        snprintf(open->studies.notice, sizeof open->studies.notice, "%s", fault.sentence);
+    }
+    free(words);
+}
+
+/* Returns true if the hit is a picture in space. */
+static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
+{
+    return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&
+           explorer->open.shot->in_space && explorer->face.page == GM_PAGE_SCENE &&
+           explorer->open.studies.shown == GM_STUDY_NONE;
+}
+
+/* Turns the picture with the button: half a turn for the width of the screen. A row is as high as two
+   columns are wide. */
+static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_pointer *pointer = &explorer->pointer;
+    const double degrees = 180. / (explorer->screen.cells.columns > 0 ? explorer->screen.cells.columns : 1);
+    gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_LOOK,
+                                                  .x = degrees * (pointer->column - event->column),
+                                                  .y = 2 * degrees * (event->row - pointer->row),
+                                                  .value = 1});
+    pointer->column = event->column;
+    pointer->row = event->row;
+}
+
+/* Handles the wheel: zooms a picture in space, else scrolls a list or changes the speed. */
+static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
+{
+    const bool up = event->kind == GM_MOUSE_UP;
+    const bool space =
+        !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
+    gm_explorer_key(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
+}
+
+static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    if (explorer->face.loss && !(hit && hit->kind == GM_HIT_KEY)) { /* like any key but q */
+        explorer->face.loss = NULL;
+        return;
+    }
+    explorer->pointer.holding = hit != NULL;
+    if (!hit) {
+        return;
+    }
+    explorer->pointer.held = *hit;
+    explorer->pointer.column = event->column;
+    explorer->pointer.row = event->row;
+    if (hit->kind != GM_HIT_KEY && hit->kind != GM_HIT_SCENE) {
+        if (explorer->list.shown || !explorer->open.shot) {
+            return;
+        }
+        explorer->face.read = explorer->open.shot->message_number;
+    }
+    switch (hit->kind) {
+    case GM_HIT_KEY:
+        gm_explorer_key(explorer, (int)hit->index);
+        break;
+    case GM_HIT_SCENE:
+        gm_explorer_click_entry(explorer, hit->index);
+        break;
+    case GM_HIT_LANE:
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
+        break;
+    case GM_HIT_SCHEME:
+        gm_explorer_choose(explorer, hit->scheme);
+        break;
+    case GM_HIT_SLIDER:
+        explorer->face.parameter = hit->index;
+        explorer->face.explaining = true;
+        drag(explorer, event->column, true);
+        break;
+    case GM_HIT_PARAMETER:
+        click_parameter(explorer, hit->index);
+        break;
+    case GM_HIT_PAST:
+        drag(explorer, event->column, true);
+        break;
+    case GM_HIT_PICTURE:
+        if (explorer->open.studies.shown != GM_STUDY_NONE) {
+            click_study(explorer, event);
+        } else {
+            click_picture(explorer, event);
+        }
+        break;
+    }
+}
+
+void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
+                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    explorer->dirty = true;
+    switch (event->kind) {
+    case GM_MOUSE_PRESS:
+        click(explorer, event);
+        break;
+    case GM_MOUSE_DRAG:
+        if (explorer->pointer.holding && is_in_space(explorer, &explorer->pointer.held)) {
+            drag_space(explorer, event);
+        } else if (explorer->pointer.holding && !explorer->list.shown) {
+            drag(explorer, event->column, false);
+        }
+        break;
+    case GM_MOUSE_RELEASE:
+        explorer->pointer.holding = false;
+        break;
+    case GM_MOUSE_UP:
+    case GM_MOUSE_DOWN:
+        turn_wheel(explorer, event, lists);
+        break;
     }
 }

@@ -8,9 +8,8 @@
 #include "app/explorer/worker/worker.h"
 #include "app/words/typed.h"
 
-/* The state that the explorer's files share. explorer.c has start, loop and end. compose.c makes the screen, actions.c
-   handles keys, list.c the list of scenes, pointer.c the mouse, open.c scenes and typed lines. script.c is the explorer
-   without a terminal. */
+/* The state that the explorer's files share. explorer.c has start, loop, screen and end, actions.c handles keys and the
+   mouse, list.c the list of scenes, open.c scenes and typed lines. script.c is the explorer without a terminal. */
 
 enum { GM_NAME = 256 };
 
@@ -37,8 +36,8 @@ struct gm_open {
 struct gm_list {
     bool shown; /* the list is shown, and the open scene is a preview */
     struct gm_start start;
-    struct gm_start_entry *files; /* systems and rooms of files; the list owns their names and titles */
-    size_t file_count;
+    struct gm_start_entry *entries; /* all, group by group; the list owns the names and titles of files */
+    size_t count;
     struct gm_tour *tours; /* the tours; NULL: not read */
     size_t tour_count;
     bool kept;        /* the open scene was left and can be resumed */
@@ -89,6 +88,12 @@ struct gm_explorer {
     char message[GM_MESSAGE]; /* printed when the terminal is restored */
 };
 
+/* Gives an order to the open scene's worker. */
+static inline void gm_explorer_order(struct gm_explorer *explorer, struct gm_order order)
+{
+    gm_worker_order(explorer->open.worker, order);
+}
+
 /* Ends the explorer's loop; `status` is the exit status. */
 static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 {
@@ -100,8 +105,6 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 bool gm_explorer_compose(struct gm_explorer *explorer);
 /* Takes a new shot of the worker, or if that is NULL its failure. */
 void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot);
-/* Returns true while a thread or a process works on something that the screen shows. */
-bool gm_explorer_is_busy(struct gm_explorer *explorer);
 
 /* ---- a script (script.c) ---- */
 

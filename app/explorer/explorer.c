@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explorer's start and end, and the loop that waits for keys and events. */
+/* The explorer's start and end, the loop that waits for keys and events, and the screen: shots of the worker are
+   taken, and a screen is composed. */
 #include "app/explorer/explorer.h"
 
 #include <curses.h>
@@ -21,21 +22,106 @@
 #include "core/basics.h"
 #include "render/clock.h"
 
-/* ---- output ---- */
+/* ---- from the state to the screen ---- */
 
-static void draw(struct gm_explorer *explorer)
+enum { FRAME_MILLISECONDS = 16, SLOW_FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, LEAST_PAUSE = 5 };
+/* the part of a core up to which frames come at full pace */
+static const double FRAMES_SHARE = 1.0 / 3;
+
+bool gm_explorer_compose(struct gm_explorer *explorer)
 {
-    const struct gm_screen *screen = &explorer->screen;
-    explorer->dirty =
-        gm_explorer_compose(explorer) &&
-        !gm_display_show(&explorer->display,
-                         &(const struct gm_composed){
-                             .cells = &screen->cells,
-                             .room = screen->pixels,
-                             .pixels = explorer->face.pixels,
-                             .theme = explorer->face.theme,
-                             .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
+    enum { WATCH_MILLISECONDS = 8000 };
+    struct gm_screen *screen = &explorer->screen;
+    struct gm_face *face = &explorer->face;
+    const struct gm_shot *shot = explorer->open.shot;
+    if (explorer->list.shown) {
+        bool looked = gm_explorer_is_looked_at(explorer);
+        gm_screen_draw_start(screen, face, &explorer->list.start, looked ? shot : NULL, explorer->fresh,
+                             looked ? explorer->open.said : "");
+    } else if (shot) {
+        if (face->page == GM_PAGE_HELP) {
+            face->explained = shot->lanes[shot->selected].scheme;
+        }
+        if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
+            gm_measure_ask(&explorer->measure, face->explained);
+            face->measured = gm_measure_text(&explorer->measure);
+        }
+        if (face->watched != shot->scene) { /* what to watch in a new scene is shown for some seconds */
+            face->watched = shot->scene;
+            face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;
+        }
+        gm_screen_draw_scene(screen, face, shot, explorer->fresh);
+    } else {
+        return false;
+    }
+    if (face->loss) {
+        gm_screen_ask(screen, face);
+    }
+    explorer->fresh = false;
+    return true;
 }
+
+/* ---- shots of the worker ---- */
+
+/* Shows the requested command lines, and offers the first to the clipboard. */
+static void read_command(struct gm_explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    if (shot->command_number == explorer->open.told) {
+        return;
+    }
+    explorer->open.told = shot->command_number;
+    explorer->face.awaited = false;
+    if (explorer->editing) {
+        gm_explorer_edit_system(explorer, shot->commands[GM_COMMAND_EXPLORER]);
+        return;
+    }
+    explorer->face.page = GM_PAGE_COMMAND;
+    explorer->face.scroll = 0;
+    explorer->face.command = GM_COMMAND_PICTURE;
+    gm_explorer_copy(explorer);
+}
+
+/* Returns the milliseconds between frames: costly ones and pictures of pixels come half as often, which
+   leaves time for steps and other processes. */
+static int period(const struct gm_explorer *explorer, const struct gm_shot *shot)
+{
+    const double affordable = 1000 * (shot->cost + explorer->draw_cost) / FRAMES_SHARE;
+    if (explorer->list.shown) {
+        return LOOK_MILLISECONDS;
+    }
+    if (explorer->face.pixels || affordable > SLOW_FRAME_MILLISECONDS) {
+        return SLOW_FRAME_MILLISECONDS;
+    }
+    return affordable > FRAME_MILLISECONDS ? (int)affordable : FRAME_MILLISECONDS;
+}
+
+void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot)
+{
+    if (shot) {
+        explorer->open.shot = shot;
+        explorer->open.scene = shot->scene; /* the worker has made the scene by now */
+        explorer->open.asked = false;
+        read_command(explorer);
+        /* at an even pace, with a pause that leaves others time */
+        const int64_t next = explorer->open.next_shot + period(explorer, shot);
+        const int64_t earliest = gm_clock_milliseconds() + LEAST_PAUSE;
+        explorer->open.next_shot = next > earliest ? next : earliest;
+        explorer->dirty = true;
+        explorer->fresh = explorer->fresh || shot->drawn;
+        if (shot->drawn) {
+            explorer->display.stale = true;
+        }
+    } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
+               gm_worker_failed(explorer->open.worker, explorer->open.said)) {
+        explorer->dirty = true;
+        if (!explorer->list.shown) {
+            gm_explorer_show_start(explorer);
+        }
+    }
+}
+
+/* ---- output ---- */
 
 /* Returns the time (ms) at which the first of the texts that are shown for some seconds ends, or 0. */
 static int64_t first_end(const struct gm_explorer *explorer)
@@ -62,7 +148,9 @@ static int put_out(struct gm_explorer *explorer)
     bool sent = gm_writer_send(&explorer->display.writer);
     if (explorer->dirty && gm_display_takes(&explorer->display)) {
         const double begun = gm_clock_seconds();
-        draw(explorer);
+        explorer->dirty = gm_explorer_compose(explorer) &&
+                          !gm_display_show(&explorer->display, &explorer->screen, &explorer->face,
+                                           explorer->open.shot ? explorer->open.shot->picture : NULL);
         explorer->end = first_end(explorer);
         explorer->draw_cost = gm_clock_seconds() - begun;
         sent = sent && gm_writer_send(&explorer->display.writer);
@@ -127,21 +215,15 @@ static void read_late_answers(struct gm_explorer *explorer)
     }
 }
 
-/* Returns true if typed keys are for a scene or text that the worker has not yet delivered. A tour accepts
-   keys without its picture. */
-static bool is_early(const struct gm_explorer *explorer)
-{
-    const struct gm_open *open = &explorer->open;
-    return explorer->face.awaited ||
-           (open->worker && !open->shot && !open->said[0] && !open->touring && !explorer->list.shown);
-}
-
-/* Returns the milliseconds for which keys must wait; 0: they are read. */
+/* Returns the milliseconds for which typed keys must wait, for a scene or text that the worker has not yet
+   delivered; 0: they are read. A tour accepts keys without its picture. */
 static int hold_keys(struct gm_explorer *explorer)
 {
     enum { LONGEST = 500 }; /* milliseconds; a long step does not block the keys further */
     const int64_t now = gm_clock_milliseconds();
-    if (!is_early(explorer)) {
+    const struct gm_open *open = &explorer->open;
+    if (!explorer->face.awaited &&
+        (!open->worker || open->shot || open->said[0] || open->touring || explorer->list.shown)) {
         explorer->held_until = 0;
         return 0;
     }
@@ -181,17 +263,6 @@ static bool is_gone(void)
     return poll(&keys, 1, 0) > 0 && (ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting == 0);
 }
 
-static void suspend(struct gm_explorer *explorer)
-{
-    gm_display_rest(&explorer->display);
-    gm_console_stop();
-    if (gm_console_leaving()) {
-        gm_interrupts_seen();
-        gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
-    }
-    gm_explorer_resize(explorer);
-}
-
 static void read_picture(struct gm_explorer *explorer)
 {
     if (!gm_display_read(&explorer->display)) {
@@ -211,14 +282,16 @@ static void read_news(struct gm_explorer *explorer)
     if (read(explorer->wake, &count, sizeof count) < 0 && errno != EAGAIN && errno != EINTR) {
         gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
+    const bool stops = gm_console_stopping();
+    if (stops) {
+        gm_display_rest(&explorer->display);
+        gm_console_stop();
+    }
     if (gm_console_leaving()) {
         gm_interrupts_seen();
         gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
     }
-    if (gm_console_stopping()) {
-        suspend(explorer);
-    }
-    if (gm_console_resized()) {
+    if (gm_console_resized() || stops) {
         gm_explorer_resize(explorer);
     }
     read_picture(explorer);

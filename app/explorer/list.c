@@ -24,16 +24,29 @@ static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
     return start->choice < start->count ? &start->found[start->choice] : NULL;
 }
 
-/* ---- systems and rooms of files ---- */
+/* ---- the entries ---- */
 
+/* Returns true for the name of a system or a room of a file. */
 static bool is_listed(const struct gm_list *list, const char *name)
 {
-    for (size_t i = 0; i < list->file_count; i++) {
-        if (strcmp(list->files[i].name, name) == 0) {
+    for (size_t i = 0; i < list->count; i++) {
+        if (list->entries[i].group >= GM_START_SYSTEMS && strcmp(list->entries[i].name, name) == 0) {
             return true;
         }
     }
     return false;
+}
+
+/* Adds an entry; returns false when out of memory. */
+static bool add(struct gm_list *list, struct gm_start_entry entry)
+{
+    struct gm_start_entry *longer =
+        entry.name && entry.title ? realloc(list->entries, (list->count + 1) * sizeof *longer) : NULL;
+    if (longer) {
+        list->entries = longer;
+        longer[list->count++] = entry;
+    }
+    return longer;
 }
 
 /* The list and group that files are added to. */
@@ -46,39 +59,62 @@ struct taking {
 static void add_file(const struct gm_listed *listed, const void *data)
 {
     const struct taking *taking = data;
-    struct gm_list *list = taking->list;
-    struct gm_start_entry *longer = NULL;
-    char *name = NULL, *title = NULL;
-    if (!is_listed(list, listed->name) && gm_scene_number(listed->name) == gm_scene_count() &&
-        gm_text_is_plain(listed->name)) {
-        longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
-        list->files = longer ? longer : list->files;
-        name = strdup(listed->name);
-        title = strdup(listed->title);
+    if (is_listed(taking->list, listed->name) || gm_scene_number(listed->name) < gm_scene_count() ||
+        !gm_text_is_plain(listed->name)) {
+        return;
     }
-    if (longer && name && title) {
-        list->files[list->file_count++] =
-            (struct gm_start_entry){.group = taking->group, .name = name, .title = gm_text_tame(title)};
-    } else {
+    char *name = strdup(listed->name), *title = strdup(listed->title);
+    const char *shown = title ? gm_text_tame(title) : NULL;
+    if (!add(taking->list, (struct gm_start_entry){.group = taking->group, .name = name, .title = shown})) {
         free(name);
         free(title);
     }
 }
 
-static void close_files(struct gm_list *list)
+static void close_entries(struct gm_list *list)
 {
-    for (size_t i = 0; i < list->file_count; i++) {
-        free((char *)list->files[i].name);
-        free((char *)list->files[i].title);
+    for (size_t i = 0; i < list->count; i++) {
+        if (list->entries[i].group >= GM_START_SYSTEMS) {
+            free((char *)list->entries[i].name);
+            free((char *)list->entries[i].title);
+        }
     }
-    free(list->files);
-    list->files = NULL;
-    list->file_count = list->start.count = 0;
+    free(list->entries);
+    list->entries = NULL;
+    list->count = list->start.count = 0;
+}
+
+/* Lists the scenes, the typed system, the tours and the files, group by group. */
+static void read_entries(struct gm_list *list)
+{
+    char message[GM_MESSAGE]; /* `geomint list` reports unreadable files */
+    close_entries(list);
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        add(list, (struct gm_start_entry){.name = scene->name,
+                                          .title = scene->title,
+                                          .more = {scene->blurb, scene->watch},
+                                          .scene = scene});
+    }
+    add(list, (struct gm_start_entry){.name = GM_START_OWN, .title = GM_START_OWN_TITLE});
+    if (!list->tours) {
+        list->tours = gm_tours_read(&list->tour_count, message);
+    }
+    for (size_t i = 0; i < list->tour_count; i++) {
+        const struct gm_tour *tour = &list->tours[i];
+        add(list, (struct gm_start_entry){.group = GM_START_TOURS,
+                                          .name = tour->name,
+                                          .title = tour->title,
+                                          .more = {tour->about, "tour"},
+                                          .tour = tour});
+    }
+    gm_files_each(GM_FILE_SYSTEM, add_file, &(const struct taking){list, GM_START_SYSTEMS}, message);
+    gm_files_each(GM_FILE_ROOM, add_file, &(const struct taking){list, GM_START_ROOMS}, message);
 }
 
 void gm_explorer_close_list(struct gm_list *list)
 {
-    close_files(list);
+    close_entries(list);
     gm_tours_close(list->tours, list->tour_count);
 }
 
@@ -137,54 +173,6 @@ void gm_explorer_look_if_due(struct gm_explorer *explorer)
     }
 }
 
-/* Inserts a matching entry into the list, from index `first` on, the best match first. */
-static void find(struct gm_start *start, size_t first, const struct gm_start_entry *entry, const char *more,
-                 const char *further)
-{
-    const char *texts[] = {entry->name, entry->title, more ? more : "", further ? further : "", NULL};
-    const int rank = gm_search_rank(start->typed, texts);
-    if (rank < 0 || start->count == GM_START_ENTRIES) {
-        return;
-    }
-    const size_t at = gm_search_place(start->ranks, first, start->count, rank);
-    memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof *entry);
-    start->found[at] = *entry;
-}
-
-static void find_scenes(struct gm_start *start)
-{
-    for (size_t i = 0; i < gm_scene_count(); i++) {
-        const struct gm_scene *scene = gm_scene_at(i);
-        const struct gm_start_entry entry = {
-            .group = GM_START_SCENES, .name = scene->name, .title = scene->title, .scene = scene};
-        find(start, 0, &entry, scene->blurb, scene->watch);
-    }
-    const struct gm_start_entry start_entry = {
-        .group = GM_START_SCENES, .name = GM_START_OWN, .title = GM_START_OWN_TITLE};
-    find(start, 0, &start_entry, NULL, NULL);
-}
-
-static void find_tours(struct gm_start *start, const struct gm_list *list)
-{
-    const size_t first = start->count;
-    for (size_t i = 0; i < list->tour_count; i++) {
-        const struct gm_tour *tour = &list->tours[i];
-        const struct gm_start_entry entry = {
-            .group = GM_START_TOURS, .name = tour->name, .title = tour->title, .tour = tour};
-        find(start, first, &entry, tour->about, "tour");
-    }
-}
-
-static void find_files(struct gm_start *start, const struct gm_list *list, enum gm_start_group group)
-{
-    const size_t first = start->count;
-    for (size_t i = 0; i < list->file_count; i++) {
-        if (list->files[i].group == group) {
-            find(start, first, &list->files[i], NULL, NULL);
-        }
-    }
-}
-
 /* Chooses the best match; the previous choice wins a tie. */
 static void choose(struct gm_start *start, const struct gm_start_entry *before)
 {
@@ -197,30 +185,34 @@ static void choose(struct gm_start *start, const struct gm_start_entry *before)
     }
 }
 
+/* Finds the entries that match the typed words: of each group the best match first. */
 static void find_all(struct gm_explorer *explorer)
 {
+    const struct gm_list *list = &explorer->list;
     struct gm_start *start = &explorer->list.start;
     const struct gm_start_entry *present = chosen(explorer);
     const struct gm_start_entry before = present ? *present : (struct gm_start_entry){0};
+    size_t first = 0;
     start->count = 0;
-    find_scenes(start);
-    find_tours(start, &explorer->list);
-    find_files(start, &explorer->list, GM_START_SYSTEMS);
-    find_files(start, &explorer->list, GM_START_ROOMS);
+    for (size_t i = 0; i < list->count && start->count < GM_START_ENTRIES; i++) {
+        const struct gm_start_entry *entry = &list->entries[i];
+        const char *texts[] = {entry->name, entry->title, entry->more[0] ? entry->more[0] : "",
+                               entry->more[1] ? entry->more[1] : "", NULL};
+        const int rank = gm_search_rank(start->typed, texts);
+        first = i > 0 && entry->group != entry[-1].group ? start->count : first;
+        if (rank >= 0) {
+            const size_t at = gm_search_place(start->ranks, first, start->count, rank);
+            memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof *entry);
+            start->found[at] = *entry;
+        }
+    }
     choose(start, present ? &before : NULL);
     look_soon(explorer);
 }
 
 void gm_explorer_show_start(struct gm_explorer *explorer)
 {
-    char message[GM_MESSAGE]; /* `geomint list` reports unreadable files */
-    if (!explorer->list.tours) {
-        explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
-    }
-    close_files(&explorer->list);
-    gm_files_each(GM_FILE_SYSTEM, add_file, &(const struct taking){&explorer->list, GM_START_SYSTEMS},
-                  message);
-    gm_files_each(GM_FILE_ROOM, add_file, &(const struct taking){&explorer->list, GM_START_ROOMS}, message);
+    read_entries(&explorer->list);
     explorer->list.shown = true;
     explorer->editing = false;
     explorer->list.start.typed[0] = '\0';
@@ -234,25 +226,24 @@ void gm_explorer_show_start(struct gm_explorer *explorer)
     look_soon(explorer);
 }
 
-/* Opens a tour; one that was left is resumed at its step. */
-static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
+/* Opens an entry; a tour that was left is resumed at its step. */
+static bool open_entry(struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     struct gm_guide *guide = &explorer->open.guide;
-    if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
-        *guide = gm_guide_at(tour, 0);
+    explorer->face.parameter = 0;
+    if (!entry->tour) {
+        guide->tour = NULL;
+        explorer->face.guide = NULL;
+        return gm_open_named(&explorer->open, entry->name, false, explorer->message);
+    }
+    if (!guide->tour || strcmp(guide->tour->name, entry->tour->name) != 0) {
+        *guide = gm_guide_at(entry->tour, 0);
         explorer->face.guide = guide;
     }
     return gm_open_step(&explorer->open, explorer->message);
 }
 
-static bool enter_named(struct gm_explorer *explorer, const char *name)
-{
-    explorer->open.guide.tour = NULL;
-    explorer->face.guide = NULL;
-    return gm_open_named(&explorer->open, name, false, explorer->message);
-}
-
-/* Opens the chosen scene or tour, or returns to it if it is still open. */
+/* Opens the chosen entry, or returns to it if it is still open. */
 static void enter(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
@@ -264,11 +255,8 @@ static void enter(struct gm_explorer *explorer)
         gm_explorer_ask_system(explorer);
         return;
     }
-    if (!goes_on) {
-        explorer->face.parameter = 0;
-        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_named(explorer, entry->name))) {
-            gm_explorer_leave(explorer, GM_EXIT_USAGE);
-        }
+    if (!goes_on && !open_entry(explorer, entry)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
     explorer->list.shown = false;
     explorer->dirty = explorer->fresh = true;

@@ -21,38 +21,9 @@
 
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
-/* Stores a new worker (or NULL), which owes its first shot, for a scene, or if that is NULL for the scene
-   called `name`. Returns false for NULL. */
-static bool take_over(struct gm_open *open, struct gm_worker *worker, const struct gm_scene *scene,
-                      const char *name)
-{
-    open->worker = worker;
-    open->scene = scene;
-    snprintf(open->name, sizeof open->name, "%s",
-             !scene         ? name
-             : scene->words ? scene->words[0]
-                            : scene->name);
-    open->shot = NULL;
-    open->told = 0;
-    open->asked = true;
-    open->next_shot = 0;
-    open->said[0] = '\0';
-    return worker != NULL;
-}
-
-/* Stores a line to print in the shell. */
-static void keep_parting(struct gm_open *open, const char *line)
-{
-    char *before = open->partings, *longer = NULL;
-    if (line[0] && asprintf(&longer, "%sgeomint: %s\n", before ? before : "", line) > 0) {
-        open->partings = longer;
-        free(before);
-    }
-}
-
 void gm_open_leave(struct gm_open *open)
 {
-    char parting[GM_MESSAGE] = "";
+    char parting[GM_MESSAGE] = "", *before = open->partings, *longer = NULL;
     gm_display_finish(open->display);
     if (open->touring) {
         gm_worker_close(open->worker, parting); /* the worker must end before its tour is freed */
@@ -61,35 +32,44 @@ void gm_open_leave(struct gm_open *open)
     }
     open->worker = NULL;
     open->touring = false;
-    keep_parting(open, gm_text_tame(parting));
+    if (parting[0] && asprintf(&longer, "%sgeomint: %s\n", before ? before : "", gm_text_tame(parting)) > 0) {
+        open->partings = longer;
+        free(before);
+    }
+}
+
+/* Replaces the open scene by lanes that a new worker plays. Returns false and fills message if there is none. */
+static bool take_over(struct gm_open *open, const struct gm_worker_plan *plan, char *message)
+{
+    struct gm_worker *worker = gm_worker_open(plan, open->wake, message);
+    if (!worker) {
+        return false;
+    }
+    gm_open_leave(open);
+    open->worker = worker;
+    open->scene = plan->request ? plan->request->scene : NULL;
+    const char *name = !open->scene         ? plan->name
+                       : open->scene->words ? open->scene->words[0]
+                                            : open->scene->name;
+    snprintf(open->name, sizeof open->name, "%s", name);
+    open->shot = NULL;
+    open->told = 0;
+    open->asked = true;
+    open->next_shot = 0;
+    open->said[0] = '\0';
+    return true;
 }
 
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message)
 {
-    gm_open_leave(open);
-    return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene, NULL);
-}
-
-static bool open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault)
-{
-    struct gm_request request;
-    if (!gm_typed_request(&request, line, FIRST_SCHEMES, fault)) {
-        return false;
-    }
-    struct gm_worker *worker = gm_worker_open(&request, open->wake, NULL, fault->sentence);
-    if (worker) {
-        gm_open_leave(open);
-        take_over(open, worker, request.scene, NULL);
-    }
-    gm_request_close(&request);
-    return worker != NULL;
+    return take_over(open, &(struct gm_worker_plan){.request = request}, message);
 }
 
 bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message)
 {
-    gm_open_leave(open);
     const size_t schemes = preview ? LOOK_SCHEMES : FIRST_SCHEMES;
-    return take_over(open, gm_worker_open_named(name, schemes, preview, open->wake, message), NULL, name);
+    return take_over(open, &(struct gm_worker_plan){.name = name, .schemes = schemes, .preview = preview},
+                     message);
 }
 
 void gm_open_study(struct gm_open *open)
@@ -110,10 +90,12 @@ bool gm_open_step(struct gm_open *open, char *message)
     const struct gm_order first = {
         .kind = GM_ORDER_TOUR, .amount = !guide->answered, .tour = guide->tour, .step = guide->step};
     const struct gm_request *request = &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request;
-    gm_open_leave(open);
+    if (!take_over(open, &(struct gm_worker_plan){.request = request, .first = &first}, message)) {
+        return false;
+    }
     gm_open_study(open);
     open->touring = true;
-    return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene, NULL);
+    return true;
 }
 
 /* ---- faults of a line, found by a thread: a sum may have many terms ---- */
@@ -147,15 +129,6 @@ static bool knows_fault(struct gm_check *check, gm_line_reader *read, const char
     }
     *fault = check->fault;
     return true;
-}
-
-static void close_check(struct gm_check *check)
-{
-    if (check->open) {
-        gm_job_close(&check->job);
-    }
-    free(check->line);
-    *check = (struct gm_check){0};
 }
 
 /* ---- typed lines ---- */
@@ -219,7 +192,7 @@ void gm_explorer_ask_system(struct gm_explorer *explorer)
     const char *last = explorer->typed_prompt.last[GM_TYPED_SYSTEM];
     if (open->shot && open->scene->text) {
         explorer->editing = explorer->face.awaited = true;
-        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_TELL});
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_TELL});
         return;
     }
     const size_t formula = (size_t)(strstr(example, " q=") - example);
@@ -378,8 +351,8 @@ static bool take_map(struct gm_explorer *explorer)
 
 static void take_scheme(struct gm_explorer *explorer, bool fork, const struct gm_scheme *scheme)
 {
-    gm_worker_order(explorer->open.worker,
-                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+    const enum gm_order_kind kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH;
+    gm_explorer_order(explorer, (struct gm_order){.kind = kind, .scheme = scheme});
 }
 
 void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *scheme)
@@ -396,7 +369,13 @@ void gm_explorer_choose(struct gm_explorer *explorer, const struct gm_scheme *sc
 bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struct gm_typed_fault *fault)
 {
     struct gm_open *open = &explorer->open;
-    if (!open_line(open, line, fault)) {
+    struct gm_request request;
+    if (!gm_typed_request(&request, line, FIRST_SCHEMES, fault)) {
+        return false;
+    }
+    const bool opened = gm_open_request(open, &request, fault->sentence);
+    gm_request_close(&request);
+    if (!opened) {
         return false;
     }
     open->guide.tour = NULL;
@@ -405,13 +384,6 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
     explorer->face.parameter = 0;
     explorer->list.shown = false;
     return true;
-}
-
-/* Returns true if a line has a formula of its own, with or without the name of a file. */
-static bool has_formula(const char *line)
-{
-    return memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") || strstr(line, " L=") ||
-           strstr(line, " rate=");
 }
 
 /* Carries out a correct line. */
@@ -423,7 +395,9 @@ static void take(struct gm_explorer *explorer)
     bool taken;
     if (prompt->kind == GM_TYPED_SYSTEM) {
         taken = gm_explorer_open_line(explorer, line, &prompt->fault);
-        explorer->open.unsaved = explorer->open.unsaved || (taken && has_formula(line));
+        const bool formula = memchr(line, '=', strcspn(line, " ")) || strstr(line, " H=") ||
+                             strstr(line, " L=") || strstr(line, " rate=");
+        explorer->open.unsaved = explorer->open.unsaved || (taken && formula);
     } else if (prompt->kind == GM_TYPED_MAP) {
         taken = take_map(explorer);
     } else {
@@ -481,7 +455,10 @@ void gm_explorer_press_typed(struct gm_explorer *explorer, int key)
 
 void gm_explorer_close_typed(struct gm_explorer *explorer)
 {
-    close_check(&explorer->check);
+    if (explorer->check.open) {
+        gm_job_close(&explorer->check.job);
+    }
+    free(explorer->check.line);
     for (size_t i = 0; i < GM_TYPED_KINDS; i++) {
         free(explorer->typed_prompt.last[i]);
     }

@@ -78,8 +78,10 @@ static bool check_words(const struct gm_arguments *words, char *message)
    scheme. Returns true if one of them has a result. */
 static bool wait_for_others(struct gm_explorer *explorer)
 {
+    struct gm_check *check = &explorer->check;
     bool came = false;
-    while (gm_explorer_is_busy(explorer)) {
+    while ((check->open && gm_job_is_busy(&check->job)) || gm_studies_are_busy(&explorer->open.studies) ||
+           explorer->measure.fd >= 0) {
         nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         came = (explorer->measure.fd >= 0 && gm_measure_read(&explorer->measure)) || came;
     }
@@ -150,15 +152,6 @@ static void name_picture(const void *data, struct gm_picture *picture)
     picture->title = "geomint";
 }
 
-/* Without colours only ink and paper remain. */
-static void bleach(struct gm_cells *cells, enum gm_theme theme)
-{
-    for (int i = 0; i < cells->rows * cells->columns; i++) {
-        cells->cells[i].foreground = gm_theme_colour(theme, GM_INK);
-        cells->cells[i].background = gm_theme_colour(theme, GM_PAPER);
-    }
-}
-
 static bool write_picture(struct gm_explorer *explorer, const struct gm_overrides *overrides,
                           enum gm_format format, char *message)
 {
@@ -172,8 +165,9 @@ static bool write_picture(struct gm_explorer *explorer, const struct gm_override
                                                 .theme = explorer->face.theme,
                                                 .live = true,
                                                 .screen = cells}}};
-    if (explorer->face.monochrome) {
-        bleach(cells, explorer->face.theme);
+    for (int i = 0; explorer->face.monochrome && i < cells->rows * cells->columns; i++) {
+        cells->cells[i].foreground = gm_theme_colour(explorer->face.theme, GM_INK);
+        cells->cells[i].background = gm_theme_colour(explorer->face.theme, GM_PAPER);
     }
     return gm_chart_write(&chart, message);
 }

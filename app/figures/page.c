@@ -12,64 +12,10 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
+#include "app/base/files.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/files/images.h"
-
-/* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
-static const char style[] =
-    ":root{color-scheme:light dark;--paper:#fcfcfa;--ink:#1d1f24;--soft:#6b6f78;--line:#e4e4df;--tint:#f2f2ee;"
-    "--good:#00664b;--bad:#a94400;--link:#0067a3}\n"
-    "@media(prefers-color-scheme:dark){:root{--paper:#14161b;--ink:#e8e8e4;--soft:#a2a7b1;--line:#2a2e36;"
-    "--tint:#1b1e24;--good:#3fd0a0;--bad:#ff9f4a;--link:#56b4e9}}\n"
-    "*{box-sizing:border-box}\n"
-    "html{scroll-behavior:smooth}\n"
-    "@media(prefers-reduced-motion:reduce){html{scroll-behavior:auto}}\n"
-    "body{margin:0;background:var(--paper);color:var(--ink);font:1rem/1.55 'DejaVu Sans',Verdana,system-ui,"
-    "sans-serif;font-variant-numeric:tabular-nums}\n"
-    "main,header,footer{max-width:64rem;margin:0 auto;padding:0 1.25rem}\n"
-    "header{padding-top:3rem}\n"
-    "h1{font-size:2rem;line-height:1.15;margin:0 0 .5rem;letter-spacing:-.01em;text-wrap:balance}\n"
-    "h2{font-size:1.3rem;line-height:1.3;margin:4rem 0 .25rem;text-wrap:balance}\n"
-    "h3{font-size:1.05rem;margin:0}\n"
-    "h3 .soft{font-weight:normal}\n"
-    "a{color:var(--link)}\n"
-    "p{max-width:46rem}\n"
-    ".soft,figcaption{color:var(--soft)}\n"
-    ".sum{font-size:1.1rem}\n"
-    ".notice{border-left:3px solid var(--bad);padding-left:1rem}\n"
-    "article{margin:2.5rem 0 0;padding-top:1.5rem;border-top:1px solid var(--line)}\n"
-    "article>h3 a{color:inherit;text-decoration:none}\n"
-    "article>h3 a:hover{text-decoration:underline}\n"
-    "figure{margin:1rem 0}\n"
-    "img{display:block;width:100%;height:auto}\n"
-    "pre{margin:.75rem 0;padding:.7rem .9rem;background:var(--tint);border-radius:.3rem;overflow-x:auto;"
-    "font:.85rem/1.5 'DejaVu Sans Mono',ui-monospace,monospace;white-space:pre-wrap;overflow-wrap:anywhere}\n"
-    ".wide{overflow-x:auto}\n"
-    "table{border-collapse:collapse;width:100%;font-size:.92rem}\n"
-    "th,td{text-align:left;vertical-align:top;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}\n"
-    "th{font-weight:normal;color:var(--soft)}\n"
-    "td.n,th.n{white-space:nowrap}.judged td:first-child{width:44%}\n"
-    ".good,.bad,.none{white-space:nowrap}\n"
-    ".good{color:var(--good)}.bad{color:var(--bad);font-weight:bold}.none{color:var(--soft)}\n"
-    "details{margin:.75rem 0;font-size:.92rem}\n"
-    "summary{cursor:pointer;color:var(--soft)}\n"
-    ".all{font-size:.85rem}.all td,.all th{white-space:nowrap}\n"
-    "nav ol{list-style:none;padding:0;margin:1.5rem 0;columns:17rem;column-gap:2rem}\n"
-    "nav li{break-inside:avoid;display:flex;justify-content:space-between;gap:1rem;padding:.2rem 0;"
-    "border-bottom:1px solid var(--line)}\n"
-    "nav li a{min-width:0;overflow-wrap:anywhere}nav .scene{flex:1}\n"
-    "footer{padding-top:3rem;padding-bottom:3rem;color:var(--soft);font-size:.9rem}\n"
-    "@media(max-width:40rem){header{padding-top:1.5rem}h1{font-size:1.6rem}h2{margin-top:3rem}"
-    ".judged,.judged tbody,.judged tr,.judged td{display:block}.judged thead{display:none}"
-    ".judged td:first-child{width:auto}.judged tr{padding:.5rem 0;border-bottom:1px solid var(--line)}.judged td{border:0;padding:.1rem 0}"
-    ".judged td[data-is]::before{content:attr(data-is) ' ';color:var(--soft)}"
-    "figure{overflow-x:auto;margin-left:-1.25rem;margin-right:-1.25rem}figure img{min-width:40rem}}\n"
-    "@media print{:root{--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--tint:#f4f4f4;--good:#004d38;"
-    "--bad:#8a3700;--link:#000}body{font-size:9.5pt}header,main,footer{max-width:none;padding-left:0;"
-    "padding-right:0}article{break-inside:avoid;margin-top:1.2rem;padding-top:.8rem}h2{break-after:avoid}"
-    "figure{margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
-    "pre{font-size:7.5pt}td,th{padding:.2rem .6rem .2rem 0}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
 
 static void put_text(FILE *page, const char *text)
 {
@@ -325,15 +271,8 @@ static void put_contents(const struct page *all, const struct gm_document *docum
     fputs("</ol></nav>\n", page);
 }
 
-static void put_head(FILE *page, const struct gm_figure_output *output, const struct gm_figure_sum *sum,
-                     size_t count)
+static void put_sum(FILE *page, const struct gm_figure_sum *sum, size_t count)
 {
-    fprintf(page,
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-            "<meta name=\"generator\" content=\"geomint %s\">\n<title>Published figures, reproduced</title>\n"
-            "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, reproduced</h1>\n",
-            GM_VERSION, style);
     const struct gm_tally *said = &sum->of[GM_OF_DOCUMENT], *ours = &sum->of[GM_OF_OURS],
                           *variants = &sum->of[GM_OF_VARIANT];
     fprintf(
@@ -349,24 +288,6 @@ static void put_head(FILE *page, const struct gm_figure_output *output, const st
         "with another value than the document’s, %zu hold.</p>\n",
         ours->hold + ours->fail + ours->open, ours->hold, variants->hold + variants->fail + variants->open,
         variants->hold);
-    fputs(
-        "<p class=\"soft\">Each figure comes with the statements of its document, the number that was found here, "
-        "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "
-        "gives a word, the word means the same throughout: a number <i>grows</i> whose largest value in the "
-        "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
-        "<i>round-off</i> is at most 1e-13; <i>close</i>, <i>the same</i> and <i>very similar</i> are within 5 % of "
-        "the solution’s own size, or of the number compared with; <i>much smaller</i> is at most a tenth; "
-        "<i>about</i> is up to twice as much; a time is met within 1 %, an order within 0.05. A statement is "
-        "<i>open</i> that holds or not by the value of a key that the document does not give. A run that "
-        "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
-        "follows it.</p>\n",
-        page);
-    if (output->quick) {
-        fputs("<p class=\"notice\">Made with --quick: smaller pictures, and the longest runs are made with "
-              "coarser grids or steps. Nothing is judged of those.</p>\n",
-              page);
-    }
-    fputs("</header>\n<main>\n", page);
 }
 
 static void put_document(struct page *page, const struct gm_document *document)
@@ -394,24 +315,36 @@ static void put_document(struct page *page, const struct gm_document *document)
 static void put_page(struct page *page)
 {
     const struct gm_figure_sum sum = gm_figures_sum(page->jobs, page->outcomes, page->count);
-    put_head(page->file, page->output, &sum, page->count);
-    for (size_t i = 0; i < gm_document_count(); i++) {
-        put_document(page, gm_document_at(i));
+    const bool quick = page->output->quick;
+    char slot[GM_PAGE_SLOT];
+    for (const char *text = gm_page_text("figures"); gm_page_next(page->file, &text, slot);) {
+        if (strcmp(slot, "version") == 0) {
+            fputs(GM_VERSION, page->file);
+        } else if (strcmp(slot, "sum") == 0) {
+            put_sum(page->file, &sum, page->count);
+        } else if (strcmp(slot, "notice") == 0 && quick) {
+            fputs(
+                "<p class=\"notice\">Made with --quick: smaller pictures, and the longest runs are made with "
+                "coarser grids or steps. Nothing is judged of those.</p>\n",
+                page->file);
+        } else if (strcmp(slot, "quick") == 0 && quick) {
+            fputs(" --quick", page->file);
+        } else if (strcmp(slot, "figures") == 0) {
+            for (size_t i = 0; i < gm_document_count(); i++) {
+                put_document(page, gm_document_at(i));
+            }
+            put_document(page, &own_systems);
+        }
     }
-    put_document(page, &own_systems);
-    fprintf(
-        page->file,
-        "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n</html>\n",
-        GM_VERSION, page->output->quick ? " --quick" : "");
 }
 
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message)
 {
-    char *path = gm_text("%s/figures.html", output->folder),
-         *partial = gm_text("%s/.figures.html", output->folder);
-    errno = 0;
-    struct page page = {path && partial ? fopen(partial, "w") : NULL, output, jobs, outcomes, count, false};
+    char path[GM_FIGURE_PATH], partial[GM_FIGURE_PATH];
+    snprintf(path, sizeof path, "%s/figures.html", output->folder);
+    snprintf(partial, sizeof partial, "%s/.figures.html", output->folder);
+    struct page page = {fopen(partial, "w"), output, jobs, outcomes, count, false};
     bool made = false;
     if (page.file) {
         put_page(&page);
@@ -421,9 +354,7 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
     if (!made) {
         gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
                   gm_memory_was_short() ? "not enough memory" : strerror(errno));
-        remove(partial ? partial : "");
+        remove(partial);
     }
-    free(path);
-    free(partial);
     return made;
 }

@@ -105,16 +105,13 @@ static void refine(struct gm_arena *arena, struct grid grids[1 + FINER])
 static void check(struct gm_arena *arena, const struct gm_lane *lane)
 {
     const struct gm_kind *kind = lane->problem.kind;
-    if (!kind->certify_on) {
-        gm_arena_refuse(
-            arena,
-            "--on takes ordinary differential equations and waves on a line or on moving meshes; %s is none of these",
-            lane->scene->name);
-    }
-    if (lane->problem.n > kind->most_certified || lane->problem.passive > 0) {
-        gm_arena_refuse(arena, "--on takes systems of at most %zu components, all of which move each other",
-                        kind->most_certified);
-    }
+    gm_arena_refuse_if(
+        arena, !kind->certify_on,
+        "--on takes ordinary differential equations and waves on a line or on moving meshes; %s is none of these",
+        lane->scene->name);
+    gm_arena_refuse_if(arena, lane->problem.n > kind->most_certified || lane->problem.passive > 0,
+                       "--on takes systems of at most %zu components, all of which move each other",
+                       kind->most_certified);
 }
 
 static struct gm_certificate certify(struct gm_arena *arena, const struct gm_lane *lane)
@@ -172,9 +169,8 @@ static const struct gm_request *ask(struct gm_arena *arena, const char *system,
         gm_arena_refuse(arena, "%s", message);
     }
     gm_arena_keep(arena, request, gm_request_close);
-    if (request->count != 1) {
-        gm_arena_refuse(arena, "a certificate on a system takes one scheme and one value of each key");
-    }
+    gm_arena_refuse_if(arena, request->count != 1,
+                       "a certificate on a system takes one scheme and one value of each key");
     return request;
 }
 

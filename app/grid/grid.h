@@ -162,7 +162,12 @@ struct gm_study_row {
     /* Computes the results of a line, after each of its cells; NULL: none. */
     void (*conclude)(const struct gm_grid *grid, struct gm_grid_line *line);
 
-    /* ---- of gm_cells_write and gm_grid_put_cells ---- */
+    /* ---- the output of kinds with cells ---- */
+    void (*print)(const struct gm_grid *grid); /* a table */
+    const char *cells;                         /* the key of a line's cells in JSON */
+    /* Put what JSON has before and, unless it is NULL, after them. */
+    void (*put_front)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
+    void (*put_end)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
     bool ordered; /* the scheme's order is a column */
     int rows;     /* rows per cell in CSV; `number` is one of them */
     void (*put_cell)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_cell *cell,
@@ -189,44 +194,28 @@ void gm_grid_close(void *grid);
 void gm_grid_draw(const void *grid, struct gm_picture *picture);
 bool gm_grid_write(const void *grid, FILE *table);
 
-/* Writes the cells of a line as a list in JSON. */
-void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
-                       struct gm_row *row);
+/* Prints the results: a table, or a line of JSON for every line of the grid. */
+void gm_grid_print(const struct gm_grid *grid, bool json);
 
-/* The results of a grid's cells together. */
+/* ---- verdicts of stability ---- */
 
-/* ---- stability ---- */
-
-/* The question: "bounded" or "accurate"; and in a sentence, "accurate to 0.01 (position_error)". */
-const char *gm_stability_judge(const struct gm_grid *grid);
+/* The question in a sentence: "bounded", "accurate to 0.01 (position_error)". Returns text. */
 const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t size);
 
 /* The verdict, "lost", ... or the status' name; and a letter for the map. */
 const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell);
 char gm_cell_letter(const struct gm_grid_cell *cell);
 
-/* The letters in use, except that of the question: "W wrong, M mesh-crossing". Returns text. */
-const char *gm_stability_letters(const struct gm_grid *grid, char *text, size_t size);
-
 /* The largest step, in the plan's unit, up to which a scheme passes for all values; 0 if it never does.
    NAN if untried cells leave it open. */
 double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line);
 
-/* ---- work-precision ---- */
-
-double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost);
+/* ---- prices of work-precision ---- */
 
 /* Copies to `best`, of `count` places, the cells that are cheaper than all that are as accurate, by rising
    cost. Returns their number. */
 size_t gm_work_keep_best(const struct gm_grid_cell *cells, size_t count, enum gm_cost cost,
                          struct gm_grid_cell *best);
-
-/* The cells that make up a line's curve and costs. */
-const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
-
-/* The second cost for comparing schemes, after the run time; and this cost of an error, as it is printed. */
-enum gm_cost gm_work_second_cost(const struct gm_grid *grid);
-double gm_work_second_price(const struct gm_grid *grid, const struct gm_grid_line *line, double error);
 
 /* The cost of a scheme at this error, interpolated between two cells of its front; NAN if it does not
    reach it. */
@@ -234,8 +223,5 @@ double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost
 
 /* The line that is cheapest at this error; NULL if none reaches it. */
 const struct gm_grid_line *gm_work_cheapest(const struct gm_grid *grid, double error, enum gm_cost cost);
-
-/* "Cheapest by run time: ..." */
-const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size);
 
 #endif

@@ -48,6 +48,24 @@ void gm_cells_open(struct gm_grid *grid);
 void gm_cells_measure(struct gm_grid *grid);
 bool gm_cells_write(const struct gm_grid *grid, FILE *csv);
 
+/* ---- tables ---- */
+
+/* Prints a cell of a table, with a dash as wide as the number for one that is not finite. */
+__attribute__((format(printf, 1, 0))) void gm_print_number(const char *format, int width, double value);
+
+/* ---- work-precision ---- */
+
+double gm_work_cost(const struct gm_grid_cell *cell, enum gm_cost cost);
+/* The cells that make up a line's curve and costs. */
+const struct gm_grid_cell *gm_work_front(const struct gm_grid_line *line, enum gm_cost cost, size_t *count);
+/* The second cost for comparing schemes, after the run time. */
+enum gm_cost gm_work_second_cost(const struct gm_grid *grid);
+/* "Cheapest by run time: ..." */
+const char *gm_work_sentence(const struct gm_grid *grid, char *text, size_t size);
+
 void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture);
+void gm_work_print(const struct gm_grid *grid);
+void gm_work_put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
+void gm_work_put_end(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
 
 #endif

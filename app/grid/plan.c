@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The common part of all kinds: from the words of a command line to lines and cells, and cells as rows of
    CSV and as JSON. */
+#include <math.h>
 #include <stdio.h>
 
 #include "app/grid/hooks.h"
@@ -45,9 +46,7 @@ void gm_cells_open(struct gm_grid *grid)
     char message[GM_MESSAGE];
     const struct gm_arguments *typed = grid->typed;
     const struct gm_study_row *row = grid->row;
-    if (typed->count == 0) {
-        gm_arena_refuse(grid->arena, "%s", row->which);
-    }
+    gm_arena_refuse_if(grid->arena, typed->count == 0, "%s", row->which);
     const struct gm_scene *scene =
         gm_request_scene(typed->count, typed->words, &grid->request.refusal, message);
     gm_arena_check(grid->arena, scene, message);
@@ -63,36 +62,39 @@ void gm_cells_open(struct gm_grid *grid)
     row->lay_out(grid, words);
 }
 
-static void put_row(FILE *csv, enum gm_row_form form, const struct gm_grid *grid,
-                    const struct gm_scheme *scheme, const struct gm_grid_cell *cell, int number)
+static void put_scheme(struct gm_row *row, const struct gm_grid *grid, const struct gm_scheme *scheme)
 {
-    struct gm_row row = {.stream = csv, .form = form};
-    gm_row_put(&row, "scene %s, scheme %s", grid->request.scene->name, scheme->name);
+    gm_row_put(row, "scene %s, scheme %s", grid->request.scene->name, scheme->name);
     if (grid->row->ordered) {
-        gm_row_put(&row, "order %i", scheme->order);
+        gm_row_put(row, "order %i", scheme->order);
     }
-    grid->row->put_cell(&row, grid, cell, number);
-    fputc('\n', csv);
+}
+
+static void put_row(struct gm_row row, const struct gm_grid *grid, const struct gm_grid_line *line,
+                    size_t cell, int number)
+{
+    put_scheme(&row, grid, line->scheme);
+    grid->row->put_cell(&row, grid, &line->cells[cell], number);
+    fputc('\n', row.stream);
 }
 
 bool gm_cells_write(const struct gm_grid *grid, FILE *csv)
 {
-    put_row(csv, GM_ROW_HEAD, grid, grid->lines[0].scheme, &grid->lines[0].cells[0], 0);
+    put_row((struct gm_row){.stream = csv, .form = GM_ROW_HEAD}, grid, &grid->lines[0], 0, 0);
     for (size_t i = 0; i < grid->begun; i++) {
         const struct gm_grid_line *line = &grid->lines[i];
         for (size_t k = 0; k < line->count; k++) {
             for (int number = 0; line->cells[k].tried && number < grid->row->rows; number++) {
-                put_row(csv, GM_ROW_CSV, grid, line->scheme, &line->cells[k], number);
+                put_row((struct gm_row){.stream = csv, .form = GM_ROW_CSV}, grid, line, k, number);
             }
         }
     }
     return true;
 }
 
-void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *line, const char *key,
-                       struct gm_row *row)
+static void put_cells(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
 {
-    struct gm_row list = gm_row_open(row, key, ']');
+    struct gm_row list = gm_row_open(row, grid->row->cells, ']');
     for (size_t k = 0; k < line->count; k++) {
         if (line->cells[k].tried) {
             struct gm_row cell = gm_row_open(&list, NULL, '}');
@@ -101,4 +103,37 @@ void gm_grid_put_cells(const struct gm_grid *grid, const struct gm_grid_line *li
         }
     }
     gm_row_close(&list);
+}
+
+static void put_line(const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    struct gm_row row = gm_row_begin(stdout);
+    put_scheme(&row, grid, line->scheme);
+    grid->row->put_front(&row, grid, line);
+    put_cells(&row, grid, line);
+    if (grid->row->put_end) {
+        grid->row->put_end(&row, grid, line);
+    }
+    gm_row_close(&row);
+    putchar('\n');
+}
+
+void gm_grid_print(const struct gm_grid *grid, bool json)
+{
+    if (!json) {
+        grid->row->print(grid);
+        return;
+    }
+    for (size_t i = 0; i < grid->begun; i++) {
+        put_line(grid, &grid->lines[i]);
+    }
+}
+
+void gm_print_number(const char *format, int width, double value)
+{
+    if (isfinite(value)) {
+        printf(format, value);
+    } else {
+        printf(" %*s", width, "-");
+    }
 }

@@ -196,7 +196,6 @@ void gm_cells_measure(struct gm_grid *grid)
     grid->begun = grid->begun > 1 ? grid->begun : 1;
     gm_listener_hears(grid->listener, grid->lines[0].scheme->name, 0, pool.count);
     gm_pool_run(&pool);
-    if (measuring.fault || !has_numbers(grid)) {
-        gm_arena_refuse(grid->arena, "%s", measuring.fault ? measuring.fault : grid->lines[0].reason);
-    }
+    gm_arena_refuse_if(grid->arena, measuring.fault || !has_numbers(grid), "%s",
+                       measuring.fault ? measuring.fault : grid->lines[0].reason);
 }

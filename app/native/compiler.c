@@ -241,12 +241,6 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
     return ticks == before;
 }
 
-static double seconds_of(const struct rusage *used)
-{
-    return (double)(used->ru_utime.tv_sec + used->ru_stime.tv_sec) +
-           1e-6 * (double)(used->ru_utime.tv_usec + used->ru_stime.tv_usec);
-}
-
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence)
 {
     int status = 0;
@@ -269,7 +263,9 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
     /* ended by its limit's signal, or by a process that ended its children; the limit's clock counts whole
        ticks, too many on a busy machine, so that it differs from the measured time */
     const bool limited = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
-    if (ended > 0 && (limited || seconds_of(&used) >= 0.9 * most_seconds())) {
+    const double seconds = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                           1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    if (ended > 0 && (limited || seconds >= 0.9 * most_seconds())) {
         gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
     } else {
         gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);

@@ -157,11 +157,6 @@ static const char *alone_flag(struct part part)
 
 /* ---- from a kernel's text to loops ---- */
 
-static void refuse(struct build *build)
-{
-    build->state = REFUSED;
-}
-
 /* Loads the entry of the build's key, if it exists. */
 static void load(struct build *build, const char *folder)
 {
@@ -182,7 +177,7 @@ static void load(struct build *build, const char *folder)
     }
     gm_refuse(build->sentence, "what was compiled could not be loaded: %.300s",
               error ? error : "it holds no loops");
-    refuse(build);
+    build->state = REFUSED;
     /* the next start compiles it again; that is useless if nothing can be loaded, as from a folder mounted
        noexec */
     if (!error || !strstr(error, "failed to map segment")) {
@@ -231,7 +226,7 @@ static void compile(struct build *build, const char *folder, const char *compile
     if (!write_text(folder, build->text_name, text)) {
         gm_refuse(build->sentence, "the cache could not be written: %s", strerror(errno));
         remove_aside(folder, build);
-        refuse(build);
+        build->state = REFUSED;
         return;
     }
     arguments[count++] = compiler;
@@ -254,7 +249,7 @@ static void compile(struct build *build, const char *folder, const char *compile
         build->state = COMPILING;
     } else {
         remove_aside(folder, build);
-        refuse(build);
+        build->state = REFUSED;
     }
 }
 
@@ -291,12 +286,12 @@ static void begin(struct build *build, const char *text, struct part part)
     char folder[GM_CACHE_PATH], compiler[GM_CACHE_PATH];
     if (!kernel_folder[0]) {
         gm_refuse(build->sentence, "the sources of its loops are not there");
-        refuse(build);
+        build->state = REFUSED;
     } else if (!find_key(build, part, compiler)) {
         gm_refuse(build->sentence, "there is no C compiler (cc, gcc or clang) in PATH");
-        refuse(build);
+        build->state = REFUSED;
     } else if (!gm_cache_folder(folder, build->sentence)) {
-        refuse(build);
+        build->state = REFUSED;
     } else {
         load(build, folder);
         if (build->state == NEW) {
@@ -314,7 +309,7 @@ static void look(struct build *build)
         return;
     }
     if (!gm_cache_folder(folder, build->sentence)) {
-        refuse(build);
+        build->state = REFUSED;
         return;
     }
     snprintf(library, sizeof library, "%.3900s/%s", folder, build->library_name);
@@ -323,7 +318,7 @@ static void look(struct build *build)
         load(build, folder);
     }
     if (build->state == COMPILING) {
-        refuse(build);
+        build->state = REFUSED;
     }
     remove_aside(folder, build);
 }
@@ -360,7 +355,7 @@ static struct build *build_of(const struct gm_lane *lane)
             begin(build, text, part);
         } else {
             gm_refuse(build->sentence, "%s", lacks);
-            refuse(build);
+            build->state = REFUSED;
         }
     }
     free(text);
@@ -428,7 +423,7 @@ static void give(struct build *build, struct gm_lane *lane)
     const unsigned long refusals = gm_memory_refusals();
     if (!agrees(lane, build->loops) && refusals == gm_memory_refusals()) {
         gm_refuse(build->sentence, "its steps are not those of the interpreter, bit by bit");
-        refuse(build);
+        build->state = REFUSED;
     }
 }
 
@@ -453,7 +448,7 @@ void gm_engine_meet(struct gm_lane *lane)
     if (build && build->state == READY && gm_user_problem_taken(&lane->problem) == build->loops &&
         !is_native(lane)) {
         gm_refuse(build->sentence, "splittings have native loops where H = T(p) + V(q) holds no time");
-        refuse(build);
+        build->state = REFUSED;
     }
     if (build && build->state == REFUSED && tell && !build->said) {
         char sentence[GM_MESSAGE];
@@ -492,7 +487,7 @@ static void stop_all(void)
     for (struct build *build = builds; build; build = build->next) {
         if (build->state == COMPILING) {
             gm_compilation_stop(&build->compilation);
-            refuse(build);
+            build->state = REFUSED;
             if (gm_cache_folder(folder, sentence)) {
                 remove_aside(folder, build);
             }

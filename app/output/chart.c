@@ -76,14 +76,6 @@ static bool have_one_head(const char *one, const char *other)
     return same;
 }
 
-/* Returns true if a table was there before the picture, and has other columns. The table's name follows
-   from the picture's and was not given by the user, so such a table stays. */
-static bool is_anothers(const struct gm_chart *chart, const char *table)
-{
-    return access(chart->csv, F_OK) == 0 && access(chart->picture, F_OK) != 0 &&
-           !have_one_head(table, chart->csv);
-}
-
 static bool fail(const struct gm_chart *chart, char *message)
 {
     return gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
@@ -100,10 +92,12 @@ static bool write_table(const struct gm_chart *chart, const char *path)
     return fclose(table) == 0 && written;
 }
 
-/* The numbers aside first: with a table that has to stay nothing is drawn. */
+/* The numbers aside first. A table that was there before the picture and has other columns stays, and nothing is
+   drawn: the table's name follows from the picture's and was not given by the user. */
 static bool write_from(struct gm_chart *chart, const char *aside, char *message)
 {
-    if (is_anothers(chart, aside)) {
+    if (access(chart->csv, F_OK) == 0 && access(chart->picture, F_OK) != 0 &&
+        !have_one_head(aside, chart->csv)) {
         return gm_refuse(message,
                          "%.300s is there, with other columns than the numbers of this picture; name the "
                          "picture otherwise",

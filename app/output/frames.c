@@ -16,15 +16,6 @@
 #include "core/basics.h"
 #include "render/files/temporary.h"
 
-static double end_of(const struct gm_request *request)
-{
-    double end = -INFINITY;
-    for (size_t i = 0; i < request->count; i++) {
-        end = fmax(end, request->lanes[i].end);
-    }
-    return end;
-}
-
 static bool take_shard(struct gm_schedule *schedule, const struct gm_pace *pace, char *message)
 {
     schedule->shard = pace->shards > 0 ? pace->shard : 1;
@@ -48,7 +39,10 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
                       const struct gm_pace *pace, char *message)
 {
     const struct gm_timing *timing = request->lanes[0].parameters;
-    const double end = end_of(request);
+    double end = -INFINITY;
+    for (size_t i = 0; i < request->count; i++) {
+        end = fmax(end, request->lanes[i].end);
+    }
     const double start = gm_scene_t0(request->scene, timing);
     const double first = isnan(pace->from) ? start : fmin(pace->from, end);
     const struct {

@@ -43,11 +43,6 @@ bool gm_format_of(const char *path, enum gm_format *format)
     return dot && gm_format_find(dot + 1, format);
 }
 
-static bool no_memory(const struct gm_appearance *look, char *message)
-{
-    return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
-}
-
 void gm_printer_expect(enum gm_format format)
 {
     if (format == GM_FORMAT_PNG) {
@@ -88,15 +83,6 @@ static bool write_file(struct gm_print *print, struct gm_picture *picture, struc
     return !gm_memory_was_short() && gm_png_write(path, &image, message);
 }
 
-/* The painter of a canvas, or the writer of a drawing. */
-static const char *painter_of(const struct gm_print *print, const struct gm_canvas *canvas)
-{
-    if (canvas) {
-        return gm_canvas_backend(canvas);
-    }
-    return print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
-}
-
 bool gm_print_write(struct gm_print *print, const struct gm_printed *content, char *message)
 {
     const struct gm_appearance *look = &print->look;
@@ -106,8 +92,9 @@ bool gm_print_write(struct gm_print *print, const struct gm_printed *content, ch
     struct gm_picture *picture = gm_picture_open();
     struct gm_provenance provenance = {0};
     bool printed = false;
+    const char *writer = print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
     if ((!painted || rgb) && picture &&
-        content->describe(&provenance, content->data, look, painter_of(print, canvas))) {
+        content->describe(&provenance, content->data, look, canvas ? gm_canvas_backend(canvas) : writer)) {
         content->draw(content->data, picture);
         printed = write_file(print, picture, canvas, rgb, &provenance, message);
     }
@@ -115,7 +102,10 @@ bool gm_print_write(struct gm_print *print, const struct gm_printed *content, ch
     gm_picture_close(picture);
     free(rgb);
     gm_canvas_close(canvas);
-    return printed || (gm_memory_was_short() ? no_memory(look, message) : false);
+    if (!printed && gm_memory_was_short()) {
+        gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
+    }
+    return printed;
 }
 
 int gm_printer_fail(const char *path, const char *message)

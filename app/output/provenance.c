@@ -116,7 +116,7 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
     take(provenance, "geomint:schemes", text_of(put_schemes, request));
     take(provenance, "geomint:parameters", text_of(put_parameters, request));
     take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request));
-    take(provenance, GM_KEY_CHANGES, gm_changes_format(request));
+    take(provenance, GM_KEY_CHANGES, gm_changes_format(request, ' ', '\n'));
     add(provenance, true, GM_KEY_PICTURE, "%dx%d %s", look->width, look->height, theme_name(look));
     add(provenance, is_scaled(look), GM_KEY_SCALE, "%.17g", look->scale);
     add(provenance, look->dpi > 0, GM_KEY_DPI, "%.17g", look->dpi);

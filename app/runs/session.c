@@ -4,6 +4,7 @@
 #include "app/runs/session.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,146 @@
 #include "core/schemes.h"
 #include "scenes/common/lane_pack.h"
 #include "scenes/common/symbol.h"
+
+/* ---- the way back of a lane: snapshots in bounded memory, thinned when they are full ---- */
+
+enum { MOST_MOMENTS = 4096 };
+
+static void close_past(struct gm_past *past)
+{
+    for (size_t i = 0; i < past->count; i++) {
+        free(past->moments[i].memory);
+    }
+    free(past->moments);
+    *past = (struct gm_past){0};
+}
+
+static void thin(struct gm_past *past)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < past->count; i++) {
+        if (i % 2 == 0) {
+            past->moments[kept++] = past->moments[i];
+        } else {
+            free(past->moments[i].memory);
+        }
+    }
+    past->count = kept;
+    past->every *= 2;
+}
+
+/* A copy for a fork of the lane; an empty one when out of memory. */
+static struct gm_past copy_past(const struct gm_past *past)
+{
+    struct gm_past copy = {.bound = past->bound, .every = past->every};
+    copy.moments = past->count > 0 ? malloc(MOST_MOMENTS * sizeof *copy.moments) : NULL;
+    for (size_t i = 0; copy.moments && i < past->count; i++) {
+        struct gm_moment *moment = &copy.moments[i];
+        *moment = past->moments[i];
+        moment->memory = malloc(moment->size);
+        if (!moment->memory) {
+            close_past(&copy);
+            return (struct gm_past){.bound = past->bound, .every = past->every};
+        }
+        memcpy(moment->memory, past->moments[i].memory, moment->size);
+        copy.count++;
+    }
+    return copy;
+}
+
+/* Bytes from a moment's start to its snapshot: the parameters, of any size (a system's texts), and the
+   padding for the snapshot's alignment. */
+static size_t snapshot_at(const struct gm_lane *lane)
+{
+    const size_t unit = _Alignof(max_align_t);
+    return (lane->scene->size + unit - 1) / unit * unit;
+}
+
+/* Writes the lane into the moment; its memory stays NULL when out of memory. */
+static void save(const struct gm_lane *lane, double gone, struct gm_moment *moment)
+{
+    size_t size = snapshot_at(lane) + gm_lane_snapshot_size(lane);
+    if (moment->size != size) { /* the size depends on the scheme */
+        free(moment->memory);
+        moment->memory = malloc(size);
+        moment->size = moment->memory ? size : 0;
+    }
+    if (!moment->memory) {
+        return;
+    }
+    memcpy(moment->memory, lane->parameters, lane->scene->size);
+    gm_lane_save(lane, (char *)moment->memory + snapshot_at(lane));
+    moment->steps = lane->run->steps;
+    moment->gone = gone;
+}
+
+/* Drops snapshots later than `steps`. */
+static void forget_after(struct gm_past *past, int64_t steps)
+{
+    while (past->count > 0 && past->moments[past->count - 1].steps > steps) {
+        free(past->moments[--past->count].memory);
+    }
+}
+
+/* Saves the lane's current state, `gone` after its start, if it is far enough from the last snapshot; with `always` in
+   any case, and instead of one at the same step. Drops snapshots of later steps: the lane has stepped back and
+   continued from there. */
+static void note_moment(struct gm_past *past, const struct gm_lane *lane, double gone, bool always)
+{
+    int64_t steps = lane->run->steps;
+    forget_after(past, steps);
+    if (past->count > 0) {
+        struct gm_moment *last = &past->moments[past->count - 1];
+        if (last->steps == steps) {
+            if (always) {
+                save(lane, gone, last);
+            }
+            if (!last->memory) {
+                past->count--;
+            }
+            return;
+        }
+        if (!always && steps - last->steps < past->every) {
+            return;
+        }
+    }
+    if (past->bound < 2) { /* an ensemble so large that its budget holds nothing worth having */
+        return;
+    }
+    if (past->count == past->bound) {
+        thin(past);
+    }
+    if (!past->moments) {
+        past->moments = malloc(MOST_MOMENTS * sizeof *past->moments);
+    }
+    struct gm_moment moment = {0};
+    if (past->moments) {
+        save(lane, gone, &moment);
+    }
+    if (moment.memory) {
+        past->moments[past->count++] = moment;
+    }
+}
+
+/* Takes the lane to the last snapshot at or before `steps`, and at or before `gone` or the first one; returns it, or
+   NULL. Later ones stay. */
+static const struct gm_moment *return_to(const struct gm_past *past, struct gm_lane *lane, int64_t steps,
+                                         double gone)
+{
+    size_t count = past->count;
+    while (count > 0 && past->moments[count - 1].steps > steps) {
+        count--;
+    }
+    while (count > 1 && past->moments[count - 1].gone > gone) {
+        count--;
+    }
+    const struct gm_moment *moment = count > 0 ? &past->moments[count - 1] : NULL;
+    if (!moment || !gm_lane_load(lane, (const char *)moment->memory + snapshot_at(lane))) {
+        return NULL;
+    }
+    memcpy(lane->parameters, moment->memory, lane->scene->size);
+    return moment;
+}
 
 /* Writes a sentence and returns false. */
 static bool short_of_memory(char *message)
@@ -148,14 +289,18 @@ static void share_budget(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         struct gm_past *past = &session->pasts[i];
         size_t size = session->scene->size + gm_lane_snapshot_size(session->lanes[i]);
-        gm_past_limit(past, PAST_BUDGET / session->count / size);
+        const size_t bound = PAST_BUDGET / session->count / size;
+        past->bound = bound < MOST_MOMENTS ? bound : MOST_MOMENTS;
+        while (past->count > past->bound && past->count > 1) {
+            thin(past);
+        }
     }
 }
 
 /* Saves a snapshot of a lane, if one is due or with `always`. */
 static void note_lane(struct gm_session *session, size_t i, bool always)
 {
-    gm_past_note(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
+    note_moment(&session->pasts[i], session->lanes[i], lane_gone(session, i), always);
 }
 
 static void note_lanes(struct gm_session *session)
@@ -188,7 +333,7 @@ static void settle(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         int64_t steps = session->lanes[i]->run->steps;
         cut_log(session, i, steps);
-        gm_past_forget(&session->pasts[i], steps);
+        forget_after(&session->pasts[i], steps);
     }
 }
 
@@ -251,7 +396,7 @@ static void forget_wanted(struct gm_session *session, size_t i)
 /* Empties place i. */
 static void clear_lane(struct gm_session *session, size_t i)
 {
-    gm_past_close(&session->pasts[i]);
+    close_past(&session->pasts[i]);
     gm_lane_close(session->lanes[i]);
     session->lanes[i] = NULL;
     free(session->log.lanes[i].parameters);
@@ -273,15 +418,6 @@ static void show_in_order(struct gm_session *session)
 
 /* ---- a session's beginning and end ---- */
 
-/* Opens the log with room for every lane, so that later only parameters are allocated. */
-static bool log_open(struct gm_session *session, const struct gm_request *request)
-{
-    session->log = (struct gm_request){.scene = session->scene};
-    session->log.lanes = calloc(GM_MOST_LANES, sizeof *session->log.lanes);
-    session->log.arguments = request->arguments ? strdup(request->arguments) : NULL;
-    return session->log.lanes && (session->log.arguments || !request->arguments);
-}
-
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message)
 {
     *session = (struct gm_session){.scene = request->scene, .overlaid = request->overlay};
@@ -289,7 +425,11 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
         return gm_refuse(message, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
                          request->count);
     }
-    if (!log_open(session, request)) {
+    /* the log has room for every lane, so that later only parameters are allocated */
+    session->log = (struct gm_request){.scene = session->scene,
+                                       .lanes = calloc(GM_MOST_LANES, sizeof *session->log.lanes),
+                                       .arguments = request->arguments ? strdup(request->arguments) : NULL};
+    if (!session->log.lanes || (request->arguments && !session->log.arguments)) {
         gm_request_close(&session->log);
         return short_of_memory(message);
     }
@@ -312,7 +452,7 @@ void gm_session_close(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
         forget_wanted(session, i);
-        gm_past_close(&session->pasts[i]);
+        close_past(&session->pasts[i]);
         gm_lane_close(session->lanes[i]);
     }
     gm_request_close(&session->log);
@@ -390,16 +530,10 @@ static bool apply_change(struct gm_session *session, size_t i, const char *text,
     return true;
 }
 
-/* Another change of the same key at the same step. */
-struct overtaking {
-    size_t lane;
-    int64_t step;
-    const char *text;
-};
-
+/* Returns true for another change of the same key at the same step. */
 static bool is_overtaken(const struct gm_change *change, const void *data)
 {
-    const struct overtaking *by = data;
+    const struct gm_change *by = data;
     return change->lane == by->lane && change->step == by->step &&
            strncmp(change->text, by->text, strcspn(by->text, "=") + 1) == 0;
 }
@@ -412,7 +546,7 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     }
     /* the last change of a key at a step replaces earlier ones */
     const int64_t step = session->lanes[i]->run->steps;
-    gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
+    gm_changes_drop(&session->log, is_overtaken, &(struct gm_change){i, step, (char *)text});
     if (!gm_change_add(&session->log, i, step, text)) {
         return short_of_memory(message);
     }
@@ -425,7 +559,9 @@ static void look(struct gm_session *session, size_t i, const struct gm_parameter
 {
     gm_parameter_set(row, session->lanes[i]->parameters, text);
     gm_parameter_set(row, session->log.lanes[i].parameters, text);
-    gm_past_set(&session->pasts[i], row, text);
+    for (size_t k = 0; k < session->pasts[i].count; k++) {
+        gm_parameter_set(row, session->pasts[i].moments[k].memory, text);
+    }
     forget_arguments(session);
 }
 
@@ -567,13 +703,13 @@ bool gm_session_back(struct gm_session *session, char *message)
         if (direction * lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0) {
             continue;
         }
-        const struct gm_moment *moment = gm_past_return(&session->pasts[i], lane, steps - 1);
+        const struct gm_moment *moment = return_to(&session->pasts[i], lane, steps - 1, INFINITY);
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
         follow(session, i, moment);
         cut_log(session, i, steps - 1);
-        gm_past_forget(&session->pasts[i], steps - 1);
+        forget_after(&session->pasts[i], steps - 1);
         replay(session, i, steps - 1);
         moved = true;
     }
@@ -613,7 +749,7 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
     }
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_moment *moment =
-            gm_past_visit(&session->pasts[i], session->lanes[i], gone + 1e-9 * fabs(gone));
+            return_to(&session->pasts[i], session->lanes[i], INT64_MAX, gone + 1e-9 * fabs(gone));
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
@@ -689,7 +825,7 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
     if (!session->lanes[at]) {
         return short_of_memory(message);
     }
-    session->pasts[at] = gm_past_copy(&session->pasts[like]);
+    session->pasts[at] = copy_past(&session->pasts[like]);
     session->courses[at] = session->courses[like];
     bool ok = copy_log(session, like) || short_of_memory(message);
     count_lane(session);

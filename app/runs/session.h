@@ -2,7 +2,6 @@
 #ifndef GM_APP_RUNS_SESSION_H
 #define GM_APP_RUNS_SESSION_H
 
-#include "app/runs/past.h"
 #include "app/words/names.h"
 #include "app/words/request.h"
 #include "core/parameter.h"
@@ -12,6 +11,23 @@
    and snapshots to step back to. It has no threads, clock or terminal. */
 
 enum { GM_MOST_LANES = 24 };
+
+/* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the
+   whole past stays available: the steps between two snapshots are repeated. */
+
+struct gm_moment {
+    int64_t steps;
+    double gone; /* model time that the lane has passed, forwards and backwards */
+    size_t size;
+    void *memory; /* the lane's parameters, then its snapshot */
+};
+
+struct gm_past { /* an empty one is {.every = 1} */
+    struct gm_moment *moments;
+    size_t count;
+    size_t bound;  /* the largest count */
+    int64_t every; /* steps between snapshots */
+};
 
 /* The model time that a lane has passed in both directions: gone + |t - from|. */
 struct gm_course {

@@ -71,7 +71,6 @@ static bool is_used(const struct gm_session *session, const struct gm_parameter 
     return false;
 }
 
-/* The explorer has no end, so `until` would move nothing. */
 static bool is_idle(const struct gm_session *session, const char *key)
 {
     bool idle = true;
@@ -79,11 +78,6 @@ static bool is_idle(const struct gm_session *session, const char *key)
         idle = gm_scene_idle(session->scene, session->lanes[i]->parameters, key) != NULL;
     }
     return idle;
-}
-
-static bool has_effect(const struct gm_parameter *row)
-{
-    return row->offset != offsetof(struct gm_timing, until) && gm_row_is_offered(row);
 }
 
 /* The scene's default end, or, after it, twice the time that has passed. */
@@ -145,9 +139,11 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     }
     shot->parameter_count = 0;
     for (size_t i = 0; i < session->scene->parameter_count; i++) {
-        if (has_effect(&session->scene->parameters[i]) &&
-            !is_idle(session, session->scene->parameters[i].key)) {
-            take_parameter(shot, session, &session->scene->parameters[i], false);
+        const struct gm_parameter *row = &session->scene->parameters[i];
+        /* the explorer has no end, so `until` would move nothing */
+        if (row->offset != offsetof(struct gm_timing, until) && gm_row_is_offered(row) &&
+            !is_idle(session, row->key)) {
+            take_parameter(shot, session, row, false);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {

@@ -51,15 +51,10 @@ static bool slider_range(const struct gm_parameter *row, double *low, double *hi
     return true;
 }
 
-/* The place of a value on a scale that is drawn evenly, and back. */
+/* The place of a value on a scale that is drawn evenly. */
 static double to_scale(const struct gm_parameter *row, double value)
 {
     return row->logarithmic ? log(value) : is_bent(row) ? asinh(value / usual_size(row)) : value;
-}
-
-static double from_scale(const struct gm_parameter *row, double place)
-{
-    return row->logarithmic ? exp(place) : is_bent(row) ? usual_size(row) * sinh(place) : place;
 }
 
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
@@ -182,9 +177,9 @@ bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_
     }
     position = fmin(fmax(position, 0), 1);
     double from = to_scale(row, low), to = to_scale(row, high);
-    double value = position <= 0   ? low
-                   : position >= 1 ? high
-                                   : from_scale(row, from + position * (to - from));
+    const double place = from + position * (to - from);
+    double value = row->logarithmic ? exp(place) : is_bent(row) ? usual_size(row) * sinh(place) : place;
+    value = position <= 0 ? low : position >= 1 ? high : value;
     if (row->type == GM_INTEGER) {
         value = round(value);
     } else if (position > 0 && position < 1) {

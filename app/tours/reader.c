@@ -49,17 +49,20 @@ struct reader {
 
 /* ---- lines ---- */
 
-/* Refuses the tour in a sentence with file and line, unless it was memory. */
-__attribute__((format(printf, 3, 4))) _Noreturn static void refuse(const struct reader *reader, long line,
-                                                                   const char *format, ...)
+/* Refuses the tour, if something is wrong, in a sentence with file and line, unless it was memory. */
+__attribute__((format(printf, 4, 5))) static void refuse_if(const struct reader *reader, bool wrong,
+                                                            long line, const char *format, ...)
 {
     char sentence[GM_MESSAGE];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
+    if (wrong) { /* else what it quotes may not be written */
+        vsnprintf(sentence, sizeof sentence, format, arguments);
+        va_end(arguments);
+        gm_arena_need(reader->arena, gm_memory_refusals() == reader->refusals);
+        gm_arena_refuse(reader->arena, "%.100s, line %ld: %.380s", reader->name, line, sentence);
+    }
     va_end(arguments);
-    gm_arena_need(reader->arena, gm_memory_refusals() == reader->refusals);
-    gm_arena_refuse(reader->arena, "%.100s, line %ld: %.380s", reader->name, line, sentence);
 }
 
 static long line_of(const struct reader *reader, size_t offset)
@@ -92,9 +95,7 @@ static char *text_of(const struct reader *reader, struct gm_span value)
 /* Leaves the body if the text has that fault. */
 static void need(const struct reader *reader, bool whole, const struct gm_fault *fault)
 {
-    if (!whole) {
-        refuse(reader, line_of(reader, fault->offset), "%s", fault->sentence);
-    }
+    refuse_if(reader, !whole, whole ? 0 : line_of(reader, fault->offset), "%s", fault->sentence);
 }
 
 static void read_lines(struct reader *reader)
@@ -107,9 +108,7 @@ static void read_lines(struct reader *reader)
         need(reader, gm_line_find(&line_words, reader->text, &line, &word, &fault), &fault);
         char *text = text_of(reader, line.value);
         const long number = line_of(reader, line.word.begin);
-        if (!gm_text_is_plain(text)) {
-            refuse(reader, number, "it holds a character that cannot be shown");
-        }
+        refuse_if(reader, !gm_text_is_plain(text), number, "it holds a character that cannot be shown");
         reader->entries =
             gm_arena_resize(reader->arena, reader->entries, reader->count + 1, sizeof *reader->entries);
         reader->entries[reader->count++] = (struct entry){(enum word)word, number, text};
@@ -120,17 +119,14 @@ static void read_lines(struct reader *reader)
 static double read_number(const struct reader *reader, const struct entry *entry)
 {
     double value = NAN;
-    if (!gm_number_parse(entry->text, &value) || !isfinite(value)) {
-        refuse(reader, entry->line, "\"%.60s\" is not a number", entry->text);
-    }
+    refuse_if(reader, !gm_number_parse(entry->text, &value) || !isfinite(value), entry->line,
+              "\"%.60s\" is not a number", entry->text);
     return value;
 }
 
 static void take_text(const struct reader *reader, const struct entry *entry, char **place)
 {
-    if (*place) {
-        refuse(reader, entry->line, "%s: is given twice", lines[entry->word].word);
-    }
+    refuse_if(reader, *place, entry->line, "%s: is given twice", lines[entry->word].word);
     *place = entry->text;
 }
 
@@ -144,9 +140,8 @@ static void parse_show(const struct reader *reader, long line, struct gm_tour_st
     char message[GM_MESSAGE];
     const struct gm_arguments *words = gm_arguments_of(reader->arena, step->show);
     gm_request_close(&step->request);
-    if (!gm_request_parse(&step->request, words->count, words->words, MOST_SCHEMES, message)) {
-        refuse(reader, line, "%s", message);
-    }
+    refuse_if(reader, !gm_request_parse(&step->request, words->count, words->words, MOST_SCHEMES, message),
+              line, "%s", message);
 }
 
 static void read_show(const struct reader *reader, const struct entry *entry, const struct entry *until,
@@ -172,15 +167,14 @@ static void read_study(const struct reader *reader, const struct entry *entry, s
     const size_t length = strcspn(entry->text, " \t");
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), entry->text);
     step->study = gm_study_find(name);
-    if (step->study == GM_STUDY_NONE) {
-        refuse(reader, entry->line,
-               "a study is work-precision, stability, backward or sweep, with a scene: \"%.60s\"",
-               entry->text);
-    }
+    refuse_if(reader, step->study == GM_STUDY_NONE, entry->line,
+              "a study is work-precision, stability, backward or sweep, with a scene: \"%.60s\"",
+              entry->text);
     step->study_words = entry->text + length;
-    if (!gm_grid_open(&grid, step->study, gm_arguments_of(reader->arena, step->study_words), NULL, message)) {
-        refuse(reader, entry->line, "%s", message);
-    }
+    refuse_if(
+        reader,
+        !gm_grid_open(&grid, step->study, gm_arguments_of(reader->arena, step->study_words), NULL, message),
+        entry->line, "%s", message);
     gm_grid_close(&grid);
 }
 
@@ -195,24 +189,21 @@ static void read_change(const struct reader *reader, const struct entry *entry,
     struct gm_tour_change change = {.lane = GM_EVERY_LANE};
     double lane = NAN;
     const bool has_lane = count == 3 && strncmp(list[1], "lane=", 5) == 0;
-    if ((count != 2 && !has_lane) || !gm_number_parse(list[0], &change.t) || !isfinite(change.t)) {
-        refuse(reader, entry->line, "a change is \"at: TIME key=value\" or \"at: TIME lane=N scheme=NAME\"");
-    }
-    if (has_lane && (!gm_number_parse(list[1] + 5, &lane) || !(lane >= 1 && lane <= (double)shown->count) ||
-                     lane != floor(lane))) {
-        refuse(reader, entry->line, "%.40s: there are lanes 1 to %zu", list[1], shown->count);
-    }
-    if (has_lane && strncmp(list[2], "scheme=", 7) != 0) {
-        refuse(reader, entry->line, "lane= goes with scheme=; a parameter changes in every lane");
-    }
+    refuse_if(reader,
+              (count != 2 && !has_lane) || !gm_number_parse(list[0], &change.t) || !isfinite(change.t),
+              entry->line, "a change is \"at: TIME key=value\" or \"at: TIME lane=N scheme=NAME\"");
+    refuse_if(reader,
+              has_lane && (!gm_number_parse(list[1] + 5, &lane) ||
+                           !(lane >= 1 && lane <= (double)shown->count) || lane != floor(lane)),
+              entry->line, "%.40s: there are lanes 1 to %zu", list[1], shown->count);
+    refuse_if(reader, has_lane && strncmp(list[2], "scheme=", 7) != 0, entry->line,
+              "lane= goes with scheme=; a parameter changes in every lane");
     change.lane = has_lane ? (long)lane - 1 : GM_EVERY_LANE;
     change.text = list[count - 1];
     struct gm_lane *trial = gm_request_open_lane(shown, has_lane ? (size_t)change.lane : 0, message);
     const bool applied = trial && gm_change_apply(trial, change.text, message);
     gm_lane_close(trial);
-    if (!applied) {
-        refuse(reader, entry->line, "%s", message);
-    }
+    refuse_if(reader, !applied, entry->line, "%s", message);
     step->changes =
         gm_arena_resize(reader->arena, step->changes, step->change_count + 1, sizeof *step->changes);
     step->changes[step->change_count++] = change;
@@ -236,22 +227,18 @@ static void take_entry(const struct reader *reader, const struct entry *entry, s
         break;
     case SECONDS:
         step->seconds = read_number(reader, entry);
-        if (!(step->seconds >= 1 && step->seconds <= 600)) {
-            refuse(reader, entry->line, "seconds: %.60s does not lie between 1 and 600", entry->text);
-        }
+        refuse_if(reader, !(step->seconds >= 1 && step->seconds <= 600), entry->line,
+                  "seconds: %.60s does not lie between 1 and 600", entry->text);
         break;
     case AT:
         break;
     case STUDY:
-        if (step->study_words) {
-            refuse(reader, entry->line, "study: is given twice");
-        }
+        refuse_if(reader, step->study_words, entry->line, "study: is given twice");
         read_study(reader, entry, step);
         break;
     default:
-        if (!places[entry->word]) {
-            refuse(reader, entry->line, "%s: belongs before the first step:", lines[entry->word].word);
-        }
+        refuse_if(reader, !places[entry->word], entry->line,
+                  "%s: belongs before the first step:", lines[entry->word].word);
         take_text(reader, entry, places[entry->word]);
     }
 }
@@ -271,9 +258,7 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
 {
     struct gm_tour *tour = reader->tour;
     const size_t number = tour->count;
-    if (number == MOST_STEPS) {
-        refuse(reader, entries[0].line, "a tour has at most %d steps", MOST_STEPS);
-    }
+    refuse_if(reader, number == MOST_STEPS, entries[0].line, "a tour has at most %d steps", MOST_STEPS);
     struct gm_tour_step *step = &tour->steps[tour->count++];
     *step = (struct gm_tour_step){.until = NAN, .seconds = usual_seconds};
     gm_arena_keep(reader->arena, &step->request, gm_request_close);
@@ -281,25 +266,19 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
         take_entry(reader, &entries[i], step);
     }
     const struct entry *show = entry_of(entries, count, SHOW), *until = entry_of(entries, count, UNTIL);
-    if (!step->say) {
-        refuse(reader, entries[0].line, "the step \"%.60s\" has no say:", step->title);
-    }
-    if (!step->ask != !step->answer) {
-        refuse(reader, entries[0].line, "the step \"%.60s\" has %s: but no %s:", step->title,
-               step->ask ? "ask" : "answer", step->ask ? "answer" : "ask");
-    }
-    if (!show && number == 0) {
-        refuse(reader, entries[0].line, "the first step has no show:, so there is nothing to see");
-    }
+    refuse_if(reader, !step->say, entries[0].line, "the step \"%.60s\" has no say:", step->title);
+    refuse_if(reader, !step->ask != !step->answer, entries[0].line,
+              "the step \"%.60s\" has %s: but no %s:", step->title, step->ask ? "ask" : "answer",
+              step->ask ? "answer" : "ask");
+    refuse_if(reader, !show && number == 0, entries[0].line,
+              "the first step has no show:, so there is nothing to see");
     if (show) {
         read_show(reader, show, until, step);
     }
     const double begin = gm_tour_begin(tour, number);
     step->until = isnan(step->until) ? begin : step->until;
-    if (step->until < begin) {
-        refuse(reader, until ? until->line : entries[0].line,
-               "until: %g lies before the step's begin, t = %g", step->until, begin);
-    }
+    refuse_if(reader, step->until < begin, until ? until->line : entries[0].line,
+              "until: %g lies before the step's begin, t = %g", step->until, begin);
     const struct gm_request *shown = &tour->steps[gm_tour_first(tour, number)].request;
     for (size_t i = 0; i < count; i++) {
         if (entries[i].word != AT) {
@@ -307,10 +286,8 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
         }
         read_change(reader, &entries[i], shown, step);
         const double t = step->changes[step->change_count - 1].t;
-        if (!(t >= begin && t < step->until)) {
-            refuse(reader, entries[i].line, "at: %g lies outside of what the step shows, %g to %g", t, begin,
-                   step->until);
-        }
+        refuse_if(reader, !(t >= begin && t < step->until), entries[i].line,
+                  "at: %g lies outside of what the step shows, %g to %g", t, begin, step->until);
     }
     if (step->change_count > 1) {
         qsort(step->changes, step->change_count, sizeof *step->changes, by_time);
@@ -335,18 +312,16 @@ static void read_head(const struct reader *reader, size_t count)
             break;
         case PLACE:
             place = read_number(reader, entry);
-            if (!(place >= 0 && place <= 1e6) || place != floor(place)) {
-                refuse(reader, entry->line, "place: %.60s is not a whole number", entry->text);
-            }
+            refuse_if(reader, !(place >= 0 && place <= 1e6) || place != floor(place), entry->line,
+                      "place: %.60s is not a whole number", entry->text);
             tour->place = (long)place;
             break;
         default:
-            refuse(reader, entry->line, "%s: belongs after the first step:", lines[entry->word].word);
+            refuse_if(reader, true, entry->line,
+                      "%s: belongs after the first step:", lines[entry->word].word);
         }
     }
-    if (!tour->title) {
-        refuse(reader, 1, "a tour begins with title:");
-    }
+    refuse_if(reader, !tour->title, 1, "a tour begins with title:");
 }
 
 /* The next entry from `from` on that begins a step, or their number. */
@@ -362,9 +337,8 @@ static void read_entries(const struct reader *reader)
 {
     size_t from = next_step(reader, 0);
     read_head(reader, from);
-    if (from == reader->count) {
-        refuse(reader, from > 0 ? reader->entries[from - 1].line : 1, "there is no step: after this");
-    }
+    refuse_if(reader, from == reader->count, from > 0 ? reader->entries[from - 1].line : 1,
+              "there is no step: after this");
     reader->tour->steps = gm_arena_take(reader->arena, MOST_STEPS, sizeof *reader->tour->steps);
     for (size_t next = 0; from < reader->count; from = next) {
         next = next_step(reader, from + 1);
@@ -463,8 +437,9 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
     return parsed;
 }
 
-void gm_tour_close(struct gm_tour *tour)
+void gm_tour_close(void *self)
 {
+    struct gm_tour *tour = self;
     gm_arena_close(tour->arena);
     *tour = (struct gm_tour){0};
 }

@@ -52,7 +52,7 @@ struct gm_file;
 bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *message);
 /* The same from memory; `name` stands for the file in sentences, and paths of schemes are from its folder. */
 bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message);
-void gm_tour_close(struct gm_tour *tour);
+void gm_tour_close(void *tour);
 
 /* The step that shows the scene on which this one builds. */
 size_t gm_tour_first(const struct gm_tour *tour, size_t step);

@@ -98,7 +98,7 @@ char *gm_request_format(const struct gm_request *request)
     return text;
 }
 
-char *gm_changes_format(const struct gm_request *request)
+char *gm_changes_format(const struct gm_request *request, char between, char end)
 {
     char *text = NULL;
     size_t size = 0;
@@ -108,7 +108,8 @@ char *gm_changes_format(const struct gm_request *request)
     }
     for (size_t i = 0; i < request->change_count; i++) {
         const struct gm_change *change = &request->changes[i];
-        fprintf(stream, "%zu %" PRId64 " %s\n", change->lane, change->step, change->text);
+        fprintf(stream, "%zu%c%" PRId64 "%c%s%c", change->lane, between, change->step, between, change->text,
+                end);
     }
     fclose(stream);
     return text;

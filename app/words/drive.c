@@ -303,13 +303,6 @@ static double overshoot(const struct gm_drive *drive)
     return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }
 
-/* Returns true if the overshoot is more than half of the requested time. */
-static bool is_far_beyond(const struct gm_drive *drive)
-{
-    const double over = overshoot(drive);
-    return over > 0 && over > (drive->request->lanes[drive->index].until - drive->lane->run->t0) / 2;
-}
-
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
 {
     const bool adaptive = drive->lane->scheme->family->adaptive;
@@ -326,14 +319,17 @@ void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
 
 void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
 {
+    const bool adaptive = drive->lane->scheme->family->adaptive;
+    const struct gm_run *run = drive->lane->run;
+    const double over = overshoot(drive), until = drive->request->lanes[drive->index].until;
     text[0] = '\0';
-    if (!drive->lane->scheme->family->adaptive && overshoot(drive) != 0) {
+    if (!adaptive && over != 0) {
         snprintf(text, size, "the run ends at t = %.10g: until = %.10g is not a whole number of steps",
-                 drive->lane->run->t, drive->request->lanes[drive->index].until);
+                 run->t, until);
     }
-    if (drive->lane->scheme->family->adaptive && is_far_beyond(drive)) {
+    if (adaptive && over > 0 && over > (until - run->t0) / 2) {
         snprintf(text, size, "the last step leads far beyond until = %.10g, to t = %.10g: dt is too long",
-                 drive->request->lanes[drive->index].until, drive->lane->run->t);
+                 until, run->t);
     }
 }
 

@@ -57,48 +57,50 @@ bool gm_value_read(const struct gm_parameter *row, void *owner, const char *text
                      row->least > 0 ? "is 0 or " : "", low, high, nearest);
 }
 
-static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, const char *name, char *message)
+/* ---- lanes, in a body of the words' arena, which every refusal leaves ---- */
+
+static void set_scheme(struct gm_arena *arena, struct gm_request *request, struct gm_lane_spec *spec,
+                       const char *name)
 {
+    char message[GM_MESSAGE];
     bool unreadable = false;
     spec->scheme = gm_scheme_named(name, &unreadable, message);
     if (!spec->scheme && message[0]) {
         request->refusal = unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
-        return false;
+    } else if (!spec->scheme) {
+        gm_scheme_refuse(request->scene, name, message);
     }
-    return spec->scheme || gm_scheme_refuse(request->scene, name, message);
+    gm_arena_check(arena, spec->scheme, message);
 }
 
 /* Applies value `index` of a list to a lane; some common keys are not the lane's. */
-static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const struct gm_word *list,
-                  size_t index, char *message)
+static void apply(struct gm_arena *arena, struct gm_request *request, struct gm_lane_spec *spec,
+                  const struct gm_word *list, size_t index)
 {
-    const struct gm_scene *scene = request->scene;
-    char formatted[GM_TEXT_SIZE];
+    char formatted[GM_TEXT_SIZE], message[GM_MESSAGE], number[48];
     const char *text = gm_word_value(list, index, formatted);
+    double steps = 0;
     if (strcmp(list->key, "scheme") == 0) {
-        return set_scheme(request, spec, text, message);
+        set_scheme(arena, request, spec, text);
+        return;
     }
     if (strcmp(list->key, "steps") == 0) {
-        double steps = 0;
         if (!gm_number_parse(text, &steps) || !(steps >= 0 && steps <= (double)GM_MOST_STEPS) ||
             steps != floor(steps)) {
-            return gm_refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
+            gm_arena_refuse(arena, "steps=%.60s is not a whole number from 0 to 1e15", text);
         }
         spec->steps = (int64_t)steps;
-        return true;
+        return;
     }
-    const struct gm_parameter *parameter = gm_scene_parameter(scene, list->key);
+    const struct gm_parameter *parameter = gm_scene_parameter(request->scene, list->key);
     const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
     void *owner = parameter ? spec->parameters : (void *)&spec->settings;
-    if (!row || gm_value_read(row, owner, text, message)) {
-        return true;
-    }
-    char number[48];
-    if (row->type == GM_REAL && list->piece_count == list->count &&
+    const bool read = !row || gm_value_read(row, owner, text, message);
+    if (!read && row->type == GM_REAL && list->piece_count == list->count &&
         gm_words_decimal_comma(list, index, number, sizeof number)) {
         gm_append(message, GM_MESSAGE, "; " GM_DECIMAL_POINT, number);
     }
-    return false;
+    gm_arena_check(arena, read, message);
 }
 
 /* Appends "Δt = 0.1" for a key and its value, or a scheme's title, to a name. */
@@ -170,18 +172,17 @@ bool gm_ends_exactly(const struct gm_scheme *scheme)
 }
 
 /* dt and until, or steps, to steps; with `steps` until follows. */
-static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
-                        char *message)
+static void settle_time(struct gm_arena *arena, const struct gm_scene *scene, struct gm_lane_spec *spec,
+                        bool steps_given)
 {
     struct gm_timing *timing = spec->parameters;
-    const bool adaptive = spec->scheme && spec->scheme->family->adaptive;
     const double t0 = gm_scene_t0(scene, spec->parameters);
     spec->until = steps_given ? NAN : timing->until;
-    if (adaptive) {
+    if (spec->scheme && spec->scheme->family->adaptive) {
         timing->until = steps_given ? GM_NEVER : timing->until;
         spec->steps = steps_given ? spec->steps : GM_MOST_STEPS;
         spec->end = timing->until;
-        return true;
+        return;
     }
     bool shortened = false;
     if (!steps_given) {
@@ -189,20 +190,20 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
         shortened = gm_ends_exactly(spec->scheme) && fabs(exactly - whole) > 1e-9 * fmax(1, fabs(exactly));
         const double steps = shortened && exactly > whole ? whole + 1 : whole;
         if (whole < 0) {
-            return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+            gm_arena_refuse(arena, "until=%g lies before the start, t = %g", timing->until, t0);
         }
         if (!(steps <= (double)GM_MOST_STEPS)) {
-            return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
+            gm_arena_refuse(arena, "until / dt is %.3g steps; 1e15 is the most", steps);
         }
         spec->steps = (int64_t)steps;
     }
     spec->end = shortened ? timing->until : t0 + (double)spec->steps * timing->dt;
     timing->until = steps_given ? spec->end : timing->until;
-    return true;
 }
 
 /* Checks that a parameter of schemes is given only to schemes that have it. */
-static bool check_settings(const struct gm_request *request, const struct gm_words *words, char *message)
+static void check_settings(struct gm_arena *arena, const struct gm_request *request,
+                           const struct gm_words *words)
 {
     const struct gm_scene *scene = request->scene;
     for (size_t i = 0; i < words->count; i++) {
@@ -216,19 +217,17 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
         }
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
         const size_t count = gm_fitting_schemes(scene, fitting);
-        const char *between = "; these do: ";
-        gm_refuse(message, "none of these schemes takes %s=", row->key);
+        const char *names = "";
         for (size_t k = 0; k < count; k++) {
             if (gm_scheme_takes(fitting[k], row)) {
-                gm_append(message, GM_MESSAGE, "%s%s", between, fitting[k]->name);
-                between = ", ";
-                used = true;
+                names = gm_arena_print(arena, "%s%s%s", names, names[0] ? ", " : "", fitting[k]->name);
             }
         }
-        return used ? false
-                    : gm_refuse(message, "no scheme that fits scene %s takes %s=", scene->name, row->key);
+        if (names[0]) {
+            gm_arena_refuse(arena, "none of these schemes takes %s=; these do: %s", row->key, names);
+        }
+        gm_arena_refuse(arena, "no scheme that fits scene %s takes %s=", scene->name, row->key);
     }
-    return true;
 }
 
 const char *gm_request_idle(const struct gm_request *request, const char *key)
@@ -241,16 +240,15 @@ const char *gm_request_idle(const struct gm_request *request, const char *key)
 }
 
 /* Refuses a key without effect in any lane: the user expects one. */
-static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
+static void check_effects(struct gm_arena *arena, struct gm_request *request, const struct gm_words *words)
 {
     for (size_t i = 0; i < words->count; i++) {
         const char *key = words->list[i].key, *why = gm_request_idle(request, key);
         if (why) {
             snprintf(request->refused, sizeof request->refused, "%s", key);
-            return gm_refuse(message, "%s= has no effect here: %s", key, why);
+            gm_arena_refuse(arena, "%s= has no effect here: %s", key, why);
         }
     }
-    return true;
 }
 
 /* The lane that differs from `lane` in its scheme alone, and has the first one. */
@@ -285,8 +283,9 @@ static bool is_repeated(const struct gm_request *request, size_t lane)
 }
 
 /* Finds the fitting one of the schemes with a name; a problem is set up once for all its lanes. */
-static bool find_schemes(struct gm_request *request, char *message)
+static void find_schemes(struct gm_arena *arena, struct gm_request *request)
 {
+    char message[GM_MESSAGE], sentence[GM_MESSAGE], words[256];
     const struct gm_scene *scene = request->scene;
     const struct gm_scheme *unfit = NULL;
     const char *lacks = NULL;
@@ -296,11 +295,10 @@ static bool find_schemes(struct gm_request *request, char *message)
             continue;
         }
         if (!scene->setup(request->lanes[i].parameters, &problem, message)) {
-            char sentence[GM_MESSAGE];
             if (scene->readable && !scene->readable(request->lanes[i].parameters, sentence)) {
                 request->refusal = GM_EXIT_FILE;
             }
-            return false;
+            gm_arena_refuse(arena, "%s", message);
         }
         for (size_t k = i; k < request->count && !unfit; k++) {
             struct gm_lane_spec *spec = &request->lanes[k];
@@ -314,22 +312,21 @@ static bool find_schemes(struct gm_request *request, char *message)
             scene->close(&problem);
         }
     }
-    char words[256];
-    gm_arguments_tell_scene(scene, words, sizeof words);
-    return !unfit ||
-           gm_refuse(message,
-                     "scheme %s does not fit scene %s%s%s; geomint list %s --long names those that do",
-                     unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
+    if (unfit) {
+        gm_arguments_tell_scene(scene, words, sizeof words);
+        gm_arena_refuse(arena,
+                        "scheme %s does not fit scene %s%s%s; geomint list %s --long names those that do",
+                        unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
+    }
 }
 
-/* Evaluations per model time over the first steps; NAN with a sentence if it cannot be measured. */
-static double rate_of(const struct gm_request *request, size_t index, char *message)
+/* Evaluations per model time over the first steps. */
+static double rate_of(struct gm_arena *arena, const struct gm_request *request, size_t index)
 {
     enum { STEPS = 32 };
-    struct gm_lane *lane = gm_request_open_lane(request, index, message);
-    if (!lane) {
-        return NAN;
-    }
+    char message[GM_MESSAGE];
+    const size_t mark = gm_arena_mark(arena);
+    struct gm_lane *lane = gm_lane_in(arena, gm_request_open_lane(request, index, message), message);
     /* starting a scheme with memory may cost evaluations that no later step does */
     gm_run_advance(lane->run, 1);
     const unsigned long before = lane->run->evaluations;
@@ -337,50 +334,44 @@ static double rate_of(const struct gm_request *request, size_t index, char *mess
     gm_run_advance(lane->run, STEPS);
     const double rate = (double)(lane->run->evaluations - before) / fabs(lane->run->t - t);
     if (!(rate > 0) || !isfinite(rate)) {
-        gm_refuse(message, "equal=cost compares evaluations, and %s counts none over its first %d steps",
-                  lane->scheme->name, STEPS);
+        gm_arena_refuse(arena, "equal=cost compares evaluations, and %s counts none over its first %d steps",
+                        lane->scheme->name, STEPS);
     }
-    gm_lane_close(lane);
-    return rate > 0 && isfinite(rate) ? rate : NAN;
+    gm_arena_release(arena, mark);
+    return rate;
 }
 
 /* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured
-   over some steps from its start, and adds the step size to the lane's name. Returns false with a sentence
-   if a scheme counts no evaluations or the step leaves its range. */
-static bool equal_cost(struct gm_request *request, size_t index, size_t like, char *message)
+   over some steps from its start, and adds the step size to the lane's name. */
+static void equal_cost(struct gm_arena *arena, struct gm_request *request, size_t index, size_t like)
 {
     struct gm_lane_spec *spec = &request->lanes[index];
     struct gm_timing *timing = spec->parameters;
     const struct gm_parameter *row = gm_scene_parameter(request->scene, "dt");
-    const double wanted = rate_of(request, like, message);
+    const double wanted = rate_of(arena, request, like);
     /* the evaluations per step of an implicit scheme depend on the step size */
     enum { ROUNDS = 4 };
     for (int round = 0; round < ROUNDS && index != like; round++) {
-        const double rate = rate_of(request, index, message);
-        if (isnan(rate) || isnan(wanted)) {
-            return false;
-        }
-        timing->dt *= rate / wanted;
+        timing->dt *= rate_of(arena, request, index) / wanted;
         if (!(timing->dt >= row->lowest && timing->dt <= row->highest)) {
-            return gm_refuse(message, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
-                             timing->dt, spec->scheme->name, row->lowest, row->highest);
+            gm_arena_refuse(arena, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
+                            timing->dt, spec->scheme->name, row->lowest, row->highest);
         }
     }
     struct gm_shown *shown = &spec->shown;
     char *name = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
     const size_t size = shown->colour_name[0] ? sizeof shown->colour_name : sizeof shown->panel_name;
-    char text[sizeof shown->panel_name];
-    const int length =
-        snprintf(text, sizeof text, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
-    if (length > 0 && (size_t)length < size) { /* the name alone is better than a cut text */
-        memcpy(name, text, (size_t)length + 1);
+    const char *text = gm_arena_print(arena, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
+    if (strlen(text) < size) { /* the name alone is better than a cut text */
+        memcpy(name, text, strlen(text) + 1);
     }
-    return !isnan(wanted);
 }
 
 /* The lanes of the product, each with the parameters that its choice of the words gives. */
-static bool apply_words(struct gm_request *request, const struct gm_words *words, size_t count, char *message)
+static void apply_words(struct gm_arena *arena, struct gm_request *request, const struct gm_words *words,
+                        size_t count)
 {
+    char message[GM_MESSAGE];
     const struct gm_scene *scene = request->scene;
     const bool steps_given = gm_words_find(words, "steps") != NULL;
     const char *keys[GM_MOST_WORDS] = {NULL};
@@ -391,80 +382,68 @@ static bool apply_words(struct gm_request *request, const struct gm_words *words
         struct gm_lane_spec *spec = &request->lanes[k];
         spec->parameters = gm_scene_defaults(scene);
         request->count++;
-        if (!spec->parameters) {
-            return gm_refuse(message, "not enough memory");
-        }
+        gm_arena_need(arena, spec->parameters);
         gm_parameters_reset(gm_settings_parameters, gm_settings_parameter_count, &spec->settings);
         for (size_t i = 0; i < words->count; i++) {
-            if (!apply(request, spec, &words->list[i], gm_words_choice(words, i, k), message)) {
-                snprintf(request->refused, sizeof request->refused, "%s", words->list[i].key);
-                return false;
-            }
+            snprintf(request->refused, sizeof request->refused, "%s", keys[i]);
+            apply(arena, request, spec, &words->list[i], gm_words_choice(words, i, k));
         }
-        if (scene->settle && !scene->settle(spec->parameters, keys, words->count, message)) {
-            return false;
-        }
-        if (!settle_time(scene, spec, steps_given, message)) {
-            return false;
-        }
+        request->refused[0] = '\0';
+        gm_arena_check(arena, !scene->settle || scene->settle(spec->parameters, keys, words->count, message),
+                       message);
+        settle_time(arena, scene, spec, steps_given);
     }
-    return true;
-}
-
-/* equal=cost: chooses the step size of each lane so that its cost is the first scheme's. */
-static bool equalise(struct gm_request *request, const struct gm_words *words, char *message)
-{
-    if (gm_words_find(words, "steps")) {
-        return gm_refuse(message, "equal=cost scales the steps up to until=; steps= cannot be given with it");
-    }
-    for (size_t k = 0; k < request->count; k++) {
-        if (!equal_cost(request, k, first_scheme(words, k), message) ||
-            !settle_time(request->scene, &request->lanes[k], false, message)) {
-            return false;
-        }
-    }
-    return true;
 }
 
 /* Refuses steps= with until=, with the common step size if each is one number. */
-static bool refuse_two_ends(const struct gm_scene *scene, const struct gm_words *words, char *message)
+static void refuse_two_ends(struct gm_arena *arena, const struct gm_scene *scene, const struct gm_word *steps,
+                            const struct gm_word *until)
 {
-    char text[2][GM_TEXT_SIZE], both[128] = "";
-    const struct gm_word *ends[] = {gm_words_find(words, "steps"), gm_words_find(words, "until")};
-    const char *const typed[] = {gm_word_value(ends[0], 0, text[0]), gm_word_value(ends[1], 0, text[1])};
-    double steps, until;
-    void *usual = gm_scene_defaults(scene);
-    if (usual && ends[0]->count == 1 && ends[1]->count == 1 && gm_number_parse(typed[0], &steps) &&
-        gm_number_parse(typed[1], &until)) {
-        snprintf(both, sizeof both, ", or until=%.40s dt=%.6g for both", typed[1],
-                 (until - gm_scene_t0(scene, usual)) / steps);
+    char texts[2][GM_TEXT_SIZE];
+    const char *both = "", *first = gm_word_value(steps, 0, texts[0]),
+               *second = gm_word_value(until, 0, texts[1]);
+    double count, end;
+    void *usual = gm_arena_keep(arena, gm_scene_defaults(scene), free);
+    if (steps->count == 1 && until->count == 1 && gm_number_parse(first, &count) &&
+        gm_number_parse(second, &end)) {
+        both = gm_arena_print(arena, ", or until=%.40s dt=%.6g for both", second,
+                              (end - gm_scene_t0(scene, usual)) / count);
     }
-    free(usual);
-    return gm_refuse(message, "steps=%.40s and until=%.40s are both given; type one of them%s", typed[0],
-                     typed[1], both);
+    gm_arena_refuse(arena, "steps=%.40s and until=%.40s are both given; type one of them%s", first, second,
+                    both);
 }
 
-static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
+/* The words behind the scene while they become lanes. */
+struct making {
+    struct gm_request *request;
+    struct gm_words words;
+    bool recalled;
+};
+
+static void make_lanes(struct gm_arena *arena, void *data)
 {
+    const struct making *making = data;
+    struct gm_request *request = making->request;
+    const struct gm_words *words = &making->words;
+    const struct gm_word *steps = gm_words_find(words, "steps"), *until = gm_words_find(words, "until");
+    char message[GM_MESSAGE];
     size_t count = 0;
-    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
-        return false;
-    }
+    gm_arena_check(arena, gm_words_count(words, GM_MOST_REQUESTED, &count, message), message);
+    request->overlay = gm_words_chosen(words, "overlay");
     if (request->overlay && count > GM_LANE_COLOURS) {
-        return gm_refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
-                         GM_LANE_COLOURS, count);
+        gm_arena_refuse(arena, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                        GM_LANE_COLOURS, count);
     }
     request->lanes = calloc(count, sizeof *request->lanes);
-    if (!request->lanes) {
-        return gm_refuse(message, "not enough memory");
+    gm_arena_need(arena, request->lanes);
+    if (steps && until) {
+        refuse_two_ends(arena, request->scene, steps, until);
     }
-    if (gm_words_find(words, "steps") && gm_words_find(words, "until")) {
-        return refuse_two_ends(request->scene, words, message);
+    apply_words(arena, request, words, count);
+    if (!making->recalled) {
+        check_effects(arena, request, words);
     }
-    if (!apply_words(request, words, count, message) ||
-        !(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
-        return false;
-    }
+    find_schemes(arena, request);
     for (size_t k = 0; k < count; k++) {
         struct gm_lane_spec *spec = &request->lanes[k];
         show(words, k, spec); /* rows of one name may have different titles */
@@ -472,10 +451,18 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
             gm_show_in_order(&spec->shown, k, spec->scheme, true);
         }
     }
-    if (gm_words_chosen(words, "equal") && !equalise(request, words, message)) {
-        return false;
+    const bool equal =
+        gm_words_chosen(words, "equal"); /* each step size so that the cost is the first scheme's */
+    if (equal && steps) {
+        gm_arena_refuse(arena, "equal=cost scales the steps up to until=; steps= cannot be given with it");
     }
-    return check_settings(request, words, message);
+    for (size_t k = 0; k < count && equal; k++) {
+        equal_cost(arena, request, k, first_scheme(words, k));
+        settle_time(arena, request->scene, &request->lanes[k], false);
+    }
+    check_settings(arena, request, words);
+    request->arguments = gm_words_join(request->scene, words);
+    gm_arena_need(arena, request->arguments);
 }
 
 const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message)
@@ -514,24 +501,21 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
 static bool read_words(struct gm_request *request, const struct gm_arguments *given,
                        const struct gm_arguments *all, size_t schemes, bool recalled, char *message)
 {
-    struct gm_words words;
+    struct making making = {.request = request, .recalled = recalled};
+    struct gm_words *words = &making.words;
     size_t lanes;
-    bool made = gm_words_read(&words, request->scene, all->count - 1, all->words + 1, schemes, message);
-    if (made) {
-        if (all != given && !gm_arguments_have(given, "overlay=") &&
-            !gm_words_count(&words, GM_LANE_COLOURS, &lanes, message)) {
-            gm_words_separate(&words);
-        }
-        request->overlay = gm_words_chosen(&words, "overlay");
-        made = make_lanes(request, &words, recalled, message);
-    } else {
-        memcpy(request->refused, words.refused, sizeof request->refused);
+    bool made = gm_words_read(words, request->scene, all->count - 1, all->words + 1, schemes, message);
+    if (!made) {
+        memcpy(request->refused, words->refused, sizeof request->refused);
     }
-    if (made) {
-        request->arguments = gm_words_join(request->scene, &words);
-        made = request->arguments || gm_refuse(message, "not enough memory");
+    struct gm_word *overlay = made ? (struct gm_word *)gm_words_find(words, "overlay") : NULL;
+    if (overlay && all != given && !gm_arguments_have(given, "overlay=") &&
+        !gm_words_count(words, GM_LANE_COLOURS, &lanes, message)) {
+        overlay->pieces[0].text = "no"; /* there are more lanes than colours */
     }
-    gm_words_close(&words);
+    made = made && (gm_arena_run(words->arena, make_lanes, &making) ||
+                    gm_refuse(message, "%s", gm_arena_reason(words->arena)));
+    gm_words_close(words);
     return made;
 }
 

@@ -79,8 +79,9 @@ int gm_request_refusal(const struct gm_request *request);
    words separated by blanks, every parameter that is not at its default; malloc'ed. */
 char *gm_request_format(const struct gm_request *request);
 
-/* The changes as text, one "lane step key=value" a line, and back. */
-char *gm_changes_format(const struct gm_request *request);
+/* The changes as text, "lane step key=value" with this character for each blank and that one behind each, and back, a
+   blank and a line each. */
+char *gm_changes_format(const struct gm_request *request, char between, char end);
 bool gm_changes_parse(struct gm_request *request, const char *text);
 
 /* Sets the colour of lane number `lane`, and its panel, or the one for all lanes; names stay. */

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "core/ode/user/polish.h"
+#include "core/ode/user/scheme.h"
 #include "render/message.h"
 
 /* The scheme of a name, a path or a word. User-defined schemes are made at the first call and live as long
@@ -17,7 +17,7 @@ const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char
 const struct gm_scheme *gm_scheme_sought(const char *name, int *status, char *message);
 
 /* The text of a user-defined scheme with decimals that satisfy its order conditions
-   (core/ode/user/polish.h). Returns NULL with a sentence, as gm_scheme_named. */
+   (core/ode/user/scheme.h). Returns NULL with a sentence, as gm_scheme_named. */
 char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unreadable, char *message);
 
 /* A request's word from the file at this path: files after "scheme=" are relative to its folder.

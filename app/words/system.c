@@ -107,12 +107,6 @@ bool gm_system_recall(const char *word, const char *text)
     return true;
 }
 
-/* Returns true if a word means a room; a system of that name has precedence. */
-static bool is_room(const char *word)
-{
-    return gm_file_is(GM_FILE_ROOM, word) && !gm_file_is(GM_FILE_SYSTEM, word);
-}
-
 bool gm_system_is(const char *word)
 {
     return strcmp(word, gm_system_typed) == 0 || find_made(all_texts, word) ||
@@ -407,10 +401,9 @@ static bool write_text(struct making *making)
 
 bool gm_system_try(struct gm_system_trial *trial, int count, char *const words[], char *message)
 {
-    struct making making = {.trial = trial,
-                            .written = {.count = count, .words = words},
-                            .room = is_room(words[0]),
-                            .message = message};
+    struct making making = {.trial = trial, .written = {.count = count, .words = words}, .message = message};
+    /* a system has precedence over a room of the same name */
+    making.room = gm_file_is(GM_FILE_ROOM, words[0]) && !gm_file_is(GM_FILE_SYSTEM, words[0]);
     *trial = (struct gm_system_trial){.status = GM_EXIT_USAGE, .place = {.word = -1}};
     trial->made = calloc(1, sizeof *trial->made);
     making.values = calloc((size_t)count, sizeof *making.values);

@@ -191,51 +191,38 @@ static const struct gm_scene *scene_of(const struct gm_arguments *words, struct 
     return trial->scene;
 }
 
-/* No request is made if the line cannot be read. */
-static bool read_line(struct gm_request *request, struct gm_system_trial *trial, const char *line,
-                      size_t schemes, struct gm_typed_fault *fault)
+bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
+                      struct gm_typed_fault *fault)
 {
+    struct gm_request discarded, *made = request ? request : &discarded;
+    struct gm_system_trial trial = {0};
     struct gm_arguments words = {0};
     struct gm_word_place place = {-1, 0};
     char message[GM_MESSAGE] = "not enough memory";
     int shift = 0;
     *fault = (struct gm_typed_fault){.at = -1};
-    *trial = (struct gm_system_trial){0};
-    *request = (struct gm_request){0};
+    *made = (struct gm_request){0};
     read_words(&words, line, &shift);
-    const struct gm_scene *scene = words.failed ? NULL : scene_of(&words, trial, &place, message);
-    const bool read =
-        scene && gm_request_parse_for(request, scene, words.count, words.words, schemes, message);
+    const struct gm_scene *scene = words.failed ? NULL : scene_of(&words, &trial, &place, message);
+    const bool read = scene && gm_request_parse_for(made, scene, words.count, words.words, schemes, message);
     if (!read) {
-        place = scene ? word_of(&words, scene, request->refused) : place;
+        place = scene ? word_of(&words, scene, made->refused) : place;
         fail(fault, message);
         const bool shown = place.word >= 0 && place.word >= shift;
         fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;
+    } else if (request) {
+        gm_system_trial_keep(&trial);
+    } else {
+        gm_request_close(made);
     }
     gm_arguments_close(&words);
-    return read;
-}
-
-bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
-                      struct gm_typed_fault *fault)
-{
-    struct gm_system_trial trial;
-    const bool read = read_line(request, &trial, line, schemes, fault);
-    if (read) {
-        gm_system_trial_keep(&trial);
-    }
     gm_system_trial_close(&trial);
     return read;
 }
 
 bool gm_typed_check(const char *line, struct gm_typed_fault *fault)
 {
-    struct gm_request request;
-    struct gm_system_trial trial;
-    const bool read = read_line(&request, &trial, line, 1, fault);
-    gm_request_close(&request);
-    gm_system_trial_close(&trial);
-    return read;
+    return gm_typed_request(NULL, line, 1, fault);
 }
 
 /* ---- schemes ---- */

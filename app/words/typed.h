@@ -21,7 +21,7 @@ bool gm_typed_split(struct gm_arguments *words, const char *line);
 char *gm_typed_join(const struct gm_arguments *words);
 
 /* Reads a line of a system: a formula, H= L= rate=, a file or a name, with key=value; or of a scene with
-   its keys. `schemes`: see gm_request_parse. Returns false with a fault. */
+   its keys. `schemes`: see gm_request_parse. Returns false with a fault. NULL: the line is only checked. */
 bool gm_typed_request(struct gm_request *request, const char *line, size_t schemes,
                       struct gm_typed_fault *fault);
 /* Returns true if the line can be read; stores nothing. */

@@ -31,12 +31,6 @@ size_t gm_word_first(const char *value)
     return length;
 }
 
-/* Returns true if a text is a range: ".." has precedence over numbers. */
-static bool is_range(const char *text)
-{
-    return text[gm_word_first(text)] == '.';
-}
-
 static double to_15_digits(double value)
 {
     char text[32];
@@ -191,7 +185,8 @@ bool gm_word_is_number(const struct gm_scene *scene, const char *key)
 static void read_range(struct gm_arena *arena, struct gm_word *list, const struct gm_scene *scene)
 {
     struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
-    if (is_range(piece->text) && gm_word_is_number(scene, list->key)) {
+    /* ".." has precedence over numbers */
+    if (piece->text[gm_word_first(piece->text)] == '.' && gm_word_is_number(scene, list->key)) {
         const struct gm_parameter *row = gm_word_parameter(scene, list->key);
         const bool whole = !row || row->type == GM_INTEGER; /* steps= has no row */
         parse_range(arena, &piece->range, list->key, piece->text, whole);
@@ -535,24 +530,6 @@ static void check_choices(const struct gm_words *words)
     }
 }
 
-/* Gives every scheme its own name. */
-static void name_schemes(struct gm_words *words, const struct gm_scene *scene)
-{
-    struct gm_word *word = (struct gm_word *)gm_words_find(words, "scheme");
-    for (size_t k = 0; word && k < word->piece_count; k++) {
-        word->pieces[k].text =
-            gm_arena_print(words->arena, "%s", gm_scheme_own_name(scene, word->pieces[k].text));
-    }
-}
-
-void gm_words_separate(struct gm_words *words)
-{
-    struct gm_word *word = (struct gm_word *)gm_words_find(words, "overlay");
-    if (word) {
-        word->pieces[0].text = "no";
-    }
-}
-
 bool gm_words_chosen(const struct gm_words *words, const char *key)
 {
     const struct gm_word *word = gm_words_find(words, key);
@@ -580,7 +557,11 @@ static void read_words(struct gm_arena *arena, void *data)
             read_word(words, scene, typing->typed[i], i + 1 < typing->count ? typing->typed[i + 1] : NULL);
         }
     }
-    name_schemes(words, scene);
+    struct gm_word *names = (struct gm_word *)gm_words_find(words, "scheme");
+    for (size_t k = 0; names && k < names->piece_count; k++) {
+        const char *name = gm_scheme_own_name(scene, names->pieces[k].text);
+        names->pieces[k].text = gm_arena_print(words->arena, "%s", name);
+    }
     check_choices(words);
     prefer(words, preference ? preference->schemes : scene->schemes, typing->schemes);
     words->zip = gm_words_chosen(words, "zip");

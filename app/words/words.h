@@ -84,9 +84,6 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
 
-/* Changes overlay=yes to overlay=no: there are more lanes than colours. */
-void gm_words_separate(struct gm_words *words);
-
 /* Returns true if a common key with choices has the second one: yes, cost. */
 bool gm_words_chosen(const struct gm_words *words, const char *key);
 

@@ -118,6 +118,11 @@ bool gm_is_random(const char *word);
 bool gm_is_letter(char character); /* a letter or _ begins a name */
 /* The length in bytes of the name at text[0 .. length); 0: none begins there. */
 size_t gm_name_length(const char *text, size_t length);
+/* The letters of a name that a sentence shows. */
+static inline int gm_brief_length(size_t length)
+{
+    return length < 60 ? (int)length : 60;
+}
 /* True if a word ends like this and is longer, as the path of such a file. */
 bool gm_word_ends(const char *word, const char *ending);
 

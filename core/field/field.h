@@ -122,6 +122,8 @@ struct gm_field {
     const struct gm_dispersive *dispersive;
     /* GM_NEEDS_BURGERS, _KDV, _NLS, _HEAT: the problem's parameters are then its constants; or 0. */
     unsigned equation;
+    const struct gm_moving_frames
+        *frames; /* of the first, second and last; their parameters begin with struct gm_framed */
 };
 
 extern const struct gm_kind gm_kind_field;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of share/ that are part of the program: systems, rooms, the meshes of rooms, schemes, tours, and
-   the systems that schemes alone are certified on. The build
-   writes them into an array (core/files/main.c), and nothing opens them at run time. */
+/* The files of share/ that are part of the program: systems, rooms, the meshes of rooms, schemes, tours, the
+   systems that schemes alone are certified on, statements on published figures, and pages that the program
+   completes. The build writes them into an array (core/files/main.c), and nothing opens them at run time. */
 #ifndef GM_CORE_FILES_FILES_H
 #define GM_CORE_FILES_FILES_H
 
@@ -14,6 +14,8 @@ enum gm_file_kind {
     GM_FILE_TOUR,
     GM_FILE_MESH,
     GM_FILE_SUBJECT,
+    GM_FILE_FIGURES,
+    GM_FILE_PAGE,
     GM_FILE_KINDS
 };
 

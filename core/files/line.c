@@ -6,8 +6,8 @@
 #include "core/expression/lines.h"
 #include "core/files/files.h"
 
-const char *const gm_file_endings[GM_FILE_KINDS] = {".system", ".room", ".scheme",
-                                                    ".tour",   ".msh",  ".subject"};
+const char *const gm_file_endings[GM_FILE_KINDS] = {".system", ".room",    ".scheme",  ".tour",
+                                                    ".msh",    ".subject", ".figures", ".page"};
 
 char *gm_file_line(const char *text, size_t length, const char *word)
 {

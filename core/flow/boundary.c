@@ -4,7 +4,6 @@
 #include "core/flow/boundary.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The construction of a boundary. */
@@ -30,50 +29,42 @@ static double given(const struct gm_side *side, enum gm_given what, double s, co
     return side->varying ? side->varying(side->data, what, s, at) : same[what];
 }
 
-static double length_of(const struct gm_complex *complex, const struct gm_opening *opening)
-{
-    double length = 0;
-    size_t e = opening->first;
-    for (size_t i = 0; i < opening->count; i++, e = gm_complex_next(complex, e)) {
-        length += complex->length[complex->boundary_edge[e]];
-    }
-    return length;
-}
-
 /* The integral of the profile over edge e, from the part s of the piece on, with Lobatto's rule of four
-   points: they include the ends, so that a profile that is not finite there is detected. */
+   points: they include the ends, so that a profile that is not finite there is detected. Adds that of the
+   magnitude. */
 static double through_edge(const struct gm_complex *complex, const struct gm_side *side, size_t e, double s,
-                           double length, bool magnitude)
+                           double length, double *magnitude)
 {
     static const double node[4] = {-1, -0.4472135954999579, 0.4472135954999579, 1},
                         weight[4] = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
     const double own = complex->length[complex->boundary_edge[e]];
     const double *a = complex->point + 2 * complex->boundary_vertex[e],
                  *b = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, e)];
-    double sum = 0;
+    double sum = 0, size = 0;
     for (int i = 0; i < 4; i++) {
         const double part = (1 + node[i]) / 2;
         const double at[2] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
         const double speed = side->profile(side->data, s + part * own / length, at);
-        sum += weight[i] * own * (magnitude ? fabs(speed) : speed);
+        sum += weight[i] * own * speed;
+        size += weight[i] * own * fabs(speed);
     }
+    *magnitude += size;
     return sum;
 }
 
-/* The integral of the profile over an opening, and that of its magnitude. */
-static double through_profile(const struct gm_complex *complex, const struct gm_side *side,
-                              const struct gm_opening *opening, double *magnitude)
+/* Measures an opening's flow by its side's profile; the magnitude of the profile is integrated, too. */
+static double measure_profile(const struct gm_complex *complex, const struct gm_side *side,
+                              struct gm_opening *opening)
 {
-    const double whole = opening->side_length;
-    double passed = opening->before, sum = 0;
+    double passed = opening->before, magnitude = 0;
     size_t e = opening->first;
-    *magnitude = 0;
+    opening->profile = 0;
     for (size_t i = 0; side->profile && i < opening->count; i++, e = gm_complex_next(complex, e)) {
-        sum += through_edge(complex, side, e, passed / whole, whole, false);
-        *magnitude += through_edge(complex, side, e, passed / whole, whole, true);
+        opening->profile +=
+            through_edge(complex, side, e, passed / opening->side_length, opening->side_length, &magnitude);
         passed += complex->length[complex->boundary_edge[e]];
     }
-    return sum;
+    return magnitude;
 }
 
 /* The pieces of inlets and outlets, in the order of the boundary. */
@@ -82,10 +73,6 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
     struct gm_flow *flow = maker->flow;
     const struct gm_complex *complex = flow->complex;
     size_t inlets = 0, outlets = 0;
-    flow->opening = calloc(complex->boundary + 1, sizeof *flow->opening);
-    if (!flow->opening) {
-        return GM_BOUNDARY_MEMORY;
-    }
     for (size_t e = 0; e < complex->boundary; e++) {
         const unsigned char side = maker->side_of[e];
         const bool begins = maker->side_of[gm_complex_previous(complex, e)] != side;
@@ -139,7 +126,10 @@ static void measure_openings(struct gm_flow *flow)
     }
     for (size_t i = 0; i < flow->openings; i++) {
         struct gm_opening *opening = &flow->opening[(first + i) % flow->openings];
-        opening->length = length_of(complex, opening);
+        size_t e = opening->first;
+        for (size_t k = 0; k < opening->count; k++, e = gm_complex_next(complex, e)) {
+            opening->length += complex->length[complex->boundary_edge[e]];
+        }
         opening->before = length[opening->side];
         length[opening->side] += opening->length;
     }
@@ -156,8 +146,7 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
     measure_openings(flow);
     for (size_t i = 0; i < flow->openings; i++) {
         struct gm_opening *opening = &flow->opening[i];
-        double size = 0;
-        opening->profile = through_profile(flow->complex, &maker->sides[opening->side], opening, &size);
+        const double size = measure_profile(flow->complex, &maker->sides[opening->side], opening);
         side_profile[opening->side] += opening->profile;
         flow->faulty = opening->side;
         if (size > 0 && !(opening->profile > 1e-9 * size)) {
@@ -208,32 +197,39 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
     return GM_BOUNDARY_OK;
 }
 
-/* The side that holds a quantity where two sides meet: a wall before an inlet; NULL: neither holds it. */
+static bool holds(const struct gm_side *side, enum gm_given what)
+{
+    return what == GM_GIVEN_THETA ? !side->theta_free : !side->temperature_free;
+}
+
+/* The side that holds the scalar or the temperature where two sides meet: a wall before an inlet; NULL: neither
+   holds it. */
 static const struct gm_side *winner(const struct gm_side *before, const struct gm_side *side,
-                                    bool before_holds, bool side_holds)
+                                    enum gm_given what)
 {
-    const struct gm_side *meet[2] = {before_holds ? before : NULL, side_holds ? side : NULL}, *holds = NULL;
+    const struct gm_side *meet[2] = {before, side}, *holder = NULL;
     for (int k = 0; k < 2; k++) {
-        const bool wall = meet[k] && !is_open(meet[k]), inlet = meet[k] && meet[k]->kind == GM_EDGE_INLET;
-        holds = wall || (inlet && !holds) ? meet[k] : holds;
+        const bool wall = !is_open(meet[k]), inlet = meet[k]->kind == GM_EDGE_INLET;
+        holder = holds(meet[k], what) && (wall || (inlet && !holder)) ? meet[k] : holder;
     }
-    return holds;
+    return holder;
 }
 
-/* Vertex v, at the part s of the side, is held at what it gives; NULL: it is not held. */
-static void hold(struct gm_flow *flow, int v, const struct gm_side *side, double s)
-{
-    flow->theta_fixed[v] = side != NULL;
-    flow->theta[v] = side ? given(side, GM_GIVEN_THETA, s, flow->complex->point + 2 * v) : 0;
-}
-
-static void hold_temperature(const struct maker *maker, int v, const struct gm_side *side, double s)
+/* The scalar or the temperature of vertex v, at the part s of the side, is held at what it gives; NULL: it is
+   not held. */
+static void hold(const struct maker *maker, enum gm_given what, int v, const struct gm_side *side, double s)
 {
     struct gm_flow *flow = maker->flow;
-    if (flow->heat) {
+    if (what == GM_GIVEN_TEMPERATURE && !flow->heat) {
+        return;
+    }
+    const double value = side ? given(side, what, s, flow->complex->point + 2 * v) : 0;
+    if (what == GM_GIVEN_THETA) {
+        flow->theta_fixed[v] = side != NULL;
+        flow->theta[v] = value;
+    } else {
         flow->temperature_fixed[v] = side != NULL;
-        flow->temperature[v] = side ? given(side, GM_GIVEN_TEMPERATURE, s, flow->complex->point + 2 * v)
-                                    : flow->reference_temperature;
+        flow->temperature[v] = side ? value : flow->reference_temperature;
         flow->temperature_holder[v] = (unsigned char)(side ? 1 + (side - maker->sides) : 0);
     }
 }
@@ -244,16 +240,14 @@ static void hold_opening(const struct maker *maker, const struct gm_side *side, 
                          double s)
 {
     const struct gm_complex *complex = maker->flow->complex;
-    const int v = complex->boundary_vertex[e];
     const struct gm_side *before = &maker->sides[maker->side_of[gm_complex_previous(complex, e)]],
                          *behind = &maker->sides[maker->side_of[e]];
     const bool inlet = side->kind == GM_EDGE_INLET;
-    if (inside || (inlet && winner(before, behind, !before->theta_free, !behind->theta_free) == side)) {
-        hold(maker->flow, v, inlet && !side->theta_free ? side : NULL, s);
-    }
-    if (inside ||
-        (inlet && winner(before, behind, !before->temperature_free, !behind->temperature_free) == side)) {
-        hold_temperature(maker, v, inlet && !side->temperature_free ? side : NULL, s);
+    for (int what = GM_GIVEN_THETA; what <= GM_GIVEN_TEMPERATURE; what++) {
+        if (inside || (inlet && winner(before, behind, (enum gm_given)what) == side)) {
+            hold(maker, (enum gm_given)what, complex->boundary_vertex[e],
+                 inlet && holds(side, (enum gm_given)what) ? side : NULL, s);
+        }
     }
 }
 
@@ -266,7 +260,7 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
     const enum gm_vertex_kind kind = opening->inlet ? GM_VERTEX_FIXED : maker->outlet;
     const double length = opening->length, whole = opening->side_length,
                  rise = opening->inlet ? -opening->flow : opening->flow, all = opening->profile;
-    double passed = 0, sum = 0;
+    double passed = 0, sum = 0, magnitude = 0;
     size_t e = opening->first;
     for (size_t i = 0; i <= opening->count; i++, e = gm_complex_next(complex, e)) {
         const int v = complex->boundary_vertex[e];
@@ -284,7 +278,7 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
             flow->open[v] = opening->inlet ? GM_OPEN_INLET : GM_OPEN_OUTLET;
         }
         sum += side->profile
-                   ? through_edge(complex, side, e, (opening->before + passed) / whole, whole, false)
+                   ? through_edge(complex, side, e, (opening->before + passed) / whole, whole, &magnitude)
                    : 0;
         passed += complex->length[complex->boundary_edge[e]];
     }
@@ -292,25 +286,12 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
 }
 
 /* Lists the points where tracers return: all inlets as one line, along which psi is continuous. */
-static bool list_inflow(struct gm_flow *flow)
+static void list_inflow(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
     struct gm_inflow *inflow = &flow->inflow;
-    size_t count = 0;
-    free(inflow->point);
-    free(inflow->psi);
-    free(inflow->triangle);
-    *inflow = (struct gm_inflow){0};
+    inflow->count = 0;
     flow->inlet_length = 0;
-    for (size_t i = 0; i < flow->openings; i++) {
-        count += flow->opening[i].inlet ? flow->opening[i].count + 1 : 0;
-    }
-    inflow->point = malloc(2 * (count + 1) * sizeof *inflow->point);
-    inflow->psi = malloc((count + 1) * sizeof *inflow->psi);
-    inflow->triangle = malloc((count + 1) * sizeof *inflow->triangle);
-    if (!inflow->point || !inflow->psi || !inflow->triangle) {
-        return false;
-    }
     for (size_t i = 0; i < flow->openings; i++) {
         const struct gm_opening *opening = &flow->opening[i];
         size_t e = opening->first;
@@ -326,7 +307,6 @@ static bool list_inflow(struct gm_flow *flow)
         }
         flow->inlet_length += opening->inlet ? opening->length : 0;
     }
-    return true;
 }
 
 static void number_holes(struct gm_flow *flow)
@@ -403,11 +383,11 @@ static void set_walls(const struct maker *maker)
         const int v = complex->boundary_vertex[e];
         const bool slip = side->kind == GM_EDGE_SLIP && before->kind == GM_EDGE_SLIP;
         flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
-        const struct gm_side *scalar = winner(before, side, !before->theta_free, !side->theta_free),
-                             *warm = winner(before, side, !before->temperature_free, !side->temperature_free);
-        /* the values of inlets depend on s, which only openings have */
-        hold(flow, v, scalar && !is_open(scalar) ? scalar : NULL, 0);
-        hold_temperature(maker, v, warm && !is_open(warm) ? warm : NULL, 0);
+        for (int what = GM_GIVEN_THETA; what <= GM_GIVEN_TEMPERATURE; what++) {
+            /* the values of inlets depend on s, which only openings have */
+            const struct gm_side *holder = winner(before, side, (enum gm_given)what);
+            hold(maker, (enum gm_given)what, v, holder && !is_open(holder) ? holder : NULL, 0);
+        }
         if (side->kind == GM_EDGE_LID) {
             push(flow, side, e);
         }
@@ -422,13 +402,9 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
 {
     const struct gm_complex *complex = flow->complex;
     const struct maker maker = {flow, side_of, sides, outlet};
-    free(flow->opening);
-    flow->opening = NULL;
     flow->openings = flow->holes = 0;
     memset(flow->sheet, 0, complex->vertices * sizeof *flow->sheet);
-    if (flow->heat) {
-        memset(flow->heating, 0, complex->vertices * sizeof *flow->heating);
-    }
+    memset(flow->heating, 0, complex->vertices * sizeof *flow->heating);
     number_holes(flow);
     enum gm_boundary_fault fault = find_openings(&maker);
     if (fault != GM_BOUNDARY_OK) {
@@ -463,7 +439,8 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
             flow->psi[complex->boundary_vertex[e]] = level;
         }
     }
-    return list_inflow(flow) ? GM_BOUNDARY_OK : GM_BOUNDARY_MEMORY;
+    list_inflow(flow);
+    return GM_BOUNDARY_OK;
 }
 
 enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,

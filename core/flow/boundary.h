@@ -39,7 +39,6 @@ struct gm_side {
 
 enum gm_boundary_fault {
     GM_BOUNDARY_OK,
-    GM_BOUNDARY_MEMORY,
     GM_BOUNDARY_NO_INLET, /* an outlet alone */
     GM_BOUNDARY_NO_OUTLET,
     GM_BOUNDARY_SHORT,      /* a piece of an inlet or an outlet of one edge: no vertex inside */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flows: their memory, fluxes, vorticity and velocities, and the states that a run starts from. */
 #include "core/flow/flow.h"
+#include "core/arena.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdint.h>
 #include <string.h>
 
 size_t gm_flow_size(const struct gm_flow *flow)
@@ -31,121 +32,83 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
     return y + gm_flow_block_numbers(flow) + 1 + GM_TRACER_NUMBERS * tracer;
 }
 
+static void close_complex(void *complex)
+{
+    gm_complex_close(complex);
+}
+
+/* An array for n vertices: zeros, or a copy. */
+static void *array(struct gm_arena *arena, size_t n, size_t size, const void *values)
+{
+    void *array = gm_arena_take(arena, n, size);
+    return values ? memcpy(array, values, n * size) : array;
+}
+
+/* Opens a flow like the one that the data points to, with arrays of its own. */
+static void open_flow(struct gm_arena *arena, void *data)
+{
+    const struct gm_flow *like = *(struct gm_flow **)data;
+    struct gm_flow *flow = gm_arena_take(arena, 1, sizeof *flow);
+    const size_t n = like->complex->vertices, boundary = like->complex->boundary;
+    *flow = *like;
+    flow->arena = arena;
+    flow->kind = array(arena, n, 1, like->kind);
+    flow->psi = array(arena, n, sizeof(double), like->psi);
+    flow->hole = array(arena, n, sizeof(int), like->hole);
+    flow->open = array(arena, n, 1, like->open);
+    flow->sheet = array(arena, n, sizeof(double), like->sheet);
+    flow->theta_fixed = array(arena, n, sizeof(bool), like->theta_fixed);
+    flow->theta = array(arena, n, sizeof(double), like->theta);
+    flow->temperature_fixed = array(arena, n, sizeof(bool), like->temperature_fixed);
+    flow->temperature = array(arena, n, sizeof(double), like->temperature);
+    flow->temperature_holder = array(arena, n, 1, like->temperature_holder);
+    flow->heating = array(arena, n, sizeof(double), like->heating);
+    flow->opening = gm_arena_take(arena, boundary + 1, sizeof *flow->opening);
+    /* an opening has a point more than edges, of which there are two at least */
+    flow->inflow = (struct gm_inflow){.point = gm_arena_take(arena, 3 * boundary + 2, sizeof(double)),
+                                      .psi = gm_arena_take(arena, 2 * boundary + 1, sizeof(double)),
+                                      .triangle = gm_arena_take(arena, 2 * boundary + 1, sizeof(int))};
+    *(struct gm_flow **)data = flow;
+}
+
+struct gm_flow *gm_flow_open_now(const struct gm_flow *flow)
+{
+    const struct gm_flow *now = flow;
+    struct gm_arena *arena = gm_arena_open();
+    if (gm_arena_run(arena, open_flow, &now)) {
+        return (struct gm_flow *)(uintptr_t)now;
+    }
+    gm_arena_close(arena);
+    return NULL;
+}
+
 struct gm_flow *gm_flow_open(struct gm_complex *complex)
 {
-    struct gm_flow *flow = calloc(1, sizeof *flow);
+    struct gm_flow *flow = gm_flow_open_now(&(struct gm_flow){.complex = complex, .time_unit = 1});
     if (!flow) {
         gm_complex_close(complex);
-        return NULL;
-    }
-    const size_t n = complex->vertices;
-    *flow = (struct gm_flow){
-        .complex = complex,
-        .time_unit = 1,
-        .kind = calloc(n, 1),
-        .psi = calloc(n, sizeof(double)),
-        .hole = calloc(n, sizeof(int)),
-        .open = calloc(n, 1),
-        .sheet = calloc(n, sizeof(double)),
-        .theta_fixed = calloc(n, sizeof(bool)),
-        .theta = calloc(n, sizeof(double)),
-    };
-    if (!flow->kind || !flow->psi || !flow->hole || !flow->open || !flow->sheet || !flow->theta_fixed ||
-        !flow->theta) {
+    } else if (!gm_arena_keep(flow->arena, complex, close_complex)) {
         gm_flow_close(flow);
-        return NULL;
+        flow = NULL;
     }
     return flow;
 }
 
 void gm_flow_close(struct gm_flow *flow)
 {
-    if (!flow) {
-        return;
+    if (flow) {
+        gm_arena_close(flow->arena);
     }
-    gm_complex_close(flow->complex);
-    free(flow->kind);
-    free(flow->psi);
-    free(flow->hole);
-    free(flow->open);
-    free(flow->opening);
-    free(flow->sheet);
-    free(flow->theta_fixed);
-    free(flow->theta);
-    free(flow->source);
-    free(flow->temperature_fixed);
-    free(flow->temperature);
-    free(flow->temperature_holder);
-    free(flow->heating);
-    free(flow->inflow.point);
-    free(flow->inflow.psi);
-    free(flow->inflow.triangle);
-    free(flow->smoking);
-    free(flow->side_of);
-    free(flow);
 }
 
-static void *copy_of(const void *values, size_t size)
+void gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature)
 {
-    void *copy = values ? malloc(size) : NULL;
-    return copy ? memcpy(copy, values, size) : NULL;
-}
-
-struct gm_flow *gm_flow_open_now(const struct gm_flow *flow)
-{
-    const size_t n = flow->complex->vertices;
-    struct gm_flow *now = malloc(sizeof *now);
-    if (!now) {
-        return NULL;
-    }
-    *now = *flow;
-    now->kind = copy_of(flow->kind, n);
-    now->psi = copy_of(flow->psi, n * sizeof *flow->psi);
-    now->hole = copy_of(flow->hole, n * sizeof *flow->hole);
-    now->open = copy_of(flow->open, n);
-    now->sheet = copy_of(flow->sheet, n * sizeof *flow->sheet);
-    now->theta_fixed = copy_of(flow->theta_fixed, n * sizeof *flow->theta_fixed);
-    now->theta = copy_of(flow->theta, n * sizeof *flow->theta);
-    now->temperature_fixed = copy_of(flow->temperature_fixed, n * sizeof *flow->temperature_fixed);
-    now->temperature = copy_of(flow->temperature, n * sizeof *flow->temperature);
-    now->temperature_holder = copy_of(flow->temperature_holder, n);
-    now->heating = copy_of(flow->heating, n * sizeof *flow->heating);
-    now->opening = NULL;
-    now->inflow = (struct gm_inflow){0};
-    const bool warm = now->temperature_fixed && now->temperature && now->temperature_holder && now->heating;
-    if (!now->kind || !now->psi || !now->hole || !now->open || !now->sheet || !now->theta_fixed ||
-        !now->theta || (flow->heat && !warm)) {
-        gm_flow_close_now(now);
-        return NULL;
-    }
-    return now;
-}
-
-void gm_flow_close_now(struct gm_flow *now)
-{
-    if (now) {
-        now->complex = NULL;
-        now->source = NULL;
-        now->smoking = NULL;
-        now->side_of = NULL;
-    }
-    gm_flow_close(now);
-}
-
-bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature)
-{
-    const size_t n = flow->complex->vertices;
-    flow->temperature_fixed = calloc(n, sizeof *flow->temperature_fixed);
-    flow->temperature = malloc(n * sizeof *flow->temperature);
-    flow->temperature_holder = calloc(n, 1);
-    flow->heating = calloc(n, sizeof *flow->heating);
-    flow->heat = flow->temperature_fixed && flow->temperature && flow->temperature_holder && flow->heating;
-    for (size_t v = 0; flow->heat && v < n; v++) {
-        flow->temperature[v] = reference_temperature;
-    }
+    flow->heat = true;
     flow->buoyancy = buoyancy;
     flow->reference_temperature = reference_temperature;
-    return flow->heat;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        flow->temperature[v] = reference_temperature;
+    }
 }
 
 /* psi interpolated to the dual vertex of a triangle */
@@ -317,14 +280,4 @@ void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, dou
             rate[w] += half * (from + 3 * to) / 4;
         }
     }
-}
-
-bool gm_flow_is_vorticity_form(const struct gm_flow *flow)
-{
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        if (flow->kind[v] != GM_VERTEX_FREE && flow->kind[v] != GM_VERTEX_SLIP) {
-            return false;
-        }
-    }
-    return true;
 }

@@ -54,6 +54,7 @@ struct gm_opening {
 enum gm_opening_kind { GM_OPEN_NOT, GM_OPEN_INLET, GM_OPEN_OUTLET };
 
 struct gm_flow {
+    struct gm_arena *arena; /* holds the flow, its complex and arrays */
     struct gm_complex *complex;
     double viscosity, diffusivity;
     double time_unit;    /* time unit of a run, in the flow's own time */
@@ -75,9 +76,9 @@ struct gm_flow {
                                                none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
     double buoyancy, reference_temperature; /* g beta; T without buoyancy */
-    /* The arrays of temperature, like those of theta; NULL without heat. holder: 1 + the side that holds
-       or heats a vertex, 0: none; heating: the heat from walls to the cells at them, per unit of time,
-       over density and heat capacity. */
+    /* The arrays of temperature, like those of theta; holder: 1 + the side that holds or heats a vertex,
+       0: none; heating: the heat from walls to the cells at them, per unit of time, over density and heat
+       capacity. */
     bool *temperature_fixed;
     double *temperature;
     unsigned char *temperature_holder;
@@ -140,13 +141,20 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
    memory. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
-/* The flow with a boundary of its own, for `give`; the complex and sources still belong to `flow`. Returns
-   NULL when out of memory. */
+/* The flow with a boundary of its own, for `give`, in an arena of its own; the complex and sources still
+   belong to `flow`. Returns NULL when out of memory. */
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
-void gm_flow_close_now(struct gm_flow *now);
-/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. Returns false when out of
-   memory. */
-bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
+/* Adds heat to a flow, nowhere held, everywhere at the reference temperature. */
+void gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
+
+/* States that a run may start from: psi for a vorticity, the given scalar, tracers strewn evenly. */
+
+/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. Returns false
+   when out of memory, or if the boundary leaves psi undetermined. */
+bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
+/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
+   omega less its mean on a closed surface. */
+bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
 
 /* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
@@ -181,9 +189,15 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi);
    has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
 
-/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
-   surfaces and with slip walls. Then omega is stepped. */
-bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
+/* Carries the tracers of y for the time dt into those of out, with the midpoint rule and velocities
+   interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: the flow does
+   not depend on them. A tracer that leaves through an outlet returns at the inflow, at a place given by
+   `step` and its number. */
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
+                      const double *y, double *out);
+
+/* Has the tracers of the start y wait outside, to come in one after the other. */
+void gm_tracers_wait(const struct gm_flow *flow, double *y);
 
 /* Functionals of a state y. */
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);

@@ -13,15 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A Gmsh file on its way to a mesh: its text, and the tables that are made of
- * its sections. */
-
 /* The largest number of nodes, elements or entities. */
 enum { MOST = 5000000 };
 
 struct node {
-    long tag;
-    double x, y, z;
+    long tag; /* first, by which nodes are compared */
+    double at[3];
     long line;
     int vertex; /* -1: unused */
 };
@@ -38,7 +35,7 @@ struct curve {
 };
 
 struct reader {
-    struct gm_arena *arena;
+    struct gm_arena *arena; /* of the mesh */
     const char *at, *end;
     long line;
     struct gm_triangulation_fault *fault;
@@ -52,7 +49,8 @@ struct reader {
     struct element *triangles, *lines;
     struct curve *curves;
     struct gm_triangulation_group *groups;
-    size_t node_count, triangle_count, line_count, curve_count, group_count;
+    struct gm_triangulation_member *members; /* of edges, in the order of the lines */
+    size_t node_count, triangle_count, line_count, curve_count, group_count, member_count;
     struct gm_complex_origin origin;
     enum gm_star star;
     struct gm_triangulation *mesh; /* the result */
@@ -345,17 +343,18 @@ static void read_partitioned_entities(struct reader *reader)
     read_all_entities(reader, true);
 }
 
-static int compare_nodes(const void *a, const void *b)
+static int compare_tags(const void *a, const void *b)
 {
-    const struct node *p = a, *q = b;
-    return (p->tag > q->tag) - (p->tag < q->tag);
+    const long p = *(const long *)a, q = *(const long *)b;
+    return (p > q) - (p < q);
 }
 
 static void read_place(struct reader *reader, struct node *node)
 {
-    node->x = take_number(reader, "a coordinate");
-    node->y = take_number(reader, "a coordinate");
-    node->z = take_number(reader, "a coordinate");
+    node->vertex = -1;
+    for (int k = 0; k < 3; k++) {
+        node->at[k] = take_number(reader, "a coordinate");
+    }
 }
 
 static void read_node_block(struct reader *reader, size_t total)
@@ -425,7 +424,7 @@ static void read_nodes(struct reader *reader)
         read_node_block(reader, total);
     }
     expect(reader, reader->node_count == total, "as many nodes as announced");
-    qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
+    qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_tags);
     for (size_t i = 1; i < reader->node_count; i++) {
         if (reader->nodes[i].tag == reader->nodes[i - 1].tag) {
             const long a = reader->nodes[i].line, b = reader->nodes[i - 1].line;
@@ -442,16 +441,9 @@ static void read_parametric_nodes(struct reader *reader)
 
 static int nodes_of(long type)
 {
-    static const struct {
-        long type;
-        int nodes;
-    } known[] = {{POINT, 1}, {LINE, 2}, {TRIANGLE, 3}, {LINE_OF_3, 3}, {TRIANGLE_OF_6, 6}};
-    for (size_t i = 0; i < GM_COUNT(known); i++) {
-        if (known[i].type == type) {
-            return known[i].nodes;
-        }
-    }
-    return 0;
+    static const signed char nodes[] = {
+        [LINE] = 2, [TRIANGLE] = 3, [LINE_OF_3] = 3, [TRIANGLE_OF_6] = 6, [POINT] = 1};
+    return type >= 0 && type < (long)GM_COUNT(nodes) ? nodes[type] : 0;
 }
 
 /* The nodes of an element, whose tag and further tags are read: the corners
@@ -477,36 +469,31 @@ static void expect_type(struct reader *reader, long type, long line)
     }
 }
 
-/* Reads a block of at most `left` elements; returns their number. */
+/* Reads a block of at most `left` elements; returns their number. In version 2.2 each has its tag, type, number
+   of tags, those (the first is the physical one) and nodes; in binary files the type and the numbers of elements
+   and tags precede their elements. */
 static size_t read_element_block(struct reader *reader, size_t left)
 {
-    take_whole(reader, "a dimension");
-    const long entity = take_whole(reader, "an entity"), type = take_whole(reader, "a type of elements"),
-               count = take_count(reader, "a number of elements");
-    expect_type(reader, type, reader->line);
-    expect(reader, (size_t)count <= left, "as many elements as announced");
-    for (long i = 0; i < count; i++) {
-        take_tag(reader, "an element's tag");
-        read_corners(reader, type, (struct element){.line = reader->line, .entity = entity});
+    long entity = 0, type = 0, count = 1, tags = 0;
+    if (!reader->old) {
+        take_whole(reader, "a dimension");
+        entity = take_whole(reader, "an entity");
     }
-    return (size_t)count;
-}
-
-/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
-   binary files the type and the numbers of elements and tags precede their elements. */
-static size_t read_old_elements(struct reader *reader, size_t left)
-{
-    long type = 0, count = 1, tags = 0;
-    if (reader->raw) {
+    if (!reader->old || reader->raw) {
         type = take_whole(reader, "a type of elements");
-        count = take_whole(reader, "a number of elements");
+        count = reader->old ? take_whole(reader, "a number of elements")
+                            : take_count(reader, "a number of elements");
+    }
+    if (!reader->old) {
+        expect_type(reader, type, reader->line);
+    } else if (reader->raw) {
         tags = take_whole(reader, "a number of tags");
     }
-    expect(reader, count >= 1 && (size_t)count <= left, "as many elements as announced");
+    expect(reader, count >= reader->old && (size_t)count <= left, "as many elements as announced");
     for (long i = 0; i < count; i++) {
-        take_whole(reader, "an element's tag");
-        struct element element = {.line = reader->line};
-        if (!reader->raw) {
+        take_tag(reader, "an element's tag");
+        struct element element = {.line = reader->line, .entity = entity};
+        if (reader->old && !reader->raw) {
             type = take_whole(reader, "a type of elements");
             tags = take_count(reader, "a number of tags");
         }
@@ -530,10 +517,7 @@ static void read_elements(struct reader *reader)
     if (reader->old) {
         begin_raw(reader);
     }
-    while (reader->old && left > 0) {
-        left -= read_old_elements(reader, left);
-    }
-    for (long i = 0; i < blocks; i++) {
+    while (reader->old ? left > 0 : blocks-- > 0) {
         left -= read_element_block(reader, left);
     }
     expect(reader, left == 0, "as many elements as announced");
@@ -592,16 +576,20 @@ static void read_sections(struct reader *reader)
     }
 }
 
-/* Returns the node with this tag, or NULL. */
-static struct node *find_node(const struct reader *reader, long tag)
-{
-    const struct node key = {.tag = tag};
-    return reader->node_count == 0
-               ? NULL
-               : bsearch(&key, reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
-}
-
 /* The mesh. */
+
+/* The number of an element's node in the order of tags. */
+static long find_node(struct reader *reader, const struct element *element, size_t k)
+{
+    const long tag = element->nodes[k];
+    const struct node *node = reader->node_count == 0 ? NULL
+                                                      : bsearch(&tag, reader->nodes, reader->node_count,
+                                                                sizeof *reader->nodes, compare_tags);
+    if (!node) {
+        fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, tag);
+    }
+    return node - reader->nodes;
+}
 
 /* A triangle's nodes, ascending, and its index. */
 struct corners {
@@ -620,13 +608,6 @@ static int compare_corners(const void *a, const void *b)
     return (p->place > q->place) - (p->place < q->place);
 }
 
-static void exchange_if_above(long *a, long *b)
-{
-    const long low = *a < *b ? *a : *b;
-    *b = *a < *b ? *b : *a;
-    *a = low;
-}
-
 /* Version 2.2 writes a triangle once for each of its physical surfaces, and a
    surface that was meshed twice is there twice in any: the first stays. */
 static void drop_repeated(struct reader *reader)
@@ -636,9 +617,7 @@ static void drop_repeated(struct reader *reader)
     for (size_t t = 0; t < reader->triangle_count; t++) {
         long *nodes = all[t].nodes;
         memcpy(nodes, reader->triangles[t].nodes, sizeof all[t].nodes);
-        exchange_if_above(&nodes[0], &nodes[1]);
-        exchange_if_above(&nodes[1], &nodes[2]);
-        exchange_if_above(&nodes[0], &nodes[1]);
+        qsort(nodes, 3, sizeof *nodes, compare_tags);
         all[t].place = t;
     }
     qsort(all, reader->triangle_count, sizeof *all, compare_corners);
@@ -657,20 +636,17 @@ static void drop_repeated(struct reader *reader)
     reader->triangle_count = count;
 }
 
-/* The sum of the triangles' normals, each as long as twice its triangle is
- * large. */
+/* The sum of the triangles' normals, each as long as twice its triangle is large. */
 static void add_normals(const struct reader *reader, double normal[3])
 {
     for (size_t t = 0; t < reader->triangle_count; t++) {
-        const struct node *node[3];
-        for (int k = 0; k < 3; k++) {
-            node[k] = find_node(reader, reader->triangles[t].nodes[k]);
-        }
-        const double a[3] = {node[1]->x - node[0]->x, node[1]->y - node[0]->y, node[1]->z - node[0]->z},
-                     b[3] = {node[2]->x - node[0]->x, node[2]->y - node[0]->y, node[2]->z - node[0]->z};
+        const long *corner = reader->triangles[t].nodes;
+        const double *p = reader->nodes[corner[0]].at, *q = reader->nodes[corner[1]].at,
+                     *r = reader->nodes[corner[2]].at;
         for (int k = 0; k < 3; k++) {
             const int next = (k + 1) % 3, last = (k + 2) % 3;
-            normal[k] += a[next] * b[last] - a[last] * b[next];
+            normal[k] +=
+                (q[next] - p[next]) * (r[last] - p[last]) - (q[last] - p[last]) * (r[next] - p[next]);
         }
     }
 }
@@ -697,30 +673,28 @@ static void choose_axes(struct reader *reader)
     }
 }
 
-/* Takes the nodes of triangles into the plane where they lie: x and y are their
- * places there. */
+/* Takes the nodes of triangles into the plane where they lie: x and y are their places there. */
 static void lay_flat(struct reader *reader)
 {
-    const struct node *origin = NULL;
-    double(*axes)[3] = reader->origin.axes, low[3] = {0}, high[3] = {0}, extent = 0;
+    double(*axes)[3] = reader->origin.axes, from[3] = {0}, low[3] = {0}, high[3] = {0}, extent = 0;
+    bool some = false;
     for (size_t i = 0; i < reader->node_count; i++) {
         const struct node *node = &reader->nodes[i];
-        const double at[3] = {node->x, node->y, node->z};
         for (int k = 0; k < 3 && node->vertex >= 0; k++) {
-            low[k] = origin ? fmin(low[k], at[k]) : at[k];
-            high[k] = origin ? fmax(high[k], at[k]) : at[k];
+            from[k] = some ? from[k] : node->at[k];
+            low[k] = some ? fmin(low[k], node->at[k]) : node->at[k];
+            high[k] = some ? fmax(high[k], node->at[k]) : node->at[k];
             extent = fmax(extent, high[k] - low[k]);
         }
-        origin = node->vertex >= 0 && !origin ? node : origin;
+        some |= node->vertex >= 0;
     }
     if (high[2] - low[2] <= 1e-9 * extent) {
         return;
     }
     choose_axes(reader);
-    const struct node from = *origin;
     for (size_t i = 0; i < reader->node_count; i++) {
         struct node *node = &reader->nodes[i];
-        const double at[3] = {node->x - from.x, node->y - from.y, node->z - from.z};
+        const double at[3] = {node->at[0] - from[0], node->at[1] - from[1], node->at[2] - from[2]};
         double place[2] = {0}, off = 0;
         for (int k = 0; k < 3; k++) {
             place[0] += axes[0][k] * at[k];
@@ -732,41 +706,8 @@ static void lay_flat(struct reader *reader)
         if (node->vertex >= 0 && !(off <= 1e-9 * extent)) {
             fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
         }
-        node->x = place[0] + axes[0][0] * from.x + axes[0][1] * from.y + axes[0][2] * from.z;
-        node->y = place[1] + axes[1][0] * from.x + axes[1][1] * from.y + axes[1][2] * from.z;
-    }
-}
-
-/* Numbers the nodes of triangles in the order of their tags; writes points,
- * tags and corners. */
-static void number_nodes(struct reader *reader, double *points, long *tags, int *corners, size_t *vertices)
-{
-    for (size_t i = 0; i < reader->node_count; i++) {
-        reader->nodes[i].vertex = -1;
-    }
-    for (size_t t = 0; t < reader->triangle_count; t++) {
-        const struct element *element = &reader->triangles[t];
-        for (int k = 0; k < 3; k++) {
-            struct node *node = find_node(reader, element->nodes[k]);
-            if (!node) {
-                fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[k]);
-            }
-            node->vertex = 0;
-        }
-    }
-    lay_flat(reader);
-    for (size_t i = 0; i < reader->node_count; i++) {
-        struct node *node = &reader->nodes[i];
-        if (node->vertex >= 0) {
-            points[2 * *vertices] = node->x;
-            points[2 * *vertices + 1] = node->y;
-            tags[*vertices] = node->tag;
-            node->vertex = (int)(*vertices)++;
-        }
-    }
-    for (size_t t = 0; t < reader->triangle_count; t++) {
-        for (size_t k = 0; k < 3; k++) {
-            corners[3 * t + k] = find_node(reader, reader->triangles[t].nodes[k])->vertex;
+        for (int c = 0; c < 2; c++) {
+            node->at[c] = place[c] + axes[c][0] * from[0] + axes[c][1] * from[1] + axes[c][2] * from[2];
         }
     }
 }
@@ -776,37 +717,6 @@ static int compare_curves(const void *a, const void *b)
     const struct curve *p = a, *q = b;
     return p->tag != q->tag ? (p->tag > q->tag) - (p->tag < q->tag)
                             : (p->physical > q->physical) - (p->physical < q->physical);
-}
-
-static void put_into(struct reader *reader, size_t edge, long group)
-{
-    if (!gm_triangulation_add(reader->mesh, edge, (int)group)) {
-        fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-}
-
-/* Puts an edge into all groups of its curve. */
-static void add_groups_of(struct reader *reader, long entity, size_t edge)
-{
-    size_t low = 0, high = reader->curve_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        low = reader->curves[middle].tag < entity ? middle + 1 : low;
-        high = reader->curves[middle].tag < entity ? high : middle;
-    }
-    for (; low < reader->curve_count && reader->curves[low].tag == entity; low++) {
-        put_into(reader, edge, reader->curves[low].physical);
-    }
-}
-
-static int find_edge(const struct gm_complex *complex, int a, int b)
-{
-    for (int k = complex->ring_start[a]; k < complex->ring_start[a + 1]; k++) {
-        if (complex->ring_vertex[k] == b) {
-            return complex->ring_edge[k];
-        }
-    }
-    return -1;
 }
 
 static void add_group(struct reader *reader, long tag)
@@ -823,20 +733,43 @@ static void add_group(struct reader *reader, long tag)
     snprintf(group->name, sizeof group->name, "%ld", tag);
 }
 
-/* Groups of edges that have no name are named by their number. */
+/* Groups of edges that have no name are named by their number: the first of each edge, then others. */
 static void number_groups(struct reader *reader)
 {
     const struct gm_triangulation *mesh = reader->mesh;
-    int last = 0;
-    for (size_t e = 0; e < mesh->complex->edges; last = mesh->edge_group[e++]) {
-        if (mesh->edge_group[e] != 0 && mesh->edge_group[e] != last) {
-            add_group(reader, mesh->edge_group[e]);
+    for (int others = 0; others < 2; others++) {
+        for (size_t e = 0; e < mesh->complex->edges; e++) {
+            for (int k = mesh->member_start[e] + others; k < mesh->member_start[e + 1]; k++) {
+                add_group(reader, mesh->member[k]);
+                if (!others) {
+                    break;
+                }
+            }
         }
     }
-    for (size_t i = 0; i < mesh->more_count; last = mesh->more[i++].tag) {
-        if (mesh->more[i].tag != last) {
-            add_group(reader, mesh->more[i].tag);
-        }
+}
+
+static void put_into(struct reader *reader, int edge, long group)
+{
+    const size_t count = reader->member_count++;
+    if ((count & (count - 1)) == 0) { /* it is full: twice as many */
+        reader->members =
+            gm_arena_resize(reader->arena, reader->members, 2 * count + 1, sizeof *reader->members);
+    }
+    reader->members[count] = (struct gm_triangulation_member){edge, (int)group};
+}
+
+/* Puts an edge into all groups of its curve. */
+static void add_groups_of(struct reader *reader, long entity, int edge)
+{
+    size_t low = 0, high = reader->curve_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        low = reader->curves[middle].tag < entity ? middle + 1 : low;
+        high = reader->curves[middle].tag < entity ? high : middle;
+    }
+    for (; low < reader->curve_count && reader->curves[low].tag == entity; low++) {
+        put_into(reader, edge, reader->curves[low].physical);
     }
 }
 
@@ -848,155 +781,123 @@ static void name_edges(struct reader *reader)
     }
     for (size_t i = 0; i < reader->line_count; i++) {
         const struct element *element = &reader->lines[i];
-        const struct node *a = find_node(reader, element->nodes[0]),
-                          *b = find_node(reader, element->nodes[1]);
-        if (!a || !b) {
-            fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[a ? 1 : 0]);
-        }
-        const int e =
-            a->vertex >= 0 && b->vertex >= 0 ? find_edge(reader->mesh->complex, a->vertex, b->vertex) : -1;
+        const int a = reader->nodes[find_node(reader, element, 0)].vertex,
+                  b = reader->nodes[find_node(reader, element, 1)].vertex,
+                  e = a >= 0 && b >= 0 ? gm_complex_edge(reader->mesh->complex, a, b) : -1;
         if (e >= 0 && reader->old) {
-            put_into(reader, (size_t)e, element->entity);
+            put_into(reader, e, element->entity);
         } else if (e >= 0) {
-            add_groups_of(reader, element->entity, (size_t)e);
+            add_groups_of(reader, element->entity, e);
         }
     }
-    gm_triangulation_sort(reader->mesh);
+    gm_triangulation_join(reader->mesh, reader->members, reader->member_count);
     number_groups(reader);
-}
-
-/* malloc'ed, and the mesh's. */
-static void *take_for_mesh(struct reader *reader, size_t count, size_t size)
-{
-    void *memory = calloc(count, size);
-    if (!memory) {
-        fail(reader, GM_TRIANGULATION_MEMORY, "");
-    }
-    return memory;
-}
-
-static void assemble(struct reader *reader)
-{
-    struct gm_triangulation *mesh = reader->mesh;
-    if (reader->triangle_count == 0) {
-        fail(reader, GM_TRIANGULATION_EMPTY, "");
-    }
-    drop_repeated(reader);
-    double *points = gm_arena_take(reader->arena, 2 * (reader->node_count + 1), sizeof *points);
-    int *corners = gm_arena_take(reader->arena, 3 * reader->triangle_count, sizeof *corners);
-    size_t vertices = 0;
-    mesh->tags = take_for_mesh(reader, reader->node_count + 1, sizeof *mesh->tags);
-    number_nodes(reader, points, mesh->tags, corners, &vertices);
-    mesh->complex = gm_complex_open(&(struct gm_triangles){.points = points,
-                                                           .vertices = vertices,
-                                                           .corners = corners,
-                                                           .count = reader->triangle_count,
-                                                           .star = reader->star,
-                                                           .tags = mesh->tags},
-                                    reader->fault);
-    if (!mesh->complex) {
-        const long triangle = reader->fault->triangle;
-        reader->fault->line =
-            triangle > 0 && !reader->binary ? reader->triangles[triangle - 1].line : reader->fault->line;
-        gm_arena_leave(reader->arena);
-    }
-    mesh->complex->origin = reader->origin;
-    mesh->edge_group = take_for_mesh(reader, mesh->complex->edges, sizeof *mesh->edge_group);
-    name_edges(reader);
-    mesh->group = take_for_mesh(reader, reader->group_count + 1, sizeof *mesh->group);
-    mesh->groups = reader->group_count;
-    if (mesh->groups > 0) {
-        memcpy(mesh->group, reader->groups, mesh->groups * sizeof *mesh->group);
-    }
 }
 
 static void read_mesh(struct gm_arena *arena, void *data)
 {
     struct reader *reader = data;
+    struct gm_triangulation *mesh = reader->mesh;
     reader->arena = arena;
     read_sections(reader);
-    assemble(reader);
+    if (reader->triangle_count == 0) {
+        fail(reader, GM_TRIANGULATION_EMPTY, "");
+    }
+    const size_t triangles = reader->triangle_count;
+    for (size_t i = 0; i < 3 * triangles; i++) {
+        struct element *element = &reader->triangles[i / 3];
+        element->nodes[i % 3] = find_node(reader, element, i % 3);
+        reader->nodes[element->nodes[i % 3]].vertex = 0;
+    }
+    drop_repeated(reader);
+    lay_flat(reader);
+    double *points = gm_arena_take(arena, 2 * reader->node_count, sizeof *points);
+    int *corners = gm_arena_take(arena, 3 * triangles, sizeof *corners);
+    struct gm_triangles from = {
+        .points = points, .corners = corners, .count = reader->triangle_count, .star = reader->star};
+    mesh->tags = gm_arena_take(arena, reader->node_count, sizeof *mesh->tags);
+    for (size_t i = 0; i < reader->node_count; i++) { /* in the order of tags */
+        struct node *node = &reader->nodes[i];
+        if (node->vertex >= 0) {
+            memcpy(points + 2 * from.vertices, node->at, 2 * sizeof *points);
+            mesh->tags[from.vertices] = node->tag;
+            node->vertex = (int)from.vertices++;
+        }
+    }
+    for (size_t i = 0; i < 3 * from.count; i++) {
+        corners[i] = reader->nodes[reader->triangles[i / 3].nodes[i % 3]].vertex;
+    }
+    from.tags = mesh->tags;
+    mesh->complex = gm_complex_open(&from, reader->fault);
+    if (!mesh->complex) {
+        const long triangle = reader->fault->triangle;
+        reader->fault->line =
+            triangle > 0 && !reader->binary ? reader->triangles[triangle - 1].line : reader->fault->line;
+        gm_arena_leave(arena);
+    }
+    reader->fault->kind = GM_TRIANGULATION_MEMORY; /* unless it is another one */
+    mesh->complex->origin = reader->origin;
+    name_edges(reader);
+    mesh->group = reader->groups;
+    mesh->groups = reader->group_count;
     reader->fault->kind = GM_TRIANGULATION_OK;
 }
 
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault)
 {
-    struct gm_arena *arena = gm_arena_open();
     struct reader reader = {
         .at = text, .end = text + size, .line = 1, .fault = fault, .section = "", .star = star, .mesh = mesh};
-    *mesh = (struct gm_triangulation){0};
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY}; /* unless it is another one */
-    const bool good = gm_arena_run(arena, read_mesh, &reader);
+    *mesh = (struct gm_triangulation){.arena = gm_arena_open()};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    const bool good = gm_arena_run(mesh->arena, read_mesh, &reader);
     if (!good) {
         gm_triangulation_close(mesh);
     }
-    gm_arena_close(arena);
     return good;
 }
 
 void gm_triangulation_close(struct gm_triangulation *mesh)
 {
     gm_complex_close(mesh->complex);
-    free(mesh->tags);
-    free(mesh->edge_group);
-    free(mesh->more);
-    free(mesh->group);
+    gm_arena_close(mesh->arena);
     *mesh = (struct gm_triangulation){0};
 }
 
-/* The index of the first further tag of an edge. */
-static size_t first_of(const struct gm_triangulation *mesh, size_t edge)
+int gm_triangulation_first(const struct gm_triangulation *mesh, size_t edge)
 {
-    size_t low = 0, high = mesh->more_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const bool before = mesh->more[middle].edge < (int)edge;
-        low = before ? middle + 1 : low;
-        high = before ? high : middle;
-    }
-    return low;
+    const int *start = mesh->member_start + edge;
+    return start[0] < start[1] ? mesh->member[start[0]] : 0;
 }
 
 bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag)
 {
-    bool has = mesh->edge_group[edge] == tag;
-    for (size_t i = first_of(mesh, edge); i < mesh->more_count && mesh->more[i].edge == (int)edge; i++) {
-        has |= mesh->more[i].tag == tag;
+    bool has = false;
+    for (int k = mesh->member_start[edge]; k < mesh->member_start[edge + 1]; k++) {
+        has |= mesh->member[k] == tag;
     }
     return has;
 }
 
-static int compare_members(const void *a, const void *b)
+void gm_triangulation_join(struct gm_triangulation *mesh, const struct gm_triangulation_member *members,
+                           size_t count)
 {
-    const struct gm_triangulation_member *p = a, *q = b;
-    return p->edge != q->edge ? (p->edge > q->edge) - (p->edge < q->edge)
-                              : (p->tag > q->tag) - (p->tag < q->tag);
-}
-
-bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag)
-{
-    const size_t count = mesh->more_count;
-    if (tag == 0 || mesh->edge_group[edge] == 0 || mesh->edge_group[edge] == tag) {
-        mesh->edge_group[edge] = tag != 0 ? tag : mesh->edge_group[edge];
-        return true;
+    const size_t edges = mesh->complex->edges;
+    int *start = mesh->member_start = gm_arena_take(mesh->arena, edges + 1, sizeof *start);
+    mesh->member = gm_arena_take(mesh->arena, count + 1, sizeof *mesh->member);
+    for (size_t i = 0; i < count; i++) {
+        start[members[i].edge + 1] += members[i].tag != 0;
     }
-    if ((count & (count - 1)) == 0) { /* it is full: twice as many */
-        struct gm_triangulation_member *more = realloc(mesh->more, (2 * count + 1) * sizeof *more);
-        if (!more) {
-            return false;
+    for (size_t e = 0; e < edges; e++) {
+        start[e + 1] += start[e];
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (members[i].tag != 0) {
+            mesh->member[start[members[i].edge]++] = members[i].tag;
         }
-        mesh->more = more;
     }
-    mesh->more[mesh->more_count++] = (struct gm_triangulation_member){(int)edge, tag};
-    return true;
-}
-
-void gm_triangulation_sort(struct gm_triangulation *mesh)
-{
-    if (mesh->more_count > 0) {
-        qsort(mesh->more, mesh->more_count, sizeof *mesh->more, compare_members);
-    }
+    memmove(start + 1, start, edges * sizeof *start);
+    start[0] = 0;
 }
 
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name)
@@ -1008,7 +909,7 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
     }
     char *rest = NULL;
     const long tag = strtol(name, &rest, 10);
-    for (size_t e = 0; rest != name && *rest == '\0' && mesh->edge_group && e < mesh->complex->edges; e++) {
+    for (size_t e = 0; rest != name && *rest == '\0' && mesh->member_start && e < mesh->complex->edges; e++) {
         if (tag != 0 && gm_triangulation_has(mesh, e, tag)) {
             return tag;
         }

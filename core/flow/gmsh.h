@@ -2,22 +2,23 @@
 #ifndef GM_CORE_FLOW_GMSH_H
 #define GM_CORE_FLOW_GMSH_H
 
+#include "core/arena.h"
 #include "core/form/complex.h"
 
 /* A mesh with names on its boundary. */
 struct gm_triangulation {
+    struct gm_arena *arena; /* holds all but the complex */
     struct gm_complex *complex;
-    long *tags;      /* tags of the vertices, increasing */
-    int *edge_group; /* a physical tag for every edge of the complex; 0: none */
-    struct gm_triangulation_member {
-        int edge, tag;
-    } * more; /* further tags of edges that are in several groups, by edge */
-    size_t more_count;
-    size_t groups; /* physical groups of curves */
+    long *tags;                 /* tags of the vertices, increasing */
+    int *member_start, *member; /* the groups of an edge e: member_start[e] .. member_start[e + 1] - 1 */
+    size_t groups;              /* physical groups of curves */
     struct gm_triangulation_group {
         long tag;
         char name[64]; /* "" if it is unnamed */
     } * group;
+};
+struct gm_triangulation_member {
+    int edge, tag; /* 0: none */
 };
 
 /* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of one plane, and
@@ -36,12 +37,14 @@ void gm_triangulation_close(struct gm_triangulation *mesh);
 /* The physical tag of a group of lines, by its name or its tag; 0 if it is missing. */
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);
 
+/* The first group that an edge was put into; 0: none. */
+int gm_triangulation_first(const struct gm_triangulation *mesh, size_t edge);
 /* Returns true if an edge is in the group of a tag, which is not 0. */
 bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag);
 
-/* Puts an edge into a group, which must be sorted afterwards. Returns false when out of memory. */
-bool gm_triangulation_add(struct gm_triangulation *mesh, size_t edge, int tag);
-void gm_triangulation_sort(struct gm_triangulation *mesh);
+/* Puts edges into groups, while the mesh is made in a body of its arena. */
+void gm_triangulation_join(struct gm_triangulation *mesh, const struct gm_triangulation_member *members,
+                           size_t count);
 
 /* The names of the groups, "door, window", as many as fit; "none". Returns names. */
 const char *gm_triangulation_group_names(const struct gm_triangulation *mesh, char *names, size_t size);

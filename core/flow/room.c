@@ -8,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -250,11 +251,6 @@ bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm
            (range->least < range->most || gm_fail(fault, span.begin, "a range's lower end comes first"));
 }
 
-static bool is_word(const struct gm_room *room, struct gm_span span, const char *word)
-{
-    return gm_span_is(room->text, span, word);
-}
-
 static const struct gm_read_line *find_line(const struct gm_room *room, const char *word, size_t number)
 {
     for (size_t i = 0; i < room->said_count; i++) {
@@ -287,7 +283,7 @@ bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const cha
                     struct gm_span *value)
 {
     while (gm_span_take(room->text, &pieces, ";", value)) {
-        if (is_word(room, take_word(room, value), word)) {
+        if (gm_span_is(room->text, take_word(room, value), word)) {
             return true;
         }
     }
@@ -448,13 +444,13 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest)
                    {"strips", &strips, {0, 100000}, room->strips},
                    {"multiple", &multiple, {1, 100000}, (char[GM_ROOM_NAME]){0}}};
     gm_span_take(room->text, &rest, ";", &value);
-    rectangle->torus = is_word(room, value, "flat-torus");
-    room->rectangular = rectangle->torus || is_word(room, value, "rectangle");
+    rectangle->torus = gm_span_is(room->text, value, "flat-torus");
+    room->rectangular = rectangle->torus || gm_span_is(room->text, value, "rectangle");
     rectangle->fixed = room->fixed;
     while (room->rectangular && gm_span_take(room->text, &rest, ";", &value)) {
         const struct gm_span word = take_word(room, &value);
         size_t i = 0;
-        while (i < GM_COUNT(options) && !is_word(room, word, options[i].word)) {
+        while (i < GM_COUNT(options) && !gm_span_is(room->text, word, options[i].word)) {
             i++;
         }
         if (i < GM_COUNT(options)) {
@@ -470,9 +466,10 @@ static bool read_rectangle(struct gm_room *room, struct gm_span rest)
                 snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
                          room->text + value.begin);
             }
-        } else if (is_word(room, word, "along") && is_word(room, value, "y")) {
+        } else if (gm_span_is(room->text, word, "along") && gm_span_is(room->text, value, "y")) {
             rectangle->transposed = true;
-        } else if (is_word(room, word, "keep") && rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
+        } else if (gm_span_is(room->text, word, "keep") &&
+                   rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
             double *at = room->fixed + 2 * rectangle->fixed_count++;
             for (int c = 0; c < 2; c++) {
                 gm_span_take(room->text, &value, ",", &piece);
@@ -768,7 +765,7 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
         }
     }
     gm_room_need(room, !room->graph.failed);
-    if (gm_room_said(room, "geomint", 0, &value) && !is_word(room, value, "1")) {
+    if (gm_room_said(room, "geomint", 0, &value) && !gm_span_is(room->text, value, "1")) {
         gm_room_refuse(room, value.begin, "this program reads files of format 1, not %.*s",
                        (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
                        room->text + value.begin);
@@ -873,104 +870,82 @@ static bool locate(const struct gm_complex *complex, const double at[2], size_t 
     return false;
 }
 
+/* A quantity at a vertex, which has to be finite. */
+static double value_at_vertex(const struct gm_room *room, const struct gm_room_line *line,
+                              enum gm_room_key key, const double *point)
+{
+    const double at[VARIABLES] = {0, point[0], point[1], 0}, value = gm_room_value(room, line, key, at, 0);
+    if (!isfinite(value)) {
+        gm_room_refuse(room, line->value[key].place, "the %s is not finite at (%.4g, %.4g)", keys[key],
+                       point[0], point[1]);
+    }
+    return value;
+}
+
 /* A carried quantity at the start, at vertices that do not hold it. */
-static bool start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                          const struct gm_complex *complex, const bool *fixed, double *value,
-                          struct gm_fault *fault)
+static void start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                          const struct gm_complex *complex, const bool *fixed, double *value)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
-        const double *p = complex->point + 2 * v, at[VARIABLES] = {0, p[0], p[1], 0},
-                     here = gm_room_value(room, line, key, at, 0);
+        const double here = value_at_vertex(room, line, key, complex->point + 2 * v);
         value[v] = fixed[v] ? value[v] : here;
-        if (!isfinite(here)) {
-            return gm_fail(fault, line->value[key].place, "the %s is not finite at (%.4g, %.4g)", keys[key],
-                           p[0], p[1]);
-        }
     }
-    return true;
 }
 
-/* A place where tracers come in; false: out of memory. */
-static bool add_smoking(struct gm_flow *flow, struct gm_flow_place place)
-{
-    struct gm_flow_place *more = realloc(flow->smoking, (flow->smoking_count + 1) * sizeof *more);
-    if (more) {
-        flow->smoking = more;
-        more[flow->smoking_count++] = place;
-    }
-    return more != NULL;
-}
-
-/* A source without a place: its rate is that of a unit of area, everywhere. */
-static bool spread_source(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow,
-                          struct gm_fault *fault)
+/* A source or a probe, which must lie in the room. */
+static void place_thing(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    for (size_t v = 0; v < complex->vertices; v++) {
-        const double place[VARIABLES] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
-                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
-        if (!isfinite(rate)) {
-            return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite at (%.4g, %.4g)",
-                           place[X], place[Y]);
-        }
-        flow->source[v] += complex->star0[v] * rate;
+    double at[2], w[3];
+    size_t triangle = 0;
+    gm_room_point(room, line, at);
+    const double place[VARIABLES] = {0, at[0], at[1], 0},
+                 rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
+    if (!locate(complex, at, &triangle, w)) {
+        gm_room_refuse(room, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0],
+                       at[1]);
     }
-    return true;
+    if (!isfinite(rate)) {
+        gm_room_refuse(room, line->value[GM_ROOM_RATE].place, "the rate is not finite");
+    }
+    if (line->word == GM_ROOM_SOURCE) {
+        flow->smoking[flow->smoking_count++] = (struct gm_flow_place){{at[0], at[1]}, (int)triangle};
+    }
+    for (int k = 0; k < 3; k++) {
+        flow->source[complex->triangle[3 * triangle + (size_t)k]] += w[k] * rate;
+    }
 }
 
-/* Sources, probes that must lie in the room, and what is carried at the start. */
-static bool place_things(const struct gm_room *room, struct gm_flow *flow, struct gm_fault *fault)
+/* Sources, probes, and what is carried at the start. */
+static void place_things(const struct gm_room *room, struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
-        if (line->word < GM_ROOM_SOURCE || line->word == GM_ROOM_EXACT) {
-            continue;
-        }
         if (line->word == GM_ROOM_START) {
-            if (!start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta, fault) ||
-                !start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
-                               flow->temperature, fault)) {
-                return false;
-            }
-            continue;
+            start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta);
+            start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
+                          flow->temperature);
+        } else if (line->word == GM_ROOM_PROBE ||
+                   (line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place > 0)) {
+            place_thing(room, line, flow);
         }
-        if (line->value[GM_ROOM_X].place == 0) {
-            if (!spread_source(room, line, flow, fault)) {
-                return false;
-            }
-            continue;
-        }
-        double at[2], w[3];
-        gm_room_point(room, line, at);
-        const double place[VARIABLES] = {0, at[0], at[1], 0},
-                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
-        size_t triangle = 0;
-        if (!locate(complex, at, &triangle, w)) {
-            return gm_fail(fault, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0],
-                           at[1]);
-        }
-        if (!isfinite(rate)) {
-            return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite");
-        }
-        if (line->word == GM_ROOM_SOURCE &&
-            !add_smoking(flow, (struct gm_flow_place){{at[0], at[1]}, (int)triangle})) {
-            return false;
-        }
-        for (int k = 0; k < 3; k++) {
-            flow->source[complex->triangle[3 * triangle + (size_t)k]] += w[k] * rate;
+        /* a source without a place: its rate is that of a unit of area, everywhere */
+        for (size_t v = 0;
+             line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place == 0 && v < complex->vertices;
+             v++) {
+            flow->source[v] +=
+                complex->star0[v] * value_at_vertex(room, line, GM_ROOM_RATE, complex->point + 2 * v);
         }
     }
-    return true;
 }
 
-/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place; false with a fault. */
-static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES], bool *holds,
-                     struct gm_fault *fault)
+/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place. */
+static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES])
 {
     const double size = fmax(room->rectangle.width, room->rectangle.height);
     struct gm_span condition;
-    *holds = true;
+    bool holds = true;
     while (gm_span_take(room->text, &rest, ",", &condition)) {
         size_t sign = condition.begin;
         while (sign + 1 < condition.end && !strchr("=<>", room->text[sign])) {
@@ -979,19 +954,17 @@ static bool holds_at(const struct gm_room *room, struct gm_span rest, const doub
         const struct gm_span sides[2] = {{condition.begin, sign}, {sign + 1, condition.end}};
         double value[2];
         if (!strchr("=<>", room->text[sign])) {
-            return gm_fail(fault, condition.begin, "a condition was expected, x = 0");
+            gm_room_refuse(room, condition.begin, "a condition was expected, x = 0");
         }
         for (int k = 0; k < 2; k++) {
-            if (!read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], fault)) {
-                return false;
-            }
+            gm_room_need(room, read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], room->fault));
         }
         const double above = value[0] - value[1];
-        *holds &= room->text[sign] == '<'   ? above < 0
-                  : room->text[sign] == '>' ? above > 0
-                                            : fabs(above) <= 1e-9 * size;
+        holds &= room->text[sign] == '<'   ? above < 0
+                 : room->text[sign] == '>' ? above > 0
+                                           : fabs(above) <= 1e-9 * size;
     }
-    return true;
+    return holds;
 }
 
 /* Returns true if a name means the edges that no line before names: unless a mesh that the room itself
@@ -1006,7 +979,7 @@ static bool find_side(const struct gm_room *room, const char *side, struct gm_sp
 {
     struct gm_span name;
     for (size_t i = 0; gm_room_said(room, "side", i, conditions); i++) {
-        if (gm_span_take(room->text, conditions, ";", &name) && is_word(room, name, side)) {
+        if (gm_span_take(room->text, conditions, ";", &name) && gm_span_is(room->text, name, side)) {
             return true;
         }
     }
@@ -1020,22 +993,20 @@ static const char *groups_of(const struct gm_room *room, const struct gm_room_li
     return other ? other->text : line->name;
 }
 
-/* A boundary edge becomes one of line number `i`, from 0; false with a fault if it belongs to another
-   line. */
-static bool take_edge(const struct gm_room *room, unsigned char *side, size_t i, struct gm_fault *fault)
+/* A boundary edge becomes one of line number `i`, from 0, unless it belongs to another line. */
+static void take_edge(const struct gm_room *room, unsigned char *side, size_t i)
 {
     const struct gm_room_line *line = &room->lines[i];
     if (*side != 0 && *side != i + 1) {
-        return gm_fail(fault, line->place, "curves of the group %.63s have a line already: %.63s",
+        gm_room_refuse(room, line->place, "curves of the group %.63s have a line already: %.63s",
                        groups_of(room, line), groups_of(room, &room->lines[*side - 1]));
     }
     *side = (unsigned char)(i + 1);
-    return true;
 }
 
 /* The edges of a line's groups, of which each is on the boundary, and listed once. */
-static bool name_groups(const struct gm_room *room, const struct gm_triangulation *mesh, size_t i,
-                        unsigned char *side_of, struct gm_fault *fault)
+static void name_groups(const struct gm_room *room, const struct gm_triangulation *mesh, size_t i,
+                        unsigned char *side_of)
 {
     const struct gm_room_line *line = &room->lines[i];
     const char *list = groups_of(room, line);
@@ -1047,13 +1018,11 @@ static bool name_groups(const struct gm_room *room, const struct gm_triangulatio
         for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
             if (gm_triangulation_has(mesh, (size_t)mesh->complex->boundary_edge[b], tag)) {
                 met = true;
-                if (!take_edge(room, &side_of[b], i, fault)) {
-                    return false;
-                }
+                take_edge(room, &side_of[b], i);
             }
         }
         if (!met) {
-            return gm_fail(fault, line->place,
+            gm_room_refuse(room, line->place,
                            tag != 0
                                ? "no edge of the mesh's boundary belongs to \"%.60s\""
                                : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
@@ -1061,18 +1030,18 @@ static bool name_groups(const struct gm_room *room, const struct gm_triangulatio
         }
         for (const char *before = list; before < at; before += strcspn(before, ",") + 1) {
             if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
-                return gm_fail(fault, line->place, "the group \"%.60s\" is named twice", name);
+                gm_room_refuse(room, line->place, "the group \"%.60s\" is named twice", name);
             }
         }
     }
-    return true;
 }
 
 /* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
-static bool name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
-                       unsigned char *side_of, struct gm_fault *fault)
+static void name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
+                       unsigned char *side_of)
 {
-    for (size_t i = 0; i < room->count && mesh->complex->boundary > 0; i++) {
+    const struct gm_complex *complex = mesh->complex;
+    for (size_t i = 0; i < room->count && complex->boundary > 0; i++) {
         const struct gm_room_line *line = &room->lines[i];
         const bool all = is_rest(room, mesh, line->name);
         struct gm_span conditions;
@@ -1080,31 +1049,25 @@ static bool name_sides(const struct gm_room *room, const struct gm_triangulation
             continue;
         }
         if (!all && (!room->rectangular || room->from_file)) {
-            if (!name_groups(room, mesh, i, side_of, fault)) {
-                return false;
-            }
+            name_groups(room, mesh, i, side_of);
             continue;
         }
         const bool conditional = !all && find_side(room, line->name, &conditions);
-        bool met = false;
-        for (size_t b = 0; b < mesh->complex->boundary && (all || conditional); b++) {
+        bool met = all;
+        for (size_t b = 0; b < complex->boundary && (all || conditional); b++) {
             double middle[VARIABLES] = {0};
-            gm_complex_middle(mesh->complex, (size_t)mesh->complex->boundary_edge[b], middle + X);
-            bool is_on = side_of[b] == 0;
-            if (!all && (!holds_at(room, conditions, middle, &is_on, fault) ||
-                         (is_on && !take_edge(room, &side_of[b], i, fault)))) {
-                return false;
+            gm_complex_middle(complex, (size_t)complex->boundary_edge[b], middle + X);
+            if (all ? side_of[b] == 0 : holds_at(room, conditions, middle)) {
+                take_edge(room, &side_of[b], i);
+                met = true;
             }
-            side_of[b] = all && is_on ? (unsigned char)(i + 1) : side_of[b];
-            met = met || all || is_on;
         }
         if (!met) {
-            return gm_fail(fault, line->place,
+            gm_room_refuse(room, line->place,
                            "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
                            line->name, line->name);
         }
     }
-    return true;
 }
 
 /* The speed of a free fall over the room's size with the largest difference of temperature that there is:
@@ -1115,37 +1078,60 @@ static double fall(const struct gm_flow *flow)
     return sqrt(fabs(flow->buoyancy) * (range[1] - range[0]) * sqrt(flow->complex->total_area));
 }
 
-/* Makes a side from the room's lines at a time; false with a fault. */
-static bool make_side(struct profile *profile, struct gm_side *side, struct gm_fault *fault)
+/* A side from the room's lines at a time. */
+static struct gm_side side_from(const struct profile *profile)
 {
     const struct gm_room_line *line = profile->line;
+    if (!line || line->word > GM_ROOM_BOUNDARY) {
+        return (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
+    }
     const double at[VARIABLES] = {[TIME] = profile->t};
     const bool inlet = line->word == GM_ROOM_INLET;
     const double slip = gm_room_value(profile->room, line, GM_ROOM_SLIP, at, 0);
     if (slip != 0 && slip != 1) {
-        return gm_fail(fault, line->value[GM_ROOM_SLIP].place,
+        gm_room_refuse(profile->room, line->value[GM_ROOM_SLIP].place,
                        "slip is 1, or 0 where the wall holds the air");
     }
-    side->kind = inlet                                        ? GM_EDGE_INLET
-                 : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
-                 : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
-                 : slip == 1                                  ? GM_EDGE_SLIP
-                                                              : GM_EDGE_WALL;
-    side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN);
-    side->speed = gm_room_value(profile->room, line, GM_ROOM_CENTRE, at, 0);
-    side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
-    side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
-    side->heats = line->value[GM_ROOM_HEAT].place != 0;
-    side->profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL;
-    side->varying = varying_at;
-    side->data = profile;
-    return line->value[GM_ROOM_FLOW].place == 0 || (side->flow >= 0 && isfinite(side->flow)) ||
-           gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
+    const struct gm_side side = {.kind = inlet                                        ? GM_EDGE_INLET
+                                         : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
+                                         : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
+                                         : slip == 1                                  ? GM_EDGE_SLIP
+                                                                                      : GM_EDGE_WALL,
+                                 .flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN),
+                                 .speed = gm_room_value(profile->room, line, GM_ROOM_CENTRE, at, 0),
+                                 .theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0,
+                                 .temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0,
+                                 .heats = line->value[GM_ROOM_HEAT].place != 0,
+                                 .profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL,
+                                 .varying = varying_at,
+                                 .data = profile};
+    if (line->value[GM_ROOM_FLOW].place != 0 && !(side.flow >= 0 && isfinite(side.flow))) {
+        gm_room_refuse(profile->room, line->value[GM_ROOM_FLOW].place,
+                       "a flow is a number that is not negative");
+    }
+    return side;
 }
 
-/* At the last of the outlets, whose flow is one too many. */
-static void tell_balance(const struct gm_room *room, const struct gm_flow *flow, struct gm_fault *fault)
+/* Refuses a boundary: flows that do not balance at the last of the outlets, whose flow is one too many. */
+_Noreturn static void refuse_boundary(const struct gm_room *room, const struct gm_flow *flow,
+                                      enum gm_boundary_fault fault)
 {
+    static const char *const sentences[] = {
+        [GM_BOUNDARY_NO_INLET] = "the mesh has an outlet but no inlet",
+        [GM_BOUNDARY_NO_OUTLET] = "the mesh has an inlet but no outlet",
+        [GM_BOUNDARY_SHORT] =
+            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)",
+        [GM_BOUNDARY_WHOLE] = "the whole boundary is inlet or outlet",
+        [GM_BOUNDARY_IN_HOLE] =
+            "an inlet or an outlet is on the wall of a hole; they must be in the outer wall",
+        [GM_BOUNDARY_PROFILE] = "no more enters by the profile of an inlet than leaves by it",
+        [GM_BOUNDARY_BACKWARDS] = "the outlets with a given flow take more than enters",
+        [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
+    };
+    if (fault != GM_BOUNDARY_UNBALANCED) {
+        gm_room_refuse(room, flow->faulty > 0 ? room->lines[flow->faulty - 1].place : GM_ROOM_NOWHERE, "%s",
+                       sentences[fault]);
+    }
     double in = 0, out = 0;
     size_t place = 0;
     for (size_t i = 0; i < room->count; i++) {
@@ -1154,7 +1140,8 @@ static void tell_balance(const struct gm_room *room, const struct gm_flow *flow,
     for (size_t i = 0; i < flow->openings; i++) {
         *(flow->opening[i].inlet ? &in : &out) += flow->opening[i].flow;
     }
-    gm_fail(fault, place, "all flows are given, and what enters does not leave: %.6g in, %.6g out", in, out);
+    gm_room_refuse(room, place, "all flows are given, and what enters does not leave: %.6g in, %.6g out", in,
+                   out);
 }
 
 /* A side that gives the stream function and the speed along it: both cells at an edge turn with that. */
@@ -1184,56 +1171,69 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
 }
 
 /* Sets the flow's boundary from the room's lines at the time t. */
-static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
-                      struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
+static void set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
+                      struct gm_flow *flow)
 {
     struct bad bad = {0};
-    struct gm_side *sides = calloc(room->count + 1, sizeof *sides);
-    struct profile *profiles = calloc(room->count + 1, sizeof *profiles);
-    bool good = sides && profiles;
-    for (size_t i = 0; good && i <= room->count; i++) {
-        const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
-        sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
-        profiles[i] = (struct profile){room, line, &bad, t, flow->reference_temperature};
-        good = !line || line->word > GM_ROOM_BOUNDARY || make_side(&profiles[i], &sides[i], fault);
+    struct gm_side sides[GM_ROOM_SIDES];
+    struct profile profiles[GM_ROOM_SIDES];
+    for (size_t i = 0; i <= room->count; i++) {
+        profiles[i] =
+            (struct profile){room, i > 0 ? &room->lines[i - 1] : NULL, &bad, t, flow->reference_temperature};
+        sides[i] = side_from(&profiles[i]);
     }
-    if (good) {
-        *boundary = gm_flow_set_sides(flow, side_of, sides, room->outlet);
-        give_motion(profiles, side_of, flow);
-        good = *boundary == GM_BOUNDARY_OK;
-        fault->offset = !good && flow->faulty > 0 ? room->lines[flow->faulty - 1].place : 0;
-        if (*boundary == GM_BOUNDARY_UNBALANCED) {
-            tell_balance(room, flow, fault);
-        }
-        if (bad.line) {
-            good = gm_fail(fault, bad.line->value[bad.key].place,
-                           bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"
-                                                         : "the %s is not finite at (%.4g, %.4g)",
-                           keys[bad.key], bad.at[0], bad.at[1]);
-        }
+    const enum gm_boundary_fault fault = gm_flow_set_sides(flow, side_of, sides, room->outlet);
+    give_motion(profiles, side_of, flow);
+    if (bad.line) {
+        gm_room_refuse(room, bad.line->value[bad.key].place,
+                       bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"
+                                                     : "the %s is not finite at (%.4g, %.4g)",
+                       keys[bad.key], bad.at[0], bad.at[1]);
     }
-    free(sides);
-    free(profiles);
+    if (fault != GM_BOUNDARY_OK) {
+        refuse_boundary(room, flow, fault);
+    }
+}
+
+/* A boundary at a time. */
+struct moment {
+    const struct gm_flow *flow;
+    double t;
+    struct gm_flow *now;
+};
+
+static void set_moment(struct gm_arena *arena, void *data)
+{
+    (void)arena;
+    const struct moment *moment = data;
+    set_sides(moment->flow->given_by, moment->flow->side_of, moment->t, moment->now);
+}
+
+/* Sets the boundary of a moment; false with a fault. */
+static bool give_with(struct moment moment, struct gm_fault *fault)
+{
+    struct gm_room *room = (struct gm_room *)(uintptr_t)moment.flow->given_by;
+    struct gm_fault *const before = room->fault;
+    room->fault = fault;
+    const bool good = gm_arena_run(room->arena, set_moment, &moment);
+    room->fault = before;
     return good;
 }
 
 static bool give(const struct gm_flow *flow, double t, struct gm_flow *now)
 {
-    struct gm_fault fault = {0};
-    enum gm_boundary_fault boundary = GM_BOUNDARY_OK;
-    return set_sides(flow->given_by, flow->side_of, t, now, &fault, &boundary);
+    struct gm_fault fault;
+    return give_with((struct moment){flow, t, now}, &fault);
 }
 
-void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
-                   enum gm_boundary_fault *boundary)
+void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault)
 {
     *fault = (struct gm_fault){0};
-    *boundary = GM_BOUNDARY_OK;
     struct gm_flow *now = room->timed ? gm_flow_open_now(flow) : NULL;
     if (now) {
-        set_sides(room, flow->side_of, t, now, fault, boundary);
+        give_with((struct moment){flow, t, now}, fault);
     }
-    gm_flow_close_now(now);
+    gm_flow_close(now);
 }
 
 /* Extends a flow's ranges by the values of one moment. */
@@ -1254,59 +1254,63 @@ static void widen(struct gm_flow *flow, const struct gm_flow *now)
     flow->temperature_range[1] = fmax(flow->temperature_range[1], high + (most > 0 ? heated : 0));
 }
 
+static void close_flow(void *flow)
+{
+    gm_flow_close(flow);
+}
+
 /* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end,
    sampled at some moments. */
-static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
+static void look_ahead(const struct gm_room *room, struct gm_flow *flow)
 {
     enum { MOMENTS = 64 };
     const double until = isnan(room->until) ? 10 : room->until;
-    struct gm_flow *now = gm_flow_open_now(flow);
-    bool good = now != NULL;
+    struct gm_flow *now = gm_arena_keep(room->arena, gm_flow_open_now(flow), close_flow);
     flow->give = give;
-    for (int k = 1; good && k <= MOMENTS; k++) {
+    for (int k = 1; k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run reports it at that time */
             flow->speed = fmax(flow->speed, now->speed);
             widen(flow, now);
         }
     }
-    gm_flow_close_now(now);
-    return good;
+    gm_arena_drop(room->arena, now);
 }
 
-struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault,
-                             enum gm_boundary_fault *boundary)
+/* A flow while it is made on its mesh. */
+struct making {
+    struct gm_room *room;
+    struct gm_triangulation *mesh;
+    struct gm_flow *flow;
+};
+
+static void make_flow(struct gm_arena *arena, void *data)
 {
-    *fault = (struct gm_fault){0};
-    *boundary = GM_BOUNDARY_OK;
-    struct gm_flow *flow = gm_flow_open(mesh->complex);
-    if (!flow) {
-        mesh->complex = NULL;
-        return NULL;
-    }
+    struct making *making = data;
+    struct gm_room *room = making->room;
+    struct gm_flow *flow = making->flow =
+        gm_arena_keep(arena, gm_flow_open(making->mesh->complex), close_flow);
     const struct gm_complex *complex = flow->complex;
     flow->given_by = room;
-    flow->side_of = calloc(complex->boundary + 1, 1);
-    flow->source = calloc(complex->vertices, sizeof *flow->source);
-    bool good = flow->side_of && flow->source;
-    good = good &&
-           (isnan(room->buoyancy) || gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature));
-    good = good && (room->count < GM_ROOM_SIDES ||
-                    gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
-    good = good && name_sides(room, mesh, flow->side_of, fault) &&
-           set_sides(room, flow->side_of, 0, flow, fault, boundary) && place_things(room, flow, fault);
+    flow->side_of = gm_arena_take(arena, complex->boundary + 1, 1);
+    flow->source = gm_arena_take(arena, complex->vertices, sizeof *flow->source);
+    flow->smoking = gm_arena_take(arena, room->count + 1, sizeof *flow->smoking);
+    if (!isnan(room->buoyancy)) {
+        gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature);
+    }
+    if (room->count >= GM_ROOM_SIDES) {
+        gm_room_refuse(room, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1);
+    }
+    name_sides(room, making->mesh, flow->side_of);
+    set_sides(room, flow->side_of, 0, flow);
+    place_things(room, flow);
     const struct gm_room_parameter *reynolds = gm_room_parameter(room, "reynolds");
     const double scale = reynolds && flow->inlet_length > 0 ? flow->inlet_length : 1;
     flow->viscosity = room->viscosity * scale;
     flow->diffusivity = room->diffusivity * scale;
     flow->temperature_range[0] = flow->temperature_range[1] = flow->reference_temperature;
-    if (good) {
-        widen(flow, flow);
-        good = !room->timed || look_ahead(room, flow);
-    }
-    mesh->complex = NULL;
-    if (!good) {
-        gm_flow_close(flow);
-        return NULL;
+    widen(flow, flow);
+    if (room->timed) {
+        look_ahead(room, flow);
     }
     room->measures[GM_ROOM_PERIMETER] = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
@@ -1322,7 +1326,16 @@ struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh
         flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     }
     flow->scalar = !room->scalar || strcmp(room->scalar, "none") != 0;
-    return flow;
+}
+
+struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault)
+{
+    struct making making = {.room = room, .mesh = mesh};
+    *fault = (struct gm_fault){0};
+    room->fault = fault;
+    const bool good = gm_arena_run(room->arena, make_flow, &making);
+    mesh->complex = NULL;
+    return good ? making.flow : NULL;
 }
 
 const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,
@@ -1335,7 +1348,8 @@ const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_co
         if (met != hole) {
             continue;
         }
-        const int group = mesh->edge_group[complex->boundary_edge[complex->loop_start[loop]]];
+        const int group =
+            gm_triangulation_first(mesh, (size_t)complex->boundary_edge[complex->loop_start[loop]]);
         for (size_t i = 0; i < mesh->groups; i++) {
             if (group != 0 && mesh->group[i].tag == group && mesh->group[i].name[0]) {
                 snprintf(name, size, "%s", mesh->group[i].name);

@@ -6,7 +6,9 @@
 #include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
+
+#include <stdint.h>
 
 /* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/expression/lines.h), where
    formulas may hold parameters, x, y, of an inlet s, which runs from 0 to 1 along its pieces
@@ -78,7 +80,7 @@ enum gm_room_measure {
 
 struct gm_room {
     struct gm_arena *arena; /* all that is read */
-    struct gm_fault *fault; /* of the text, while it is read */
+    struct gm_fault *fault; /* of the text, while it is read or a flow is made */
     char *text;             /* text of the file */
     size_t length;
     struct gm_read_line *said; /* its lines that hold */
@@ -158,15 +160,14 @@ double gm_room_value(const struct gm_room *room, const struct gm_room_line *line
 /* The position of a source or a probe. */
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2]);
 
-/* The flow of the room on its mesh, which it takes; the room must outlive it. Returns NULL with a fault;
-   `boundary` names a fault of the flows. */
-struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault,
-                             enum gm_boundary_fault *boundary);
+/* The flow of the room on its mesh, which it takes; it is closed with the room. Returns NULL with a fault,
+   which may have no place in the text. */
+struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault);
+#define GM_ROOM_NOWHERE SIZE_MAX
 
 /* Writes the reason why the boundary is not valid at a time (struct gm_flow, give); the fault's sentence
-   is empty if it is valid, or if `boundary` has the reason. */
-void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
-                   enum gm_boundary_fault *boundary);
+   is empty if it is valid. */
+void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault);
 
 /* The name of a hole, from 1: the name of its wall's group, or "hole1". */
 const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,

@@ -9,10 +9,10 @@
        z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - C_IJ w_J - B_IO w_O)
    That is the better, the thinner the layer is that walls make in a step. */
 #include "core/flow/solver.h"
-#include "core/basics.h"
+#include "core/form/matrix.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdint.h>
 #include <string.h>
 
 /* Returns true if omega of a vertex has an equation of its own. */
@@ -24,65 +24,54 @@ static bool has_row(const struct gm_flow_solver *solver, size_t v)
            (i >= 0 && unknowns->start[i + 1] - unknowns->start[i] == 1);
 }
 
-static bool list_unknowns(struct gm_flow_solver *solver)
+static void list_unknowns(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;
+    struct gm_arena *arena = solver->arena;
     const size_t n = flow->complex->vertices;
-    solver->soft_vertex = malloc(n * sizeof *solver->soft_vertex);
-    solver->warm_vertex = malloc(n * sizeof *solver->warm_vertex);
-    solver->held = malloc(n * sizeof *solver->held);
-    if (!solver->soft_vertex || !solver->warm_vertex || !solver->held) {
-        return false;
-    }
+    solver->soft_vertex = gm_arena_take(arena, n, sizeof(int));
+    solver->soft_index = gm_arena_take(arena, n, sizeof(int));
+    solver->warm_vertex = gm_arena_take(arena, n, sizeof(int));
+    solver->warm_index = gm_arena_take(arena, n, sizeof(int));
+    solver->held = gm_arena_take(arena, n, sizeof(bool));
     for (size_t v = 0; v < n; v++) {
-        if (flow->heat && !flow->temperature_fixed[v]) {
-            solver->warm_vertex[solver->warm++] = (int)v;
-        }
+        const bool soft = flow->kind[v] == GM_VERTEX_SOFT, warm = flow->heat && !flow->temperature_fixed[v];
+        solver->soft_index[v] = soft ? (int)(solver->unknowns.count + solver->soft) : -1;
+        solver->soft_vertex[solver->soft] = (int)v;
+        solver->soft += soft;
+        solver->warm_index[v] = warm ? (int)solver->warm : -1; /* after all others */
+        solver->warm_vertex[solver->warm] = (int)v;
+        solver->warm += warm;
         solver->held[v] = solver->vorticity_form ? flow->kind[v] == GM_VERTEX_SLIP : !has_row(solver, v);
-        if (flow->kind[v] == GM_VERTEX_SOFT) {
-            solver->soft_vertex[solver->soft++] = (int)v;
-        }
     }
-    return true;
 }
 
-static bool take_memory(struct gm_flow_solver *solver)
+static void take_memory(struct gm_flow_solver *solver)
 {
     const struct gm_complex *complex = solver->flow->complex;
-    const bool psi = !solver->vorticity_form;
+    struct gm_arena *arena = solver->arena;
     const size_t v = complex->vertices, z = solver->unknowns.count + solver->soft;
-    const struct {
-        double **place;
-        size_t size;
-    } wanted[] = {
-        {&solver->flux, complex->edges},
-        {&solver->centre, complex->triangles},
-        {&solver->rate, v},
-        {&solver->field, v},
-        {&solver->velocities, 3 * v},
-        {&solver->carried_rate, solver->flow->scalar ? v : 0},
-        {&solver->b, z + solver->warm},
-        {&solver->x, z + solver->warm},
-        {&solver->small_b, z},
-        {&solver->convection.diagonal, psi ? v : 0},
-        {&solver->convection.ring, psi ? 2 * complex->edges : 0},
-        {&solver->gmres, psi ? gm_gmres_scratch(z) : 0},
-        {&solver->bicgstab, 8 * v},
-    };
-    size_t total = 0;
-    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
-        total += wanted[i].size;
+    solver->flux = gm_arena_take(arena, complex->edges, sizeof(double));
+    solver->centre = gm_arena_take(arena, complex->triangles, sizeof(double));
+    solver->rate = gm_arena_take(arena, v, sizeof(double));
+    solver->field = gm_arena_take(arena, v, sizeof(double));
+    solver->velocities = gm_arena_take(arena, 3 * v, sizeof(double));
+    solver->carried_rate = gm_arena_take(arena, v, sizeof(double));
+    solver->b = gm_arena_take(arena, z + solver->warm, sizeof(double));
+    solver->x = gm_arena_take(arena, z + solver->warm, sizeof(double));
+    solver->small_b = gm_arena_take(arena, z, sizeof(double));
+    solver->bicgstab = gm_arena_take(arena, 8 * v, sizeof(double));
+    solver->transport = gm_transport_of(arena, complex);
+    if (!solver->vorticity_form) {
+        solver->convection = gm_transport_of(arena, complex);
+        solver->gmres = gm_arena_take(arena, gm_gmres_scratch(z), sizeof(double));
     }
-    solver->numbers = calloc(total, sizeof *solver->numbers);
-    if (!solver->numbers) {
-        return false;
+    if (solver->flow->heat) {
+        solver->heat = gm_transport_of(arena, complex);
     }
-    double *at = solver->numbers;
-    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
-        *wanted[i].place = at;
-        at += wanted[i].size;
+    if (solver->flow->scalar) {
+        solver->carried = gm_transport_of(arena, complex);
     }
-    return true;
 }
 
 /* A flow driven by inlet, outlet and lid is on the whole no faster than the fastest point of their flow
@@ -102,49 +91,57 @@ static double energy_limit(struct gm_flow_solver *solver)
     return largest * largest * flow->complex->total_area;
 }
 
+/* Returns true if omega at the unknowns of psi is an unknown without boundary values of psi: on closed
+   surfaces and with slip walls. Then omega is stepped. */
+static bool is_vorticity_form(const struct gm_flow *flow)
+{
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        if (flow->kind[v] != GM_VERTEX_FREE && flow->kind[v] != GM_VERTEX_SLIP) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void close_flow(void *flow)
+{
+    gm_flow_close(flow);
+}
+
+/* Opens the solver of the flow that the data points to, and lets it point to the solver. */
+static void open_solver(struct gm_arena *arena, void *data)
+{
+    const struct gm_flow *flow = *(const struct gm_flow **)data;
+    struct gm_flow_solver *solver = gm_arena_take(arena, 1, sizeof *solver);
+    solver->arena = arena;
+    solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), close_flow) : NULL;
+    solver->flow = flow->give ? solver->now : flow;
+    solver->energy_limit = INFINITY;
+    solver->vorticity_form = is_vorticity_form(flow);
+    solver->unknowns = gm_unknowns_of(arena, flow);
+    list_unknowns(solver);
+    take_memory(solver);
+    *(void **)data = solver;
+}
+
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
 {
-    struct gm_flow_solver *solver = calloc(1, sizeof *solver);
-    if (!solver) {
+    const void *opened = flow;
+    struct gm_arena *arena = gm_arena_open();
+    if (!gm_arena_run(arena, open_solver, &opened)) {
+        gm_arena_close(arena);
         return NULL;
     }
-    solver->now = flow->give ? gm_flow_open_now(flow) : NULL;
-    if (flow->give && !solver->now) {
-        free(solver);
-        return NULL;
-    }
-    solver->flow = flow->give ? solver->now : flow;
-    solver->convection.complex = solver->flow->complex;
-    solver->energy_limit = INFINITY;
-    solver->vorticity_form = gm_flow_is_vorticity_form(flow);
-    bool good = gm_unknowns_open(&solver->unknowns, flow) && list_unknowns(solver) && take_memory(solver) &&
-                gm_transport_open(&solver->transport, flow->complex) &&
-                (!flow->heat || gm_transport_open(&solver->heat, flow->complex)) &&
-                (!flow->scalar || gm_transport_open(&solver->carried, flow->complex));
-    if (!good) {
-        gm_flow_solver_close(solver);
-        solver = NULL;
-    }
-    return solver;
+    return (struct gm_flow_solver *)(uintptr_t)opened;
 }
 
 void gm_flow_solver_close(struct gm_flow_solver *solver)
 {
-    if (!solver) {
-        return;
+    if (solver) {
+        gm_cholesky_close(solver->poisson);
+        gm_cholesky_close(solver->stokes);
+        gm_arena_close(solver->arena);
     }
-    gm_flow_close_now(solver->now);
-    gm_unknowns_close(&solver->unknowns);
-    gm_cholesky_close(solver->poisson);
-    gm_cholesky_close(solver->stokes);
-    gm_transport_close(&solver->transport);
-    gm_transport_close(&solver->heat);
-    gm_transport_close(&solver->carried);
-    free(solver->soft_vertex);
-    free(solver->warm_vertex);
-    free(solver->held);
-    free(solver->numbers);
-    free(solver);
 }
 
 bool gm_flow_solver_give(struct gm_flow_solver *solver, double t)
@@ -167,10 +164,10 @@ bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double v
     gm_cholesky_close(solver->stokes);
     solver->poisson = solver->stokes = NULL;
     if (!solver->vorticity_form) {
-        solver->stokes = gm_unknowns_factor_stokes(unknowns, solver->flow, shift, viscosity);
+        solver->stokes = gm_unknowns_factor(unknowns, solver->flow, GM_CHOLESKY_ROUGH, shift, viscosity);
     }
     if (solver->vorticity_form || solver->stokes) {
-        solver->poisson = gm_unknowns_factor_poisson(unknowns, solver->flow);
+        solver->poisson = gm_unknowns_factor(unknowns, solver->flow, GM_CHOLESKY_EXACT, 1, 0);
     }
     solver->shift = shift;
     solver->viscosity = viscosity;
@@ -245,39 +242,38 @@ static void precondition(void *data, const double *r, double *z)
     solver->factor_solves++;
 }
 
-/* A row of the full matrix on its way: entries by column, added up. */
-struct full {
-    size_t n;
-    int *start, *column, *place;
-    double *value;
-    size_t used, capacity;
-    int row;
+/* A system that is solved with LU: with the derivative of the fluxes, and rows of temperature, if they are
+   not NULL. */
+struct direct {
+    struct gm_flow_solver *solver;
+    const double *omega, *temperature;
+    struct gm_matrix_rows rows;
 };
 
-static void put(struct full *full, int column, double value)
+static void put(struct direct *direct, int column, double value)
 {
-    if (column < 0) {
-        return;
-    }
-    if (full->place[column] < full->start[full->row]) {
-        full->place[column] = (int)full->used;
-        full->column[full->used] = column;
-        full->value[full->used++] = 0;
-    }
-    full->value[full->place[column]] += value;
+    gm_matrix_add(&direct->rows, column, value);
+}
+
+/* Adds to the column of a vertex' temperature, if it has one. */
+static void put_warmth(struct direct *direct, int v, double value)
+{
+    const struct gm_flow_solver *solver = direct->solver;
+    const int i = solver->warm_index[v];
+    put(direct, i < 0 ? -1 : i + (int)(solver->unknowns.count + solver->soft), value);
 }
 
 /* scale times row v of omega(z) */
-static void put_vorticity(struct full *full, const struct gm_flow_solver *solver, const int *soft_index,
-                          int v, double scale)
+static void put_vorticity(struct direct *direct, int v, double scale)
 {
+    const struct gm_flow_solver *solver = direct->solver;
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     if (flow->kind[v] == GM_VERTEX_SLIP) {
         return;
     }
     if (flow->kind[v] == GM_VERTEX_SOFT) {
-        put(full, soft_index[v], scale);
+        put(direct, solver->soft_index[v], scale);
         return;
     }
     scale /= complex->star0[v];
@@ -285,76 +281,58 @@ static void put_vorticity(struct full *full, const struct gm_flow_solver *solver
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
         const double star = complex->star1[complex->ring_edge[k]];
         diagonal += star;
-        put(full, solver->unknowns.index[complex->ring_vertex[k]], -scale * star);
+        put(direct, solver->unknowns.index[complex->ring_vertex[k]], -scale * star);
     }
-    put(full, solver->unknowns.index[v], scale * diagonal);
+    put(direct, solver->unknowns.index[v], scale * diagonal);
 }
 
 /* scale times the derivative of the flux over edge e by psi */
-static void put_flux(struct full *full, const struct gm_flow_solver *solver, size_t e, double scale)
+static void put_flux(struct direct *direct, size_t e, double scale)
 {
+    const struct gm_flow_solver *solver = direct->solver;
     const struct gm_complex *complex = solver->flow->complex;
     for (int side = 0; side < 2; side++) {
         const int t = complex->edge_triangle[2 * e + (size_t)side];
         const double sign = side == 0 ? scale : -scale;
         for (int k = 0; k < 3 && t >= 0; k++) {
-            put(full, solver->unknowns.index[complex->triangle[3 * t + k]],
+            put(direct, solver->unknowns.index[complex->triangle[3 * t + k]],
                 sign * complex->weight[3 * t + k]);
         }
         for (int k = 0; k < 2 && t < 0; k++) {
-            put(full, solver->unknowns.index[complex->edge[2 * e + (size_t)k]], sign / 2);
+            put(direct, solver->unknowns.index[complex->edge[2 * e + (size_t)k]], sign / 2);
         }
     }
 }
 
-static int compare_columns(const void *a, const void *b)
+static void put_row(struct direct *direct, int v)
 {
-    const int p = *(const int *)a, q = *(const int *)b;
-    return (p > q) - (p < q);
-}
-
-/* Columns of the row in increasing order; buffer: as many numbers as there are columns. */
-static void sort_row(struct full *full, double *buffer)
-{
-    const size_t begin = (size_t)full->start[full->row], count = full->used - begin;
-    for (size_t i = begin; i < full->used; i++) {
-        buffer[full->column[i]] = full->value[i];
-    }
-    qsort(full->column + begin, count, sizeof(int), compare_columns);
-    for (size_t i = begin; i < full->used; i++) {
-        full->value[i] = buffer[full->column[i]];
-        full->place[full->column[i]] = (int)i;
-    }
-}
-
-static void put_row(struct full *full, const struct gm_flow_solver *solver, const int *soft_index, int v,
-                    const double *omega)
-{
+    const struct gm_flow_solver *solver = direct->solver;
+    const double *omega = direct->omega;
     const struct gm_complex *complex = solver->flow->complex;
-    put_vorticity(full, solver, soft_index, v, solver->transport.diagonal[v]);
+    put_vorticity(direct, v, solver->transport.diagonal[v]);
     double out = 0;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
         const int w = complex->ring_vertex[k];
         const size_t e = (size_t)complex->ring_edge[k];
         const double sign = complex->edge[2 * e] == v ? 1 : -1;
-        put_vorticity(full, solver, soft_index, w, solver->transport.ring[k]);
+        put_vorticity(direct, w, solver->transport.ring[k]);
         if (omega) {
-            put_flux(full, solver, e, sign * (omega[v] + omega[w]) / 2);
+            put_flux(direct, e, sign * (omega[v] + omega[w]) / 2);
             out -= sign * solver->flux[e];
         }
     }
     if (omega && solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0) {
         for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
             const size_t e = (size_t)complex->ring_edge[k];
-            put_flux(full, solver, e, (complex->edge[2 * e] == v ? -1 : 1) * omega[v]);
+            put_flux(direct, e, (complex->edge[2 * e] == v ? -1 : 1) * omega[v]);
         }
     }
 }
 
 /* Row v of what gm_flow_add_lift takes of temperature, on the left side of the equation. */
-static void put_lift(struct full *full, const struct gm_flow_solver *solver, const int *warm_index, int v)
+static void put_lift(struct direct *direct, int v)
 {
-    const struct gm_flow *flow = solver->flow;
+    const struct gm_flow *flow = direct->solver->flow;
     const struct gm_complex *complex = flow->complex;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
         const size_t e = (size_t)complex->ring_edge[k];
@@ -369,11 +347,11 @@ static void put_lift(struct full *full, const struct gm_flow_solver *solver, con
             gm_complex_centre(complex, (size_t)side[s], centre);
             const double half = (s == 0 ? sign : -sign) * (centre[1] - height) / 2;
             for (int c = 0; c < 3; c++) {
-                put(full, warm_index[complex->triangle[3 * side[s] + c]],
-                    half * complex->weight[3 * side[s] + c]);
+                put_warmth(direct, complex->triangle[3 * side[s] + c],
+                           half * complex->weight[3 * side[s] + c]);
             }
-            put(full, warm_index[end[0]], half / 2);
-            put(full, warm_index[end[1]], half / 2);
+            put_warmth(direct, end[0], half / 2);
+            put_warmth(direct, end[1], half / 2);
         }
         const bool boundary = side[0] < 0 || side[1] < 0;
         if (boundary && flow->hole[v] == 0) {
@@ -382,18 +360,19 @@ static void put_lift(struct full *full, const struct gm_flow_solver *solver, con
             const bool leaves = (end[0] == v) == (side[0] >= 0);
             const double rise = (complex->point[2 * w + 1] - complex->point[2 * v + 1]) / 2,
                          part = -flow->buoyancy * (leaves ? rise : -rise);
-            put(full, warm_index[v], part * 3 / 4);
-            put(full, warm_index[w], part / 4);
+            put_warmth(direct, v, part * 3 / 4);
+            put_warmth(direct, w, part / 4);
         }
     }
 }
 
 /* The equation of temperature at v: convection and diffusion, and what the fluxes change in it. */
-static void put_heat(struct full *full, const struct gm_flow_solver *solver, const int *warm_index, int v,
-                     const double *temperature)
+static void put_heat(struct direct *direct, int v)
 {
+    const struct gm_flow_solver *solver = direct->solver;
+    const double *temperature = direct->temperature;
     const struct gm_complex *complex = solver->flow->complex;
-    put(full, warm_index[v], solver->heat.diagonal[v]);
+    put_warmth(direct, v, solver->heat.diagonal[v]);
     bool boundary = false;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
         const size_t e = (size_t)complex->ring_edge[k];
@@ -404,76 +383,49 @@ static void put_heat(struct full *full, const struct gm_flow_solver *solver, con
         const size_t e = (size_t)complex->ring_edge[k];
         const double sign = complex->edge[2 * e] == v ? 1 : -1,
                      mean = (temperature[v] + temperature[w]) / 2 - (boundary ? temperature[v] : 0);
-        put(full, warm_index[w], solver->heat.ring[k]);
-        put_flux(full, solver, e, sign * mean);
+        put_warmth(direct, w, solver->heat.ring[k]);
+        put_flux(direct, e, sign * mean);
     }
 }
 
-/* x = matrix^-1 b by LU; omega: with the derivative of the fluxes (else NULL); temperature: with its rows,
-   too. */
-static bool solve_directly(struct gm_flow_solver *solver, const double *omega, const double *temperature)
+/* x = matrix^-1 b */
+static void solve_directly(struct gm_arena *arena, void *data)
 {
+    struct direct *direct = data;
+    struct gm_flow_solver *solver = direct->solver;
     const struct gm_complex *complex = solver->flow->complex;
     const struct gm_unknowns *unknowns = &solver->unknowns;
-    const size_t warm = temperature ? solver->warm : 0, flow_rows = unknowns->count + solver->soft;
-    struct full full = {.n = flow_rows + warm};
-    int *soft_index = malloc(complex->vertices * sizeof *soft_index),
-        *warm_index = malloc(complex->vertices * sizeof *warm_index);
-    double *buffer = malloc(full.n * sizeof *buffer);
+    const size_t warm = direct->temperature ? solver->warm : 0, flow_rows = unknowns->count + solver->soft,
+                 n = flow_rows + warm;
+    size_t most = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
             const int w = k < complex->ring_start[v] ? (int)v : complex->ring_vertex[k];
-            full.capacity += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 2);
+            most += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 2);
         }
     }
-    full.capacity *= warm > 0 ? 3 : 1;
-    full.start = malloc((full.n + 1) * sizeof(int));
-    full.column = malloc(full.capacity * sizeof(int));
-    full.value = malloc(full.capacity * sizeof(double));
-    full.place = malloc(full.n * sizeof(int));
-    bool good = soft_index && warm_index && buffer && full.start && full.column && full.value && full.place &&
-                full.n > 0;
-    if (good) {
-        memset(full.place, -1, full.n * sizeof(int));
-        memset(soft_index, -1, complex->vertices * sizeof *soft_index);
-        memset(warm_index, -1, complex->vertices * sizeof *warm_index);
-        for (size_t i = 0; i < solver->soft; i++) {
-            soft_index[solver->soft_vertex[i]] = (int)(unknowns->count + i);
-        }
-        for (size_t i = 0; i < warm; i++) {
-            warm_index[solver->warm_vertex[i]] = (int)(flow_rows + i);
-        }
-        for (full.row = 0; full.row < (int)full.n; full.row++) {
-            const size_t i = (size_t)full.row;
-            const bool flows = i < flow_rows, stream = i < unknowns->count;
-            const int *vertex = stream  ? unknowns->vertex + unknowns->start[i]
-                                : flows ? solver->soft_vertex + (i - unknowns->count)
-                                        : solver->warm_vertex + (i - flow_rows);
-            const int vertices = stream ? unknowns->start[i + 1] - unknowns->start[i] : 1;
-            full.start[full.row] = (int)full.used;
-            for (int k = 0; k < vertices; k++) {
-                if (flows) {
-                    put_row(&full, solver, soft_index, vertex[k], omega);
-                } else {
-                    put_heat(&full, solver, warm_index, vertex[k], temperature);
-                }
-                if (flows && warm > 0) {
-                    put_lift(&full, solver, warm_index, vertex[k]);
-                }
+    direct->rows = gm_matrix_begin(arena, n, n, warm > 0 ? 3 * most : most);
+    for (size_t i = 0; i < n; i++) {
+        const bool flows = i < flow_rows, stream = i < unknowns->count;
+        const int *vertex = stream  ? unknowns->vertex + unknowns->start[i]
+                            : flows ? solver->soft_vertex + (i - unknowns->count)
+                                    : solver->warm_vertex + (i - flow_rows);
+        const int vertices = stream ? unknowns->start[i + 1] - unknowns->start[i] : 1;
+        for (int k = 0; k < vertices; k++) {
+            if (flows) {
+                put_row(direct, vertex[k]);
+            } else {
+                put_heat(direct, vertex[k]);
             }
-            sort_row(&full, buffer);
+            if (flows && warm > 0) {
+                put_lift(direct, vertex[k]);
+            }
         }
-        full.start[full.n] = (int)full.used;
-        good = gm_lu_solve(full.n, full.start, full.column, full.value, solver->b, solver->x);
+        gm_matrix_end_row(&direct->rows, true);
     }
-    free(soft_index);
-    free(warm_index);
-    free(buffer);
-    free(full.start);
-    free(full.column);
-    free(full.value);
-    free(full.place);
-    return good;
+    const struct gm_matrix matrix = gm_matrix_end(&direct->rows);
+    gm_arena_need(arena,
+                  n > 0 && gm_lu_solve(n, matrix.start, matrix.column, matrix.value, solver->b, solver->x));
 }
 
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations)
@@ -489,7 +441,7 @@ bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned
     take_convection(solver);
     const struct gm_system system = {n, apply, precondition, solver};
     return gm_gmres(&system, solver->b, solver->x, tolerance * size, solver->gmres, iterations) ||
-           solve_directly(solver, NULL, NULL);
+           gm_arena_run_once(solve_directly, &(struct direct){.solver = solver});
 }
 
 bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, const double *temperature)
@@ -501,5 +453,5 @@ bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, c
         const int v = solver->warm_vertex[i];
         solver->b[solver->unknowns.count + solver->soft + i] = solver->flow->heating[v] - solver->field[v];
     }
-    return solve_directly(solver, omega, temperature);
+    return gm_arena_run_once(solve_directly, &(struct direct){solver, omega, temperature, {0}});
 }

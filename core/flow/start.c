@@ -1,33 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The states that a run may start from, without and with vorticity, and where tracers begin. */
-#include "core/flow/start.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/flow/tracers.h"
-#include "core/flow/unknowns.h"
-#include "core/linear/cholesky.h"
+#include "core/flow/solver.h"
 
-/* Solves K psi = right inside, with the given boundary values; right == NULL: 0. */
-static bool solve_poisson(const struct gm_flow *flow, const double *right, double *psi)
+/* K psi = right inside, with the given boundary values; right == NULL: 0. */
+struct poisson {
+    const struct gm_flow *flow;
+    const double *right;
+    double *psi;
+};
+
+static void close_factor(void *factor)
 {
-    struct gm_unknowns unknowns;
-    struct gm_cholesky *factor = NULL;
-    bool good = gm_unknowns_open(&unknowns, flow);
-    if (good && unknowns.count > 0) {
-        factor = gm_unknowns_factor_poisson(&unknowns, flow);
-        double *b = malloc(2 * unknowns.count * sizeof *b);
-        good = factor && b;
-        if (good) {
-            gm_unknowns_solve_poisson(&unknowns, flow, factor, right, b, b + unknowns.count, psi);
-        }
-        free(b);
-    }
     gm_cholesky_close(factor);
-    gm_unknowns_close(&unknowns);
-    return good;
+}
+
+static void solve(struct gm_arena *arena, void *data)
+{
+    const struct poisson *poisson = data;
+    const struct gm_unknowns unknowns = gm_unknowns_of(arena, poisson->flow);
+    if (unknowns.count > 0) {
+        struct gm_cholesky *factor = gm_arena_keep(
+            arena, gm_unknowns_factor(&unknowns, poisson->flow, GM_CHOLESKY_EXACT, 1, 0), close_factor);
+        double *b = gm_arena_take(arena, 2 * unknowns.count, sizeof *b);
+        gm_unknowns_solve_poisson(&unknowns, poisson->flow, factor, poisson->right, b, b + unknowns.count,
+                                  poisson->psi);
+    }
 }
 
 /* Completes a state whose psi and omega are set. */
@@ -71,7 +72,7 @@ bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y)
 {
     const size_t n = flow->complex->vertices;
     memcpy(y, flow->psi, n * sizeof *y);
-    if (!solve_poisson(flow, NULL, y)) {
+    if (!gm_arena_run_once(solve, &(struct poisson){flow, NULL, y})) {
         return false;
     }
     memset(y + GM_FLOW_OMEGA * n, 0, n * sizeof *y);
@@ -96,7 +97,7 @@ bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, do
         right[v] = complex->star0[v] * mine[v];
     }
     memcpy(y, flow->psi, n * sizeof *y);
-    if (!solve_poisson(flow, right, y)) {
+    if (!gm_arena_run_once(solve, &(struct poisson){flow, right, y})) {
         return false;
     }
     complete_start(flow, y);

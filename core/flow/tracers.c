@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tracers: particles that a flow carries. They walk from triangle to triangle; nothing is searched for. */
-#include "core/flow/tracers.h"
+#include "core/flow/flow.h"
 
 #include <math.h>
 #include <string.h>

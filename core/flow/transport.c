@@ -1,27 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Convection and diffusion as a matrix in the pattern of the complex' rings, and systems with it. */
-#include "core/flow/transport.h"
+#include "core/flow/solver.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "core/form/matrix.h"
 #include "core/linear/cholesky.h"
 
-bool gm_transport_open(struct gm_transport *transport, const struct gm_complex *complex)
+struct gm_transport gm_transport_of(struct gm_arena *arena, const struct gm_complex *complex)
 {
-    *transport = (struct gm_transport){.complex = complex,
-                                       .diagonal = malloc(complex->vertices * sizeof(double)),
-                                       .ring = malloc(2 * complex->edges * sizeof(double)),
-                                       .pivot = malloc(complex->vertices * sizeof(double))};
-    return transport->diagonal && transport->ring && transport->pivot;
-}
-
-void gm_transport_close(struct gm_transport *transport)
-{
-    free(transport->diagonal);
-    free(transport->ring);
-    free(transport->pivot);
+    return (struct gm_transport){.complex = complex,
+                                 .diagonal = gm_arena_take(arena, complex->vertices, sizeof(double)),
+                                 .ring = gm_arena_take(arena, 2 * complex->edges, sizeof(double)),
+                                 .pivot = gm_arena_take(arena, complex->vertices, sizeof(double))};
 }
 
 void gm_transport_assemble(struct gm_transport *transport, const double *flux, double shift, double share,
@@ -236,39 +228,37 @@ bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const
     return solved || gm_transport_solve_directly(transport, fixed, right, x);
 }
 
+/* A system that is solved with LU. */
+struct direct {
+    const struct gm_transport *transport;
+    const bool *fixed;
+    const double *right;
+    double *x;
+};
+
+static void solve_directly(struct gm_arena *arena, void *data)
+{
+    const struct direct *direct = data;
+    const struct gm_transport *transport = direct->transport;
+    const struct gm_complex *complex = transport->complex;
+    const size_t n = complex->vertices;
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, n, n, n + 2 * complex->edges);
+    double *b = gm_arena_take(arena, n, sizeof *b);
+    for (size_t v = 0; v < n; v++) {
+        const bool fixed = direct->fixed[v];
+        b[v] = fixed ? direct->x[v] : direct->right[v];
+        gm_matrix_add(&rows, (int)v, fixed ? 1 : transport->diagonal[v]);
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1] && !fixed; k++) {
+            gm_matrix_add(&rows, complex->ring_vertex[k], transport->ring[k]);
+        }
+        gm_matrix_end_row(&rows, true);
+    }
+    const struct gm_matrix matrix = gm_matrix_end(&rows);
+    gm_arena_need(arena, gm_lu_solve(n, matrix.start, matrix.column, matrix.value, b, direct->x));
+}
+
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x)
 {
-    const struct gm_complex *complex = transport->complex;
-    const size_t n = complex->vertices;
-    int *start = malloc((n + 1) * sizeof *start), *column = malloc((n + 2 * complex->edges) * sizeof *column);
-    double *value = malloc((n + 2 * complex->edges) * sizeof *value), *b = malloc(n * sizeof *b);
-    bool good = start && column && value && b;
-    int used = 0;
-    for (size_t v = 0; good && v < n; v++) {
-        start[v] = used;
-        b[v] = fixed[v] ? x[v] : right[v];
-        bool placed = false;
-        for (int k = complex->ring_start[v]; k <= complex->ring_start[v + 1]; k++) {
-            const int w = k < complex->ring_start[v + 1] ? complex->ring_vertex[k] : (int)n;
-            if (!placed && w > (int)v) {
-                column[used] = (int)v;
-                value[used++] = fixed[v] ? 1 : transport->diagonal[v];
-                placed = true;
-            }
-            if (w < (int)n && !fixed[v]) {
-                column[used] = w;
-                value[used++] = transport->ring[k];
-            }
-        }
-    }
-    if (good) {
-        start[n] = used;
-        good = gm_lu_solve(n, start, column, value, b, x);
-    }
-    free(start);
-    free(column);
-    free(value);
-    free(b);
-    return good;
+    return gm_arena_run_once(solve_directly, &(struct direct){transport, fixed, right, x});
 }

@@ -1,51 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The unknown values of the stream function, and the matrices K and K W K between them. */
-#include "core/flow/unknowns.h"
+#include "core/flow/solver.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "core/form/matrix.h"
 
-bool gm_unknowns_open(struct gm_unknowns *unknowns, const struct gm_flow *flow)
+struct gm_unknowns gm_unknowns_of(struct gm_arena *arena, const struct gm_flow *flow)
 {
     const size_t n = flow->complex->vertices;
-    *unknowns = (struct gm_unknowns){.start = malloc((n + 1) * sizeof(int)),
-                                     .vertex = malloc(n * sizeof(int)),
-                                     .index = malloc(n * sizeof(int)),
-                                     .closed = flow->complex->boundary == 0};
-    if (!unknowns->start || !unknowns->vertex || !unknowns->index) {
-        return false;
-    }
+    struct gm_unknowns unknowns = {.start = gm_arena_take(arena, n + 1, sizeof(int)),
+                                   .vertex = gm_arena_take(arena, n, sizeof(int)),
+                                   .index = gm_arena_take(arena, n, sizeof(int)),
+                                   .closed = flow->complex->boundary == 0};
     int used = 0;
     for (size_t v = 0; v < n; v++) {
         const bool free_psi = flow->kind[v] == GM_VERTEX_FREE || flow->kind[v] == GM_VERTEX_OPEN;
-        const bool pinned = unknowns->closed && v == 0;
-        unknowns->index[v] = -1;
+        const bool pinned = unknowns.closed && v == 0;
+        unknowns.index[v] = -1;
         if (free_psi && !pinned) {
-            unknowns->start[unknowns->count] = used;
-            unknowns->index[v] = (int)unknowns->count++;
-            unknowns->vertex[used++] = (int)v;
+            unknowns.start[unknowns.count] = used;
+            unknowns.index[v] = (int)unknowns.count++;
+            unknowns.vertex[used++] = (int)v;
         }
     }
     for (int hole = 1; hole <= (int)flow->holes; hole++) {
-        unknowns->start[unknowns->count] = used;
+        unknowns.start[unknowns.count] = used;
         for (size_t v = 0; v < n; v++) {
             if (flow->hole[v] == hole) {
-                unknowns->index[v] = (int)unknowns->count;
-                unknowns->vertex[used++] = (int)v;
+                unknowns.index[v] = (int)unknowns.count;
+                unknowns.vertex[used++] = (int)v;
             }
         }
-        unknowns->count++;
+        unknowns.count++;
     }
-    unknowns->start[unknowns->count] = used;
-    return true;
-}
-
-void gm_unknowns_close(struct gm_unknowns *unknowns)
-{
-    free(unknowns->start);
-    free(unknowns->vertex);
-    free(unknowns->index);
+    unknowns.start[unknowns.count] = used;
+    return unknowns;
 }
 
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into)
@@ -59,29 +47,6 @@ void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values
     }
 }
 
-/* Rows of a matrix that grow. */
-struct rows {
-    int *start, *column;
-    double *value;
-    size_t capacity, used;
-};
-
-static bool rows_open(struct rows *rows, size_t n, size_t capacity)
-{
-    *rows = (struct rows){.start = malloc((n + 1) * sizeof(int)),
-                          .column = malloc(capacity * sizeof(int)),
-                          .value = malloc(capacity * sizeof(double)),
-                          .capacity = capacity};
-    return rows->start && rows->column && rows->value;
-}
-
-static void rows_close(struct rows *rows)
-{
-    free(rows->start);
-    free(rows->column);
-    free(rows->value);
-}
-
 /* Row v of K: calls are made with every neighbour and with v itself. */
 static double diagonal(const struct gm_complex *complex, int v)
 {
@@ -92,33 +57,21 @@ static double diagonal(const struct gm_complex *complex, int v)
     return sum;
 }
 
-/* Adds to the entry of column j in the row being made; `place`: entries of columns, below the row's start
-   if they have none. */
-static void add_entry(struct rows *rows, int *place, int row, int j, double value)
-{
-    if (place[j] < rows->start[row]) {
-        place[j] = (int)rows->used;
-        rows->column[rows->used] = j;
-        rows->value[rows->used++] = 0;
-    }
-    rows->value[place[j]] += value;
-}
-
 static bool by_formula(const struct gm_flow *flow, int v)
 {
     return flow->kind[v] != GM_VERTEX_SOFT && flow->kind[v] != GM_VERTEX_SLIP;
 }
 
-/* Adds scale times row `middle` of K, between unknowns, to the row being made in `dense`. */
+/* Adds scale times row `middle` of K, between unknowns, to the row that is made, up to the diagonal. */
 static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex *complex, int middle,
-                    double scale, struct rows *rows, int *place, int row)
+                    double scale, struct gm_matrix_rows *rows)
 {
     for (int k = complex->ring_start[middle] - 1; k < complex->ring_start[middle + 1]; k++) {
         const bool self = k < complex->ring_start[middle];
-        const int v = self ? middle : complex->ring_vertex[k], j = unknowns->index[v];
-        if (j >= 0 && j <= row) {
-            add_entry(rows, place, row, j,
-                      scale * (self ? diagonal(complex, middle) : -complex->star1[complex->ring_edge[k]]));
+        const int j = unknowns->index[self ? middle : complex->ring_vertex[k]];
+        if (j <= (int)rows->row) {
+            gm_matrix_add(
+                rows, j, scale * (self ? diagonal(complex, middle) : -complex->star1[complex->ring_edge[k]]));
         }
     }
 }
@@ -137,52 +90,49 @@ static size_t two_ring_bound(const struct gm_unknowns *unknowns, const struct gm
     return sum;
 }
 
-/* shift K, and of a rough factor viscosity K W K, too. */
-static struct gm_cholesky *factor_of(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                                     double shift, double viscosity, enum gm_cholesky_precision precision)
+/* A factor while it is made. */
+struct factoring {
+    const struct gm_unknowns *unknowns;
+    const struct gm_flow *flow;
+    enum gm_cholesky_precision precision;
+    double shift, viscosity;
+    struct gm_cholesky *factor;
+};
+
+static void factor(struct gm_arena *arena, void *data)
 {
-    const struct gm_complex *complex = flow->complex;
-    const bool stokes = precision == GM_CHOLESKY_ROUGH;
-    struct rows rows;
-    struct gm_cholesky *factor = NULL;
-    int *place = malloc((unknowns->count + 1) * sizeof *place);
-    if (rows_open(&rows, unknowns->count,
-                  stokes ? two_ring_bound(unknowns, complex) : unknowns->count + complex->edges) &&
-        place) {
-        memset(place, -1, unknowns->count * sizeof *place);
-        for (size_t i = 0; i < unknowns->count; i++) {
-            rows.start[i] = (int)rows.used;
-            for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
-                const int v = unknowns->vertex[at];
-                add_row(unknowns, complex, v, shift, &rows, place, (int)i);
-                for (int k = complex->ring_start[v] - 1; stokes && k < complex->ring_start[v + 1]; k++) {
-                    const bool self = k < complex->ring_start[v];
-                    const int w = self ? v : complex->ring_vertex[k];
-                    const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
-                    if (by_formula(flow, w)) {
-                        add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place,
-                                (int)i);
-                    }
+    struct factoring *self = data;
+    const struct gm_unknowns *unknowns = self->unknowns;
+    const struct gm_complex *complex = self->flow->complex;
+    const bool stokes = self->precision == GM_CHOLESKY_ROUGH;
+    struct gm_matrix_rows rows =
+        gm_matrix_begin(arena, unknowns->count, unknowns->count,
+                        stokes ? two_ring_bound(unknowns, complex) : unknowns->count + complex->edges);
+    for (size_t i = 0; i < unknowns->count; i++) {
+        for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
+            const int v = unknowns->vertex[at];
+            add_row(unknowns, complex, v, self->shift, &rows);
+            for (int k = complex->ring_start[v] - 1; stokes && k < complex->ring_start[v + 1]; k++) {
+                const bool self_row = k < complex->ring_start[v];
+                const int w = self_row ? v : complex->ring_vertex[k];
+                const double entry = self_row ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
+                if (by_formula(self->flow, w)) {
+                    add_row(unknowns, complex, w, self->viscosity * entry / complex->star0[w], &rows);
                 }
             }
         }
-        rows.start[unknowns->count] = (int)rows.used;
-        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, precision);
+        gm_matrix_end_row(&rows, false);
     }
-    rows_close(&rows);
-    free(place);
-    return factor;
+    const struct gm_matrix matrix = gm_matrix_end(&rows);
+    self->factor = gm_cholesky_open(matrix.rows, matrix.start, matrix.column, matrix.value, self->precision);
 }
 
-struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow)
+struct gm_cholesky *gm_unknowns_factor(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                                       enum gm_cholesky_precision precision, double shift, double viscosity)
 {
-    return factor_of(unknowns, flow, 1, 0, GM_CHOLESKY_EXACT);
-}
-
-struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                                              double shift, double viscosity)
-{
-    return factor_of(unknowns, flow, shift, viscosity, GM_CHOLESKY_ROUGH);
+    struct factoring self = {unknowns, flow, precision, shift, viscosity, NULL};
+    gm_arena_run_once(factor, &self);
+    return self.factor;
 }
 
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,

@@ -16,12 +16,16 @@
    round-off of either sign. */
 static const double shortest_dual = 1e-9;
 
+struct side;
+
 /* A complex that is being built of triangles. */
 struct building {
     struct gm_arena *arena; /* arena of the complex; temporary arrays come last and are released at the end */
     struct gm_complex *complex;
     const struct gm_triangles *from;
     struct gm_triangulation_fault *fault;
+    const struct side *sides; /* of all triangles, sorted */
+    size_t other;             /* the first triangle of the second piece; 0: there is none */
 };
 
 _Noreturn static void refuse(struct building *building, enum gm_triangulation_fault_kind kind)
@@ -101,6 +105,31 @@ void gm_complex_middle(const struct gm_complex *complex, size_t edge, double mid
     }
 }
 
+int gm_complex_edge(const struct gm_complex *complex, int a, int b)
+{
+    for (int k = complex->ring_start[a]; k < complex->ring_start[a + 1]; k++) {
+        if (complex->ring_vertex[k] == b) {
+            return complex->ring_edge[k];
+        }
+    }
+    return -1;
+}
+
+void gm_complex_quarter(const struct gm_complex *complex, double *points, int *corners)
+{
+    const size_t n = complex->vertices;
+    memcpy(points, complex->point, 2 * n * sizeof *points);
+    for (size_t e = 0; e < complex->edges; e++) {
+        gm_complex_middle(complex, e, points + 2 * (n + e));
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        const int *v = complex->triangle + 3 * t, *e = complex->triangle_edge + 3 * t;
+        const int m[3] = {(int)n + e[0], (int)n + e[1], (int)n + e[2]};
+        const int four[12] = {v[0], m[0], m[2], m[0], v[1], m[1], m[2], m[1], v[2], m[0], m[1], m[2]};
+        memcpy(corners + 12 * t, four, sizeof four);
+    }
+}
+
 static void flip(int *corner)
 {
     const int swap = corner[1];
@@ -174,17 +203,14 @@ static const struct side *sort_sides(struct building *building)
     return sorted;
 }
 
-/* Returns the sides of all triangles, and where each meets another one: -1 at the boundary. */
-static int *link_sides(struct building *building, const struct side **sides)
+/* Returns where each side meets another one: -1 at the boundary. */
+static int *link_sides(struct building *building)
 {
     const size_t count = 3 * building->complex->triangles;
     int *across = gm_arena_take(building->arena, count, sizeof *across);
-    *sides = sort_sides(building);
-    for (size_t i = 0; i < count; i++) {
-        across[i] = -1;
-    }
+    memset(across, -1, count * sizeof *across);
     for (size_t i = 0; i + 1 < count; i++) {
-        const struct side *a = *sides + i, *b = a + 1;
+        const struct side *a = &building->sides[i], *b = a + 1;
         if (a->low == b->low && a->high == b->high && across[a->place] < 0) {
             across[a->place] = b->place;
             across[b->place] = a->place;
@@ -193,12 +219,12 @@ static int *link_sides(struct building *building, const struct side **sides)
     return across;
 }
 
-/* Turns the triangles of every piece like its first one. A closed piece encloses a positive volume. */
-static void agree(struct building *building)
+/* Finds the pieces. In space the triangles of each are turned like its first one, and a closed piece encloses
+   a positive volume. */
+static void find_pieces(struct building *building, bool in_plane)
 {
     struct gm_complex *complex = building->complex;
-    const struct side *sides;
-    const int *across = link_sides(building, &sides);
+    const int *across = link_sides(building);
     int *queue = gm_arena_take(building->arena, complex->triangles, sizeof *queue);
     signed char *sense = gm_arena_take(building->arena, complex->triangles, sizeof *sense);
     for (size_t first = 0, begin = 0, end = 0; first < complex->triangles; first++) {
@@ -209,6 +235,7 @@ static void agree(struct building *building)
         double volume = 0, p[9];
         sense[first] = 1;
         queue[end++] = (int)first;
+        building->other = complex->pieces++ == 1 ? first : building->other;
         for (size_t i = begin; i < end; i++) {
             const int t = queue[i];
             gm_complex_corners_in_space(complex, (size_t)t, p);
@@ -220,7 +247,7 @@ static void agree(struct building *building)
                 if (there < 0) {
                     continue;
                 }
-                const bool along = complex->triangle[here] == complex->triangle[there];
+                const bool along = complex->triangle[here] == complex->triangle[there] && !in_plane;
                 const signed char right = (signed char)(along ? -sense[t] : sense[t]);
                 if (sense[there / 3] && sense[there / 3] != right) {
                     building->fault->nodes[1] =
@@ -233,8 +260,9 @@ static void agree(struct building *building)
                 }
             }
         }
+        complex->closed += closed;
         for (; begin < end; begin++) {
-            if ((sense[queue[begin]] < 0) != (closed && volume < 0)) {
+            if (!in_plane && (sense[queue[begin]] < 0) != (closed && volume < 0)) {
                 flip(complex->triangle + 3 * queue[begin]);
             }
         }
@@ -244,7 +272,7 @@ static void agree(struct building *building)
 static void make_edges(struct building *building)
 {
     struct gm_complex *complex = building->complex;
-    const struct side *sides = sort_sides(building);
+    const struct side *sides = building->sides;
     const size_t count = 3 * complex->triangles;
     size_t edges = 0;
     for (size_t i = 0, end = 0; i < count; i = end, edges++) {
@@ -379,38 +407,6 @@ static void make_boundary(struct building *building)
             at = complex->edge[2 * e] == at ? complex->edge[2 * e + 1] : complex->edge[2 * e];
         }
         complex->loop_start[complex->loops] = count;
-    }
-}
-
-/* Counts the pieces; in the plane there is one. */
-static void check_pieces(struct building *building)
-{
-    struct gm_complex *complex = building->complex;
-    int *queue = gm_arena_take(building->arena, complex->triangles, sizeof *queue);
-    bool *met = gm_arena_take(building->arena, complex->triangles, sizeof *met);
-    for (size_t first = 0, i = 0, count = 0; first < complex->triangles; first++) {
-        if (met[first]) {
-            continue;
-        }
-        if (first > 0 && !building->from->in_space) {
-            refuse_triangle(building, first, GM_TRIANGULATION_PIECES);
-        }
-        bool closed = true;
-        met[first] = true;
-        queue[count++] = (int)first;
-        for (; i < count; i++) {
-            for (int k = 0; k < 3; k++) {
-                const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * queue[i] + k];
-                const int next = pair[0] == queue[i] ? pair[1] : pair[0];
-                closed &= next >= 0;
-                if (next >= 0 && !met[next]) {
-                    met[next] = true;
-                    queue[count++] = next;
-                }
-            }
-        }
-        complex->pieces++;
-        complex->closed += closed;
     }
 }
 
@@ -602,12 +598,16 @@ static void build(struct gm_arena *arena, void *data)
         in_plane &= from->points[3 * v + 2] == 0;
     }
     orient(building, in_plane);
-    if (!in_plane) {
-        agree(building);
+    building->sides = sort_sides(building);
+    find_pieces(building, in_plane);
+    if (!in_plane) { /* some were turned */
+        building->sides = sort_sides(building);
     }
     make_edges(building);
     make_boundary(building);
-    check_pieces(building);
+    if (building->other > 0 && !from->in_space) {
+        refuse_triangle(building, building->other, GM_TRIANGULATION_PIECES);
+    }
     make_rings(complex);
     measure(complex);
     take_star(building);

@@ -126,6 +126,13 @@ void gm_complex_corners(const struct gm_complex *complex, size_t triangle, doubl
 /* The same with z: x0 y0 z0 .. z2. */
 void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9]);
 
+/* The edge between two vertices; -1: there is none. */
+int gm_complex_edge(const struct gm_complex *complex, int a, int b);
+
+/* Cuts every triangle in four by the middles of its sides, which become the points after the vertices, in the
+   order of the edges: room for as many points and for 12 corners a triangle. */
+void gm_complex_quarter(const struct gm_complex *complex, double *points, int *corners);
+
 /* The dual vertex of a triangle. */
 void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2]);
 

@@ -1,26 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Vertices lie on circles (or rows) of equal numbers, odd ones turned by half an edge; between two circles there
-   are two triangles for each edge. A disc has 6 k vertices on its ring k:
+/* An acute triangulation of a rectangle by M strips of height h. Even rows of vertices have N + 1 of them, a
+   apart; odd rows have N, one above the middle of each edge but near the ends, which keep the distance c from
+   the wall, so that the wall's triangle
+       (0, 2 k h),   (c, (2 k + 1) h),   (0, (2 k + 2) h)
+   is acute. If a/2 < h < c < a, all are: the foot of every apex lies inside its base and splits it into p + q
+   <= a with p q <= a^2/4 < h^2.
+   On other meshes vertices lie on circles of equal numbers, odd ones turned by half an edge; between two circles
+   there are two triangles for each edge. A disc has 6 k vertices on its ring k:
        ring k, vertex j:  R k/n (cos 2 pi j/(6k), sin 2 pi j/(6k)).
    A sphere is the icosahedron (0, +-1, +-g), (+-1, +-g, 0), (+-g, 0, +-1), g = (1 + sqrt(5))/2, each triangle
    of which is cut in four by the middles of its sides, again and again, all put on the sphere. */
 #include "core/form/generators.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/form/rectangle.h"
+#include "core/expression/residue.h"
 
 /* The points and corners that are laid. */
 struct laying {
     struct gm_arena *arena;
-    double *points;
+    double *points; /* 3 a vertex; 2 of a rectangle */
     int *corners;
     size_t vertices, count;
     const double *number; /* of the generator */
     long rows;            /* strips, rings or levels, or circles */
+    const struct gm_rectangle *rectangle;
 };
 
 static void add_point(struct laying *laying, double x, double y, double z)
@@ -41,8 +49,212 @@ static void add_triangle(struct laying *laying, long a, long b, long c)
 
 static void reserve(struct laying *laying, size_t vertices, size_t triangles)
 {
-    laying->points = gm_arena_take(laying->arena, 3 * vertices, sizeof *laying->points);
+    laying->points =
+        gm_arena_take(laying->arena, (laying->rectangle ? 2 : 3) * vertices, sizeof *laying->points);
     laying->corners = gm_arena_take(laying->arena, 3 * triangles, sizeof *laying->corners);
+}
+
+static double strip_height(const struct gm_rectangle *r)
+{
+    return (r->transposed ? r->width : r->height) / (double)r->strips;
+}
+
+static double base(const struct gm_rectangle *r)
+{
+    return (r->transposed ? r->height : r->width) / (double)r->edges;
+}
+
+bool gm_rectangle_is_acute(const struct gm_rectangle *r)
+{
+    const double h = strip_height(r), a = base(r);
+    return h > a / 2 * (1 + 1e-9) && h < a * (1 - 1e-9);
+}
+
+enum { MOST = 1000000 }; /* edges or strips: more make no mesh that a machine holds */
+
+/* The height of a strip in edges. */
+static const double best_ratio = 0.758;
+
+long gm_rectangle_edges(const struct gm_rectangle *r)
+{
+    const double along = r->transposed ? r->height : r->width;
+    return (long)fmin(fmax(4, round(best_ratio * along / strip_height(r))), MOST);
+}
+
+long gm_rectangle_strips(double width, double height, long edges, bool transposed)
+{
+    const double along = transposed ? height : width, across = transposed ? width : height;
+    const double strips = across / (best_ratio * along / (double)edges);
+    return 2 * (long)fmin(fmax(1, round(strips / 2)), MOST);
+}
+
+/* c such that the wall triangle's apex and the corner beside it are equally wide. */
+static double wall_distance(double h, double a)
+{
+    double low = h, high = a;
+    for (int i = 0; i < 100; i++) {
+        const double c = (low + high) / 2;
+        const bool far = 2 * atan(h / c) < atan(h / (a - c));
+        low = far ? low : c;
+        high = far ? c : high;
+    }
+    return (low + high) / 2;
+}
+
+/* Adds a point of the rectangle. */
+static void put_point(struct laying *laying, double along, double across)
+{
+    const bool transposed = laying->rectangle->transposed;
+    double *p = laying->points + 2 * laying->vertices++;
+    p[0] = transposed ? across : along;
+    p[1] = transposed ? along : across;
+}
+
+/* The first vertex of a row of the rectangle. */
+static long row_begin(long n, long row)
+{
+    return row / 2 * (2 * n + 1) + (row % 2) * (n + 1);
+}
+
+static void lay_rectangle(struct laying *laying)
+{
+    const struct gm_rectangle *r = laying->rectangle;
+    const long n = r->edges, m = r->strips;
+    const double h = strip_height(r), a = base(r), c = wall_distance(h, a), decay = 0.6;
+    /* the far walls have their given places, which N a and M h miss by a rounding */
+    const double length = r->transposed ? r->height : r->width, depth = r->transposed ? r->width : r->height;
+    /* the bend from the other wall takes a little of c, which matters in short rows alone */
+    const double rest = n < 6 ? 1 / (1 - pow(decay, (double)(n - 1))) : 1;
+    reserve(laying, (size_t)((m + 1) * (n + 1)), (size_t)(2 * n * m));
+    for (long row = 0; row <= m; row++) {
+        const double across = row == m ? depth : h * (double)row;
+        for (long k = 0; row % 2 == 0 && k <= n; k++) {
+            put_point(laying, k == n ? length : a * (double)k, across);
+        }
+        for (long k = 0; row % 2 == 1 && k < n; k++) {
+            const double bend = pow(decay, (double)k) - pow(decay, (double)(n - 1 - k));
+            put_point(laying, ((double)k + 0.5) * a + (c - a / 2) * rest * bend, across);
+        }
+    }
+    for (long row = 0; row < m; row++) {
+        const long even = row_begin(n, row + row % 2), odd = row_begin(n, row + 1 - row % 2);
+        for (long k = 0; k < n; k++) {
+            add_triangle(laying, even + k, even + k + 1, odd + k);
+        }
+        for (long k = 0; k + 1 < n; k++) {
+            add_triangle(laying, odd + k, odd + k + 1, even + k + 1);
+        }
+        if (row % 2 == 1) {
+            const long below = row_begin(n, row - 1), middle = row_begin(n, row),
+                       above = row_begin(n, row + 1);
+            add_triangle(laying, below, middle, above);
+            add_triangle(laying, below + n, middle + n - 1, above + n);
+        }
+    }
+}
+
+static void lay_flat_torus(struct laying *laying)
+{
+    const struct gm_rectangle *r = laying->rectangle;
+    const long n = r->edges, m = r->strips;
+    const double h = strip_height(r), a = base(r);
+    reserve(laying, (size_t)(m * n), (size_t)(2 * n * m));
+    for (long row = 0; row < m; row++) {
+        for (long k = 0; k < n; k++) {
+            put_point(laying, ((double)k + (row % 2 ? 0.5 : 0)) * a, h * (double)row);
+        }
+    }
+    for (long row = 0; row < m; row++) {
+        const long here = row * n, above = (row + 1) % m * n, shift = row % 2;
+        for (long k = 0; k < n; k++) {
+            const long next = (k + 1) % n, top = (k + shift) % n, top_before = (k + shift + n - 1) % n;
+            add_triangle(laying, here + k, here + next, above + top);
+            add_triangle(laying, here + k, above + top, above + top_before);
+        }
+    }
+}
+
+/* The same meshes on every machine. */
+static double random_in_unit(uint64_t *state)
+{
+    const uint64_t bits = gm_mixed(*state);
+    *state += UINT64_C(0x9e3779b97f4a7c15);
+    return (double)(bits >> 11) * 0x1p-53;
+}
+
+static bool is_fixed(const struct gm_rectangle *r, const double *p)
+{
+    for (size_t i = 0; i < r->fixed_count; i++) {
+        if (hypot(p[0] - r->fixed[2 * i], p[1] - r->fixed[2 * i + 1]) < 1e-9 * (r->width + r->height)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static double largest_angle(const struct laying *laying, const double *points, size_t triangle)
+{
+    const struct gm_rectangle *r = laying->rectangle;
+    struct gm_complex one = {.coordinates = 2,
+                             .point = (double *)(uintptr_t)points,
+                             .triangle = laying->corners,
+                             .period = {r->torus ? r->width : 0, r->torus ? r->height : 0}};
+    double p[6], largest = 0;
+    gm_complex_corners(&one, triangle, p);
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const double ax = p[2 * i] - p[2 * k], ay = p[2 * i + 1] - p[2 * k + 1];
+        const double bx = p[2 * j] - p[2 * k], by = p[2 * j + 1] - p[2 * k + 1];
+        largest = fmax(largest, atan2(fabs(ax * by - ay * bx), ax * bx + ay * by));
+    }
+    return largest * 180 / M_PI;
+}
+
+/* Moves the vertices at random, those on a wall along it, and takes back what makes an angle too wide. */
+static void jiggle(struct laying *laying, const struct gm_complex *regular)
+{
+    enum { ROUNDS = 40 };
+    const struct gm_rectangle *r = laying->rectangle;
+    const size_t n = laying->vertices;
+    double *shift = gm_arena_take(laying->arena, 2 * n, sizeof *shift),
+           *moved = gm_arena_take(laying->arena, 2 * n, sizeof *moved);
+    const double widest = fmax(88, regular->largest_angle + 1e-6);
+    uint64_t state = 2018;
+    for (size_t v = 0; v < n; v++) {
+        const double *p = laying->points + 2 * v;
+        double shortest = INFINITY;
+        for (int k = regular->ring_start[v]; k < regular->ring_start[v + 1]; k++) {
+            shortest = fmin(shortest, regular->length[regular->ring_edge[k]]);
+        }
+        const double turn = 2 * M_PI * random_in_unit(&state);
+        const double far = r->irregular * shortest * sqrt(random_in_unit(&state));
+        const bool side = !r->torus && (p[0] == 0 || p[0] == r->width);
+        const bool floor_or_lid = !r->torus && (p[1] == 0 || p[1] == r->height);
+        if ((side && floor_or_lid) || is_fixed(r, p)) {
+            continue;
+        }
+        shift[2 * v] = side ? 0 : far * cos(turn);
+        shift[2 * v + 1] = floor_or_lid ? 0 : far * sin(turn);
+    }
+    bool bad = true;
+    for (int round = 0; bad; round++) {
+        bad = false;
+        for (size_t i = 0; i < 2 * n; i++) {
+            moved[i] = laying->points[i] + shift[i];
+        }
+        for (size_t t = 0; t < laying->count; t++) {
+            if (largest_angle(laying, moved, t) <= widest) {
+                continue;
+            }
+            for (int k = 0; k < 3; k++) {
+                double *s = shift + 2 * laying->corners[3 * t + (size_t)k];
+                bad |= s[0] != 0 || s[1] != 0;
+                s[0] *= round < ROUNDS ? 0.6 : 0;
+                s[1] *= round < ROUNDS ? 0.6 : 0;
+            }
+        }
+    }
+    memcpy(laying->points, moved, 2 * n * sizeof *moved);
 }
 
 /* Joins `rings` circles of n vertices, odd ones turned by half an edge, to the next; the last to the first if
@@ -303,52 +515,73 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
 
 /* The mesh while it is made. */
 struct making {
-    enum which which;
-    const double *number;
-    size_t count;
+    struct laying laying;
+    void (*lay)(struct laying *laying);
     struct gm_triangles from;
     struct gm_triangulation_fault *fault;
     struct gm_complex *complex;
 };
 
+static void close_complex(void *complex)
+{
+    gm_complex_close(complex);
+}
+
 static void make(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
-    struct laying laying = {.arena = arena,
-                            .number = making->number,
-                            .rows = making->which == DISC || making->which == SPHERE
-                                        ? (long)making->number[1]
-                                        : rows_of(making->which, making->number, making->count)};
-    generators[making->which].lay(&laying);
-    making->from.points = laying.points;
-    making->from.vertices = laying.vertices;
-    making->from.corners = laying.corners;
-    making->from.count = laying.count;
-    making->complex = gm_complex_open(&making->from, making->fault);
+    struct laying *laying = &making->laying;
+    struct gm_triangles *from = &making->from;
+    laying->arena = arena;
+    making->lay(laying);
+    from->points = laying->points;
+    from->vertices = laying->vertices;
+    from->corners = laying->corners;
+    from->count = laying->count;
+    struct gm_complex *complex = gm_complex_open(from, making->fault);
+    if (complex && laying->rectangle && laying->rectangle->irregular > 0) {
+        gm_arena_keep(arena, complex, close_complex);
+        making->fault->kind = GM_TRIANGULATION_MEMORY;
+        jiggle(laying, complex);
+        gm_arena_drop(arena, complex);
+        complex = gm_complex_open(from, making->fault);
+    }
+    making->complex = complex;
+}
+
+struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_triangulation_fault *fault)
+{
+    struct making making = {.laying.rectangle = r,
+                            .lay = r->torus ? lay_flat_torus : lay_rectangle,
+                            .from = {.period = {r->torus ? r->width : 0, r->torus ? r->height : 0},
+                                     .star = r->star ? r->star : GM_STAR_CIRCUMCENTRIC},
+                            .fault = fault};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    gm_arena_run_once(make, &making);
+    return making.complex;
 }
 
 struct gm_complex *gm_generator_open(const char *word, const double *number, size_t count, enum gm_star star,
                                      struct gm_triangulation_fault *fault)
 {
     const enum which which = which_of(word);
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     if (which <= FLAT_TORUS) {
-        const struct gm_rectangle pattern = {.width = number[0],
-                                             .height = number[1],
-                                             .edges = (long)number[2],
-                                             .strips = rows_of(which, number, count),
-                                             .torus = which == FLAT_TORUS,
-                                             .star = star};
-        return gm_rectangle_open(&pattern, fault);
+        return gm_rectangle_open(&(struct gm_rectangle){.width = number[0],
+                                                        .height = number[1],
+                                                        .edges = (long)number[2],
+                                                        .strips = rows_of(which, number, count),
+                                                        .torus = which == FLAT_TORUS,
+                                                        .star = star},
+                                 fault);
     }
-    struct making making = {.which = which,
-                            .number = number,
-                            .count = count,
-                            .from = {.in_space = true, .star = star},
-                            .fault = fault};
-    struct gm_arena *arena = gm_arena_open();
-    gm_arena_run(arena, make, &making);
-    gm_arena_close(arena);
+    const bool single = which == DISC || which == SPHERE;
+    struct making making = {
+        .laying = {.number = number, .rows = single ? (long)number[1] : rows_of(which, number, count)},
+        .lay = generators[which].lay,
+        .from = {.in_space = true, .star = star},
+        .fault = fault};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    gm_arena_run_once(make, &making);
     return making.complex;
 }
 

@@ -63,7 +63,58 @@ struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_ma
     return to;
 }
 
-/* Row by row: the entries of a row gather in a dense one, whose used columns are marked by the row. */
+struct gm_matrix_rows gm_matrix_begin(struct gm_arena *arena, size_t rows, size_t columns, size_t most)
+{
+    struct gm_matrix_rows made = {.arena = arena, .matrix = empty(arena, rows, columns, most)};
+    made.scratch = gm_arena_keep(arena, malloc((columns + 1) * (sizeof(double) + sizeof(int))), free);
+    made.place = memset(made.scratch + columns + 1, -1, (columns + 1) * sizeof(int));
+    return made;
+}
+
+void gm_matrix_add(struct gm_matrix_rows *rows, int column, double value)
+{
+    struct gm_matrix *matrix = &rows->matrix;
+    if (column < 0) {
+        return;
+    }
+    int *place = &rows->place[column];
+    if (*place >= matrix->start[rows->row]) {
+        matrix->value[*place] += value;
+        return;
+    }
+    *place = rows->used++;
+    matrix->column[*place] = column;
+    matrix->value[*place] = value;
+}
+
+static int compare_columns(const void *a, const void *b)
+{
+    const int p = *(const int *)a, q = *(const int *)b;
+    return (p > q) - (p < q);
+}
+
+void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted)
+{
+    struct gm_matrix *matrix = &rows->matrix;
+    const int begin = matrix->start[rows->row];
+    for (int k = begin; sorted && k < rows->used; k++) {
+        rows->scratch[matrix->column[k]] = matrix->value[k];
+    }
+    if (sorted) {
+        qsort(matrix->column + begin, (size_t)(rows->used - begin), sizeof(int), compare_columns);
+    }
+    for (int k = begin; sorted && k < rows->used; k++) {
+        matrix->value[k] = rows->scratch[matrix->column[k]];
+    }
+    matrix->start[++rows->row] = rows->used;
+}
+
+struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows)
+{
+    gm_arena_drop(rows->arena, rows->scratch);
+    return rows->matrix;
+}
+
 struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matrix *a,
                                    const struct gm_matrix *b)
 {
@@ -71,40 +122,34 @@ struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matri
     for (int k = 0; k < a->start[a->rows]; k++) {
         most += (size_t)(b->start[a->column[k] + 1] - b->start[a->column[k]]);
     }
-    struct gm_matrix_entry *entries = gm_arena_keep(arena, malloc((most + 1) * sizeof *entries), free);
-    gm_arena_need(arena, entries);
-    size_t count = 0;
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, b->columns, most);
     for (size_t i = 0; i < a->rows; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
             const int j = a->column[k];
             for (int l = b->start[j]; l < b->start[j + 1]; l++) {
-                entries[count++] = (struct gm_matrix_entry){(int)i, b->column[l], a->value[k] * b->value[l]};
+                gm_matrix_add(&rows, b->column[l], a->value[k] * b->value[l]);
             }
         }
+        gm_matrix_end_row(&rows, true);
     }
-    struct gm_matrix product = gm_matrix_of(arena, a->rows, b->columns, entries, count);
-    gm_arena_drop(arena, entries);
-    return product;
+    return gm_matrix_end(&rows);
 }
 
 struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm_matrix *a, double q,
                                const struct gm_matrix *b)
 {
     const size_t most = (size_t)a->start[a->rows] + (b ? (size_t)b->start[b->rows] : 0);
-    struct gm_matrix_entry *entries = gm_arena_keep(arena, malloc((most + 1) * sizeof *entries), free);
-    gm_arena_need(arena, entries);
-    size_t count = 0;
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->columns, most);
     for (size_t i = 0; i < a->rows; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            entries[count++] = (struct gm_matrix_entry){(int)i, a->column[k], p * a->value[k]};
+            gm_matrix_add(&rows, a->column[k], p * a->value[k]);
         }
         for (int k = b ? b->start[i] : 0; b && k < b->start[i + 1]; k++) {
-            entries[count++] = (struct gm_matrix_entry){(int)i, b->column[k], q * b->value[k]};
+            gm_matrix_add(&rows, b->column[k], q * b->value[k]);
         }
+        gm_matrix_end_row(&rows, true);
     }
-    struct gm_matrix sum = gm_matrix_of(arena, a->rows, a->columns, entries, count);
-    gm_arena_drop(arena, entries);
-    return sum;
+    return gm_matrix_end(&rows);
 }
 
 void gm_matrix_scale(struct gm_matrix *matrix, const double *scale)

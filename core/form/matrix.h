@@ -22,6 +22,25 @@ struct gm_matrix_entry {
    all below. */
 struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
                               struct gm_matrix_entry *entries, size_t count);
+
+/* A matrix while it is made row by row. */
+struct gm_matrix_rows {
+    struct gm_arena *arena;
+    struct gm_matrix matrix;
+    double *scratch;
+    int *place; /* of each column in the row; before its start if it is not there */
+    int used;
+    size_t row;
+};
+/* Begins a matrix of at most `most` entries. */
+struct gm_matrix_rows gm_matrix_begin(struct gm_arena *arena, size_t rows, size_t columns, size_t most);
+/* Adds to an entry of the row; no column is below 0. */
+void gm_matrix_add(struct gm_matrix_rows *rows, int column, double value);
+/* Ends the row; columns that are not sorted keep the order in which they came. */
+void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted);
+/* The matrix after its last row. */
+struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows);
+
 /* a b */
 struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matrix *a,
                                    const struct gm_matrix *b);

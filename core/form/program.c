@@ -22,17 +22,24 @@ struct part {
     gm_node_id node;
 };
 
+/* A node of the graph. */
+struct known {
+    bool marked;   /* a root needs it */
+    bool of_forms; /* it depends on forms or their operators */
+    bool of_place; /* on x, y, z */
+    bool of_time;
+    struct part part; /* if it is marked */
+};
+
 struct compiling {
+    struct gm_arena *arena; /* of the system */
     struct gm_form_program *program;
     struct gm_user_system *system;
+    const struct gm_form_root *roots;
     struct gm_fault *fault;
-    bool *marked;   /* for each node: a root needs it */
-    bool *of_forms; /* it depends on forms or their operators */
-    bool *of_place; /* on x, y, z */
-    bool *of_time;
-    struct part *parts; /* of nodes that depend on forms */
-    size_t nodes;       /* of the graph when it began */
-    bool linear, failed;
+    struct known *known;
+    size_t nodes; /* of the graph when it began */
+    bool linear;
     gm_node_id now; /* the node that is compiled */
 };
 
@@ -79,44 +86,30 @@ static const char *text_of(const struct compiling *compiling, gm_node_id node, c
     return text;
 }
 
-/* Notes the first fault at the node that is compiled. Returns no part. */
-__attribute__((format(printf, 2, 3))) static struct part refuse(struct compiling *compiling,
-                                                                const char *format, ...)
+/* Leaves with a fault at the node that is compiled. */
+__attribute__((format(printf, 2, 3))) _Noreturn static void refuse(struct compiling *compiling,
+                                                                   const char *format, ...)
 {
-    if (!compiling->failed) {
-        char sentence[GM_FAULT_SENTENCE];
-        va_list list;
-        va_start(list, format);
-        vsnprintf(sentence, sizeof sentence, format, list);
-        va_end(list);
-        const uint32_t place = compiling->system->graph.places[compiling->now];
-        gm_fail(compiling->fault, place == GM_NO_PLACE ? compiling->fault->offset : place, "%s", sentence);
-        compiling->failed = true;
-    }
-    return (struct part){any_number, NONE, compiling->now};
+    char sentence[GM_FAULT_SENTENCE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(sentence, sizeof sentence, format, list);
+    va_end(list);
+    const uint32_t place = compiling->system->graph.places[compiling->now];
+    gm_fail(compiling->fault, place == GM_NO_PLACE ? compiling->fault->offset : place, "%s", sentence);
+    gm_arena_leave(compiling->arena);
 }
 
-static size_t emit(struct compiling *compiling, struct gm_form_step step)
+/* Adds a step. */
+static struct part made(struct compiling *compiling, struct gm_form_step step)
 {
     struct gm_form_program *program = compiling->program;
     if ((program->count & (program->count - 1)) == 0) {
-        program->steps = gm_arena_resize(compiling->system->arena, program->steps,
+        program->steps = gm_arena_resize(compiling->arena, program->steps,
                                          program->count ? 2 * program->count : 1, sizeof *program->steps);
     }
-    if (!program->steps) {
-        compiling->failed = true;
-        compiling->fault->sentence[0] = '\0';
-        program->count = 0;
-        return 0;
-    }
     program->steps[program->count] = step;
-    return program->count++;
-}
-
-static struct part made(struct compiling *compiling, struct gm_form_step step)
-{
-    const size_t number = emit(compiling, step);
-    return (struct part){step.type, number, compiling->now};
+    return (struct part){step.type, program->count++, compiling->now};
 }
 
 /* Renumbers a formula in x y z t and parameters. */
@@ -124,10 +117,7 @@ static gm_node_id renumbered(struct compiling *compiling, gm_node_id node)
 {
     struct gm_user_system *system = compiling->system;
     gm_node_id *others = gm_system_no_nodes(system, system->variable_count);
-    if (!others) {
-        compiling->failed = true;
-        return node;
-    }
+    gm_arena_need(compiling->arena, others);
     others[system->n] = gm_formula_variable(&system->graph, GM_FORM_PLACES);
     for (size_t i = 0; i < GM_FORM_PLACES; i++) {
         others[system->velocities + i] = gm_formula_variable(&system->graph, i);
@@ -135,9 +125,8 @@ static gm_node_id renumbered(struct compiling *compiling, gm_node_id node)
     for (size_t i = system->parameters; i < system->velocities; i++) {
         others[i] = gm_formula_variable(&system->graph, GM_SAMPLE_INPUTS + i - system->parameters);
     }
-    if (!gm_formula_substitute(&system->graph, &node, 1, others, system->variable_count)) {
-        compiling->failed = true;
-    }
+    gm_arena_need(compiling->arena,
+                  gm_formula_substitute(&system->graph, &node, 1, others, system->variable_count));
     return node;
 }
 
@@ -154,7 +143,7 @@ static struct part sampled(struct compiling *compiling, struct part part, struct
         memcpy(nodes, call->operands, call->count * sizeof *nodes);
     }
     for (size_t i = 0; i < step.components; i++) {
-        step.needs |= compiling->of_time[nodes[i]] ? GM_NEEDS_TIME : 0;
+        step.needs |= compiling->known[nodes[i]].of_time ? GM_NEEDS_TIME : 0;
         step.nodes[i] = renumbered(compiling, nodes[i]);
     }
     return made(compiling, step);
@@ -210,10 +199,10 @@ static struct part operate(struct compiling *compiling, enum gm_operation operat
         const unsigned factor = p & GM_NEEDS_UNKNOWNS ? q : p;
         if (!scaled || (factor & GM_NEEDS_UNKNOWNS) ||
             (operation == GM_OPERATION_DIVIDE && (q & GM_NEEDS_UNKNOWNS))) {
-            return refuse(compiling, "an equation is linear in its unknowns, and this is not");
+            refuse(compiling, "an equation is linear in its unknowns, and this is not");
         }
         if (factor) {
-            return refuse(compiling, "the factor of an unknown does not change in time");
+            refuse(compiling, "the factor of an unknown does not change in time");
         }
     }
     const struct gm_form_type type = a.type.degree == GM_FORM_NUMBER && !unary ? b.type : a.type;
@@ -255,7 +244,7 @@ static struct part star(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
     if (a.type.degree == GM_FORM_NUMBER) {
-        return refuse(compiling, "star is of a form, and this is a number");
+        refuse(compiling, "star is of a form, and this is a number");
     }
     const struct gm_form_type type = {2 - a.type.degree, !a.type.dual};
     /* star star is 1, or -1 of a 1-form: nothing is computed */
@@ -278,8 +267,8 @@ static struct part d(struct compiling *compiling, struct part a)
     a = decided(compiling, a);
     if (a.type.degree < 0 || a.type.degree == 2) {
         char text[80];
-        return refuse(compiling, "d is of a 0-form or a 1-form, and %s is %s",
-                      text_of(compiling, a.node, text, sizeof text), gm_form_type_text(a.type));
+        refuse(compiling, "d is of a 0-form or a 1-form, and %s is %s",
+               text_of(compiling, a.node, text, sizeof text), gm_form_type_text(a.type));
     }
     const struct gm_form_type type = {a.type.degree + 1, a.type.dual};
     const struct gm_form_step *step = &compiling->program->steps[a.step];
@@ -296,8 +285,7 @@ static struct part delta(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
     if (a.type.degree < 1) {
-        return refuse(compiling, "delta is of a 1-form or a 2-form, and this is %s",
-                      gm_form_type_text(a.type));
+        refuse(compiling, "delta is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
     return negative(compiling, star(compiling, d(compiling, star(compiling, a))));
 }
@@ -306,7 +294,7 @@ static struct part laplace(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
     if (a.type.degree == GM_FORM_NUMBER) {
-        return refuse(compiling, "laplace is of a form, and this is a number");
+        refuse(compiling, "laplace is of a form, and this is a number");
     }
     if (a.type.degree == 0 && !a.type.dual) {
         return times(compiling, GM_MATRIX_LAPLACE, a, a.type);
@@ -334,13 +322,12 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
     b = decided(compiling, b);
     const int j = a.type.degree, k = b.type.degree;
     if (j < 0 || k < 0 || a.type.dual || b.type.dual || j + k > 2) {
-        return refuse(compiling,
-                      "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
-                      gm_form_type_text(a.type), gm_form_type_text(b.type));
+        refuse(compiling, "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
+               gm_form_type_text(a.type), gm_form_type_text(b.type));
     }
     if (j == 1 && k == 1) {
         if (compiling->linear && ((needs_of(compiling, a) | needs_of(compiling, b)) & GM_NEEDS_UNKNOWNS)) {
-            return refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
+            refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
         }
         return made(compiling, (struct gm_form_step){.kind = GM_STEP_WEDGE,
                                                      .type = {2, false},
@@ -361,11 +348,11 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
     const struct gm_form_type velocity = {1, true};
     a = decided(compiling, a);
     if (!fit(compiling, &u, velocity)) {
-        return refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
-                      gm_form_type_text(u.type));
+        refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
+               gm_form_type_text(u.type));
     }
     if (a.type.degree != 2) {
-        return refuse(compiling, "interior is of a 2-form here, and this is %s", gm_form_type_text(a.type));
+        refuse(compiling, "interior is of a 2-form here, and this is %s", gm_form_type_text(a.type));
     }
     struct part flux = star(compiling, u);
     struct part mean = star(compiling, a);
@@ -381,7 +368,7 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
 static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
 {
     if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
-        return refuse(compiling, "an equation has no numbers that are made of its unknowns");
+        refuse(compiling, "an equation has no numbers that are made of its unknowns");
     }
     return made(compiling,
                 (struct gm_form_step){
@@ -395,8 +382,7 @@ static struct part integral(struct compiling *compiling, struct part a)
     }
     a = decided(compiling, a);
     if (a.type.degree == 1 || a.type.degree < 0) {
-        return refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s",
-                      gm_form_type_text(a.type));
+        refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
     return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
 }
@@ -410,11 +396,11 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
     }
     a = decided(compiling, a);
     if (a.type.degree < 0 || !fit(compiling, &b, a.type)) {
-        return refuse(compiling, "inner is of two forms of one type, and these are %s and %s",
-                      gm_form_type_text(a.type), gm_form_type_text(b.type));
+        refuse(compiling, "inner is of two forms of one type, and these are %s and %s",
+               gm_form_type_text(a.type), gm_form_type_text(b.type));
     }
     if (b.type.degree == GM_FORM_NUMBER) {
-        return refuse(compiling, "inner is of two forms, and this is a number");
+        refuse(compiling, "inner is of two forms, and this is a number");
     }
     struct part other = star(compiling, b);
     other.type = a.type;
@@ -430,14 +416,15 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
 static struct part closed(struct compiling *compiling, gm_node_id let, struct part derivative)
 {
     const struct gm_user_system *system = compiling->system;
-    for (size_t i = 0; i < system->item_count && !compiling->failed; i++) {
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count < 2 || item->nodes[1] != let) {
             continue;
         }
         const struct part formula = {{GM_FORM_PLACE, false}, NONE, item->nodes[0]};
-        if (derivative.type.degree != 2 || !derivative.type.dual || compiling->of_forms[item->nodes[0]]) {
-            return refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
+        if (derivative.type.degree != 2 || !derivative.type.dual ||
+            compiling->known[item->nodes[0]].of_forms) {
+            refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
         }
         const struct part along = sampled(compiling, formula, (struct gm_form_type){1, false});
         const struct part closing = made(compiling, (struct gm_form_step){.kind = GM_STEP_CLOSING,
@@ -452,8 +439,8 @@ static struct part closed(struct compiling *compiling, gm_node_id let, struct pa
 
 static struct part called(struct compiling *compiling, const struct gm_form_call *call)
 {
-    const struct part a = compiling->parts[call->operands[0]],
-                      b = compiling->parts[call->operands[call->count > 1 ? 1 : 0]];
+    const struct part a = compiling->known[call->operands[0]].part,
+                      b = compiling->known[call->operands[call->count > 1 ? 1 : 0]].part;
     switch (call->operator) {
     case GM_FORM_D:
         return closed(compiling, call->operands[0], d(compiling, a));
@@ -470,14 +457,14 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
     case GM_FORM_LIE: {
         const struct part c = decided(compiling, b);
         if (c.type.degree != 2) {
-            return refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
+            refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
         }
         return d(compiling, interior(compiling, a, c));
     }
     case GM_FORM_FORM:
         for (size_t i = 0; i < call->count; i++) {
-            if (compiling->of_forms[call->operands[i]]) {
-                return refuse(compiling, "form(f, g) has formulas of x, y, z and t");
+            if (compiling->known[call->operands[i]].of_forms) {
+                refuse(compiling, "form(f, g) has formulas of x, y, z and t");
             }
         }
         return (struct part){{GM_FORM_COVECTOR, false}, NONE, compiling->now};
@@ -488,8 +475,8 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
     default: {
         const struct part c = decided(compiling, a);
         if (c.type.degree > 0) {
-            return refuse(compiling, "max and min of one form are of a 0-form, and this is %s",
-                          gm_form_type_text(c.type));
+            refuse(compiling, "max and min of one form are of a 0-form, and this is %s",
+                   gm_form_type_text(c.type));
         }
         return reduced(compiling, call->operator== GM_FORM_LARGEST ? GM_STEP_LARGEST : GM_STEP_LEAST, c);
     }
@@ -536,12 +523,12 @@ static struct part two(struct compiling *compiling, enum gm_operation operation,
         return wedge(compiling, a, b);
     }
     char first[80], second[80];
-    return refuse(compiling, "%s is %s and %s %s: they cannot be %s",
-                  text_of(compiling, a.node, first, sizeof first), gm_form_type_text(a.type),
-                  text_of(compiling, b.node, second, sizeof second), gm_form_type_text(b.type),
-                  sum       ? "added"
-                  : product ? "multiplied with *; wedge(a, b) is a product of forms"
-                            : "combined so");
+    refuse(compiling, "%s is %s and %s %s: they cannot be %s",
+           text_of(compiling, a.node, first, sizeof first), gm_form_type_text(a.type),
+           text_of(compiling, b.node, second, sizeof second), gm_form_type_text(b.type),
+           sum       ? "added"
+           : product ? "multiplied with *; wedge(a, b) is a product of forms"
+                     : "combined so");
 }
 
 static struct part compile(struct compiling *compiling, gm_node_id id)
@@ -549,8 +536,9 @@ static struct part compile(struct compiling *compiling, gm_node_id id)
     const struct gm_user_system *system = compiling->system;
     const struct gm_node node = system->graph.nodes[id];
     compiling->now = id;
-    if (!compiling->of_forms[id]) {
-        return (struct part){{compiling->of_place[id] ? GM_FORM_PLACE : GM_FORM_NUMBER, false}, NONE, id};
+    if (!compiling->known[id].of_forms) {
+        return (struct part){
+            {compiling->known[id].of_place ? GM_FORM_PLACE : GM_FORM_NUMBER, false}, NONE, id};
     }
     if (node.operation == GM_VARIABLE && node.a < system->n) {
         const struct gm_form_declared *form = &system->forms[node.a];
@@ -563,83 +551,75 @@ static struct part compile(struct compiling *compiling, gm_node_id id)
     if (node.operation == GM_VARIABLE) {
         return called(compiling, &system->calls[node.a - system->first_call]);
     }
-    struct part a = compiling->parts[node.a];
+    struct part a = compiling->known[node.a].part;
     if (gm_operation_rows[node.operation].arity == 2) {
-        return two(compiling, node.operation, a, compiling->parts[node.b]);
+        return two(compiling, node.operation, a, compiling->known[node.b].part);
     }
     a = decided(compiling, a);
     if (node.operation != GM_OPERATION_NEGATE && a.type.degree > 0) {
-        return refuse(compiling, "%s is of a number or a 0-form, and this is %s",
-                      gm_operation_rows[node.operation].name, gm_form_type_text(a.type));
+        refuse(compiling, "%s is of a number or a 0-form, and this is %s",
+               gm_operation_rows[node.operation].name, gm_form_type_text(a.type));
     }
     return operate(compiling, node.operation, a, a);
 }
 
 /* Marks what the roots need, from above, and then what depends on forms, place and time, from below. */
-static bool survey(struct compiling *compiling, const struct gm_form_root *roots, size_t count)
+static void survey(struct compiling *compiling)
 {
     const struct gm_user_system *system = compiling->system;
-    struct gm_arena *arena = system->arena;
     const size_t nodes = compiling->nodes = system->graph.count;
-    compiling->marked = gm_arena_take(arena, nodes + 1, sizeof(bool));
-    compiling->of_forms = gm_arena_take(arena, nodes + 1, sizeof(bool));
-    compiling->of_place = gm_arena_take(arena, nodes + 1, sizeof(bool));
-    compiling->of_time = gm_arena_take(arena, nodes + 1, sizeof(bool));
-    compiling->parts = gm_arena_take(arena, nodes + 1, sizeof *compiling->parts);
-    if (!compiling->marked || !compiling->of_forms || !compiling->of_place || !compiling->of_time ||
-        !compiling->parts) {
-        return false;
-    }
-    for (size_t i = 0; i < count; i++) {
-        compiling->marked[roots[i].node] = true;
+    struct known *known = compiling->known = gm_arena_take(compiling->arena, nodes + 1, sizeof *known);
+    for (size_t i = 0; i < compiling->program->root_count; i++) {
+        known[compiling->roots[i].node].marked = true;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_BOUNDARY) {
-            compiling->marked[item->nodes[0]] = true;
+            known[item->nodes[0]].marked = true;
         }
     }
     for (size_t i = nodes; i > 0; i--) {
         const struct gm_node *node = &system->graph.nodes[i - 1];
-        if (!compiling->marked[i - 1] || node->operation == GM_CONSTANT) {
+        if (!known[i - 1].marked || node->operation == GM_CONSTANT) {
             continue;
         }
         if (node->operation == GM_VARIABLE) {
             const size_t call = node->a - system->first_call;
             for (size_t k = 0; node->a >= system->first_call && k < system->calls[call].count; k++) {
-                compiling->marked[system->calls[call].operands[k]] = true;
+                known[system->calls[call].operands[k]].marked = true;
             }
             continue;
         }
-        compiling->marked[node->a] = true;
+        known[node->a].marked = true;
         if (gm_operation_rows[node->operation].arity == 2) {
-            compiling->marked[node->b] = true;
+            known[node->b].marked = true;
         }
     }
     for (size_t i = 0; i < nodes; i++) {
         const struct gm_node *node = &system->graph.nodes[i];
-        if (!compiling->marked[i] || node->operation == GM_CONSTANT) {
+        struct known *here = &known[i];
+        if (!here->marked || node->operation == GM_CONSTANT) {
             continue;
         }
         if (node->operation == GM_VARIABLE) {
             const size_t number = node->a;
-            compiling->of_forms[i] = number < system->n || number >= system->first_call;
-            compiling->of_place[i] = number >= system->velocities && number < system->first_call;
-            compiling->of_time[i] = number == system->n;
+            here->of_forms = number < system->n || number >= system->first_call;
+            here->of_place = number >= system->velocities && number < system->first_call;
+            here->of_time = number == system->n;
             continue;
         }
-        const gm_node_id other = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
-        compiling->of_forms[i] = compiling->of_forms[node->a] || compiling->of_forms[other];
-        compiling->of_place[i] = compiling->of_place[node->a] || compiling->of_place[other];
-        compiling->of_time[i] = compiling->of_time[node->a] || compiling->of_time[other];
+        const struct known *a = &known[node->a],
+                           *b = &known[gm_operation_rows[node->operation].arity == 2 ? node->b : node->a];
+        here->of_forms = a->of_forms || b->of_forms;
+        here->of_place = a->of_place || b->of_place;
+        here->of_time = a->of_time || b->of_time;
     }
-    return true;
 }
 
 /* The step of a root, of the type that it has to be. */
 static void finish(struct compiling *compiling, const struct gm_form_root *root, size_t *step)
 {
-    struct part part = compiling->parts[root->node];
+    struct part part = compiling->known[root->node].part;
     compiling->now = root->node;
     compiling->fault->offset = root->place;
     const bool formula = is_formula(part) && part.type.degree != GM_FORM_COVECTOR;
@@ -662,23 +642,30 @@ static void finish(struct compiling *compiling, const struct gm_form_root *root,
     *step = part.step;
 }
 
+static void compile_all(struct gm_arena *arena, void *data)
+{
+    struct compiling *compiling = data;
+    struct gm_form_program *program = compiling->program;
+    compiling->arena = arena;
+    program->roots = gm_arena_take(arena, program->root_count + 1, sizeof *program->roots);
+    survey(compiling);
+    for (size_t i = 0; i < compiling->nodes; i++) {
+        if (compiling->known[i].marked) {
+            compiling->known[i].part = compile(compiling, (gm_node_id)i);
+        }
+    }
+    for (size_t i = 0; i < program->root_count; i++) {
+        finish(compiling, &compiling->roots[i], &program->roots[i]);
+    }
+    gm_arena_need(arena, !compiling->system->graph.failed);
+}
+
 bool gm_form_compile(struct gm_form_program *program, struct gm_user_system *system,
                      const struct gm_form_root *roots, size_t count, bool linear, struct gm_fault *fault)
 {
-    struct compiling compiling = {.program = program, .system = system, .fault = fault, .linear = linear};
-    *program = (struct gm_form_program){
-        .roots = gm_arena_take(system->arena, count + 1, sizeof *program->roots), .root_count = count};
+    struct compiling compiling = {
+        .program = program, .system = system, .roots = roots, .fault = fault, .linear = linear};
+    *program = (struct gm_form_program){.root_count = count};
     *fault = (struct gm_fault){0};
-    if (!program->roots || !survey(&compiling, roots, count)) {
-        return false;
-    }
-    for (size_t i = 0; i < compiling.nodes && !compiling.failed; i++) {
-        if (compiling.marked[i]) {
-            compiling.parts[i] = compile(&compiling, (gm_node_id)i);
-        }
-    }
-    for (size_t i = 0; i < count && !compiling.failed; i++) {
-        finish(&compiling, &roots[i], &program->roots[i]);
-    }
-    return !compiling.failed && !system->graph.failed;
+    return gm_arena_run(system->arena, compile_all, &compiling);
 }

@@ -168,27 +168,24 @@ static void make_derivatives(struct gm_form_space *space)
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }
 
-static void close_mass(void *mass)
+static void close_factor(void *factor)
 {
-    gm_cholesky_close(mass);
+    gm_cholesky_close(factor);
 }
 
-/* The rows of a symmetric matrix up to the diagonal. */
-static struct gm_cholesky *factor(struct gm_arena *arena, const struct gm_matrix *a)
+struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
-    int *start = gm_arena_take(arena, a->rows + 1, sizeof *start);
-    int *column = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *column);
-    double *value = gm_arena_take(arena, (size_t)a->start[a->rows], sizeof *value);
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->rows, (size_t)a->start[a->rows]);
     for (size_t i = 0; i < a->rows; i++) {
-        start[i + 1] = start[i];
-        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            if (a->column[k] <= (int)i) {
-                column[start[i + 1]] = a->column[k];
-                value[start[i + 1]++] = a->value[k];
-            }
+        for (int k = a->start[i]; k < a->start[i + 1] && a->column[k] <= (int)i; k++) {
+            gm_matrix_add(&rows, a->column[k], a->value[k]);
         }
+        gm_matrix_end_row(&rows, false);
     }
-    return gm_cholesky_open(a->rows, start, column, value, GM_CHOLESKY_EXACT);
+    const struct gm_matrix half = gm_matrix_end(&rows);
+    struct gm_cholesky *factor =
+        gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
+    return factor ? gm_arena_keep(arena, factor, close_factor) : NULL;
 }
 
 static void make_stars(struct gm_form_space *space)
@@ -213,7 +210,7 @@ static void make_stars(struct gm_form_space *space)
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
     } else {
         matrix[GM_MATRIX_STAR1] = mass_of(space);
-        space->mass = gm_arena_keep(arena, factor(arena, &matrix[GM_MATRIX_STAR1]), close_mass);
+        space->mass = gm_matrix_factor(arena, &matrix[GM_MATRIX_STAR1]);
         gm_arena_need(arena, space->mass);
     }
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);

@@ -56,6 +56,10 @@ struct gm_form_space {
     struct gm_form_points *points[2][3]; /* of dual and primal forms; NULL: not needed yet */
 };
 
+/* Factors a symmetric matrix, in a body of the arena, which keeps the factor; NULL if it is not positive definite, or
+   when out of memory. */
+struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a);
+
 /* Takes the complex; false when out of memory, and nothing to close. */
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
 void gm_form_space_close(struct gm_form_space *space);

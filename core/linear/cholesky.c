@@ -1,10 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. It is opened when a flow is:
-   with its LAPACK, BLAS and METIS it is a quarter of all that the program would load at every start. */
+   with its LAPACK, BLAS and METIS it is a quarter of all that the program would load at every start.
+
+   Triangular solves by supernodes, after E. Ng & B. Peyton, SIAM J. Sci. Comput. 14 (1993) 1034: with x_s the
+   columns of a supernode, D its triangle, M what is below it in the rows R,
+       L x = b:   x_s = D^-1 b_s,   b_R -= M x_s      from the first supernode on
+       L' x = b:  x_s = D^-T (b_s - M' x_R)           from the last one back */
 #include "core/linear/cholesky.h"
 
 #include <dlfcn.h>
+#include <math.h>
 #include <pthread.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,15 +20,145 @@
 #include <suitesparse/cholmod.h>
 #include <suitesparse/umfpack.h>
 
-#include "core/linear/supernodes.h"
+#include "core/basics.h"
 #include "core/memory.h"
+
+/* ---- triangles ---- */
+
+/* A lower triangular matrix L by supernodes: columns first[s] .. first[s + 1] have their entries in the same
+   rows, row[row_start[s]] .. row[row_start[s + 1]] in increasing order, the first of which are the columns
+   themselves. The entries are a panel, column by column, from value_start[s] on. Its entries on or above the
+   diagonal of L are ignored. Values are doubles, floats, or integers with a unit S_jj for each column,
+   L = M S; the two other pointers are NULL. */
+struct supernodes {
+    size_t n, supernodes, most_rows; /* most_rows: of a panel */
+    const int *first, *row_start, *row, *value_start;
+    double *wide;
+    float *narrow;
+    int16_t *whole;
+    double *inverse; /* n: 1 / L_ii, or 1 / M_ii */
+    double *weight;  /* n: 1 / S_ii^2; not of doubles */
+};
+
+#define REAL double
+#define STORED double
+#define LANES 4
+#define VALUES wide
+#define PASS(name) name##_wide
+#include "core/linear/supernodes.loop.h"
+
+#define REAL float
+#define STORED float
+#define LANES 8
+#define VALUES narrow
+#define PASS(name) name##_narrow
+#include "core/linear/supernodes.loop.h"
+
+#define REAL float
+#define STORED int16_t
+#define LANES 8
+#define VALUES whole
+#define PASS(name) name##_whole
+#include "core/linear/supernodes.loop.h"
+
+/* Computes `inverse` from the diagonal. */
+static void invert_diagonal(struct supernodes *triangle)
+{
+    for (size_t s = 0; s < triangle->supernodes; s++) {
+        const double *at = triangle->wide + triangle->value_start[s];
+        const int rows = triangle->row_start[s + 1] - triangle->row_start[s];
+        for (int j = triangle->first[s]; j < triangle->first[s + 1]; j++, at += rows + 1) {
+            triangle->inverse[j] = 1 / *at;
+        }
+    }
+}
+
+/* Writes `count` doubles below a diagonal as integers and returns their unit, for which the largest integer
+   has its largest value. Here and below the output overwrites doubles that are not needed any more. */
+static double make_whole(size_t count, const double *below, double diagonal, char *into)
+{
+    double most = 1e-9 * diagonal;
+    for (size_t i = 0; i < count; i++) {
+        most = fmax(most, fabs(below[i]));
+    }
+    const double unit = most / INT16_MAX;
+    for (size_t i = 0; i < count; i++) {
+        const int16_t whole = (int16_t)rint(below[i] / unit);
+        memcpy(into + i * sizeof whole, &whole, sizeof whole);
+    }
+    return unit;
+}
+
+static double make_floats(size_t count, const double *below, char *into)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float narrow = (float)below[i];
+        memcpy(into + i * sizeof narrow, &narrow, sizeof narrow);
+    }
+    return 1;
+}
+
+/* Converts the doubles to floats, or to integers if this number of values is then read faster, in the same
+   memory. Returns the number of bytes per value. */
+static size_t make_narrow(struct supernodes *triangle, size_t values)
+{
+    const size_t in_cache = (size_t)1 << 20; /* these take less time as floats, which need not be converted */
+    const bool whole = values > in_cache;
+    const size_t bytes = whole ? sizeof *triangle->whole : sizeof *triangle->narrow;
+    char *into = (char *)triangle->wide;
+    for (size_t s = 0; s < triangle->supernodes; s++) {
+        const size_t rows = (size_t)(triangle->row_start[s + 1] - triangle->row_start[s]),
+                     start = (size_t)triangle->value_start[s], first = (size_t)triangle->first[s],
+                     columns = (size_t)triangle->first[s + 1] - first;
+        for (size_t j = 0; j < columns; j++) {
+            const size_t at = start + j * rows + j + 1, count = rows - j - 1;
+            const double *below = triangle->wide + at;
+            double *inverse = triangle->inverse + first + j;
+            const double unit = whole ? make_whole(count, below, 1 / *inverse, into + at * bytes)
+                                      : make_floats(count, below, into + at * bytes);
+            *inverse *= unit;
+            triangle->weight[first + j] = 1 / (unit * unit);
+        }
+    }
+    triangle->whole = whole ? (int16_t *)(void *)into : NULL;
+    triangle->narrow = whole ? NULL : (float *)(void *)into;
+    triangle->wide = NULL;
+    return bytes;
+}
+
+/* Solves L L' x = b in place. scratch: n + 3 most_rows numbers. In single precision unless the values are doubles. The
+   order of sums does not depend on the processor. */
+static void solve_both(const struct supernodes *triangle, double *x, double *scratch)
+{
+    if (triangle->wide) {
+        forward_wide(triangle, x, scratch, NULL);
+        backward_wide(triangle, x, scratch, NULL);
+        return;
+    }
+    /* M S S M' x = b */
+    float *narrow = (float *)(void *)scratch, *panel = narrow + triangle->n,
+          *read = panel + triangle->most_rows;
+    for (size_t i = 0; i < triangle->n; i++) {
+        narrow[i] = (float)x[i];
+    }
+    (triangle->whole ? forward_whole : forward_narrow)(triangle, narrow, panel, read);
+    for (size_t i = 0; i < triangle->n; i++) {
+        narrow[i] = (float)(narrow[i] * triangle->weight[i]);
+    }
+    (triangle->whole ? backward_whole : backward_narrow)(triangle, narrow, panel, read);
+    for (size_t i = 0; i < triangle->n; i++) {
+        x[i] = (double)narrow[i];
+    }
+}
+
+/* ---- factors ---- */
 
 /* L L' = P A P': L and P are CHOLMOD's, which makes them once; solving with them, again and again, is not. */
 struct gm_cholesky {
     cholmod_common common;
     cholmod_factor *factor;
-    struct gm_supernodes triangle; /* the triangle, in the factor's memory */
-    double *numbers;               /* the memory of the next two, and of the triangle's */
+    struct supernodes triangle; /* the triangle, in the factor's memory */
+    double *numbers;            /* the memory of the next two, and of the triangle's */
     double *permuted, *scratch;
 };
 
@@ -101,7 +238,7 @@ const char *gm_cholesky_missing(void)
     return missing[0] ? missing : NULL;
 }
 
-static size_t largest_panel(const struct gm_supernodes *triangle)
+static size_t largest_panel(const struct supernodes *triangle)
 {
     size_t most = 0;
     for (size_t s = 0; s < triangle->supernodes; s++) {
@@ -118,7 +255,7 @@ static size_t largest_panel(const struct gm_supernodes *triangle)
 static bool narrow(struct gm_cholesky *cholesky)
 {
     const double good_enough = .25;
-    struct gm_supernodes *triangle = &cholesky->triangle;
+    struct supernodes *triangle = &cholesky->triangle;
     cholmod_factor *factor = cholesky->factor;
     const size_t n = triangle->n;
     double *x = malloc(2 * n * sizeof *x);
@@ -129,14 +266,14 @@ static bool narrow(struct gm_cholesky *cholesky)
     for (size_t i = 0; i < n; i++) {
         x[i] = rough[i] = 1;
     }
-    gm_supernodes_solve(triangle, x, cholesky->scratch);
-    void *less = realloc(factor->x, factor->xsize * gm_supernodes_narrow(triangle, factor->xsize));
+    solve_both(triangle, x, cholesky->scratch);
+    void *less = realloc(factor->x, factor->xsize * make_narrow(triangle, factor->xsize));
     if (less) {
         factor->x = less;
         triangle->whole = triangle->whole ? less : NULL;
         triangle->narrow = triangle->narrow ? less : NULL;
     }
-    gm_supernodes_solve(triangle, rough, cholesky->scratch);
+    solve_both(triangle, rough, cholesky->scratch);
     for (size_t i = 0; i < n; i++) {
         error += (rough[i] - x[i]) * (rough[i] - x[i]);
         size += x[i] * x[i];
@@ -174,14 +311,14 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     bool good = factor && suite.cholmod_factorize(&matrix, factor, common) && common->status == CHOLMOD_OK &&
                 factor->minor == n;
     if (good) {
-        struct gm_supernodes *triangle = &cholesky->triangle;
-        *triangle = (struct gm_supernodes){.n = n,
-                                           .supernodes = factor->nsuper,
-                                           .first = factor->super,
-                                           .row_start = factor->pi,
-                                           .row = factor->s,
-                                           .value_start = factor->px,
-                                           .wide = factor->x};
+        struct supernodes *triangle = &cholesky->triangle;
+        *triangle = (struct supernodes){.n = n,
+                                        .supernodes = factor->nsuper,
+                                        .first = factor->super,
+                                        .row_start = factor->pi,
+                                        .row = factor->s,
+                                        .value_start = factor->px,
+                                        .wide = factor->x};
         triangle->most_rows = largest_panel(triangle);
         cholesky->numbers = malloc((4 * n + 3 * triangle->most_rows) * sizeof *cholesky->numbers);
         good = cholesky->numbers;
@@ -194,7 +331,7 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     cholesky->triangle.weight = cholesky->numbers + n;
     cholesky->permuted = cholesky->numbers + 2 * n;
     cholesky->scratch = cholesky->numbers + 3 * n;
-    gm_supernodes_invert_diagonal(&cholesky->triangle);
+    invert_diagonal(&cholesky->triangle);
     if (precision == GM_CHOLESKY_ROUGH && !narrow(cholesky)) {
         gm_cholesky_close(cholesky);
         return gm_cholesky_open(n, start, column, value, GM_CHOLESKY_EXACT);
@@ -219,7 +356,7 @@ void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
     for (size_t i = 0; i < cholesky->triangle.n; i++) {
         cholesky->permuted[i] = b[place[i]];
     }
-    gm_supernodes_solve(&cholesky->triangle, cholesky->permuted, cholesky->scratch);
+    solve_both(&cholesky->triangle, cholesky->permuted, cholesky->scratch);
     for (size_t i = 0; i < cholesky->triangle.n; i++) {
         x[place[i]] = cholesky->permuted[i];
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Triangular solves in one precision. core/linear/supernodes.c includes this file with REAL, the type of the
+/* Triangular solves in one precision. core/linear/cholesky.c includes this file with REAL, the type of the
    solve, STORED, the type of the values, LANES, the number of partial sums, VALUES, the array of values, and
    PASS(name). Panels are read once, four columns at a time, since memory takes most of the time. */
 
@@ -21,7 +21,7 @@ static inline __attribute__((always_inline)) const REAL *PASS(read)(const STORED
 }
 
 /* L x = b */
-GM_CLONES static void PASS(forward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t,
+GM_CLONES static void PASS(forward)(const struct supernodes *triangle, REAL *restrict x, REAL *restrict t,
                                     REAL *restrict buffer)
 {
     for (size_t s = 0; s < triangle->supernodes; s++) {
@@ -79,7 +79,7 @@ static inline __attribute__((always_inline)) REAL PASS(sum)(PASS(lanes) lanes)
 }
 
 /* L' x = b */
-GM_CLONES static void PASS(backward)(const struct gm_supernodes *triangle, REAL *restrict x, REAL *restrict t,
+GM_CLONES static void PASS(backward)(const struct supernodes *triangle, REAL *restrict x, REAL *restrict t,
                                      REAL *restrict buffer)
 {
     for (size_t s = triangle->supernodes; s-- > 0;) {

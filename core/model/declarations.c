@@ -22,107 +22,98 @@ static const struct gm_system_variable unsaid = {.value = NAN,
 static struct gm_system_variable *add_variable(struct gm_reading *reading, const struct gm_entry *entry)
 {
     struct gm_user_system *system = reading->system;
-    if (!gm_reading_reserve(reading, (void **)&system->variables, system->variable_count,
-                            sizeof *system->variables)) {
-        return NULL;
-    }
-    struct gm_system_variable *variable = &system->variables[system->variable_count];
+    gm_reading_reserve(reading, (void **)&system->variables, system->variable_count,
+                       sizeof *system->variables);
+    struct gm_system_variable *variable = &system->variables[system->variable_count++];
     *variable = unsaid;
-    char index[32] = "";
-    if (entry->indexed) {
-        snprintf(index, sizeof index, "[%ld]", entry->index);
-    }
-    variable->name = gm_arena_print(system->arena, "%.*s%s", (int)entry->length, entry->name, index);
-    system->variable_count += variable->name != NULL;
-    return variable->name || gm_fail_memory(&reading->fault) ? variable : NULL;
+    variable->name = entry->indexed ? gm_arena_print(system->arena, "%.*s[%ld]", (int)entry->length,
+                                                     entry->name, entry->index)
+                                    : gm_arena_print(system->arena, "%.*s", (int)entry->length, entry->name);
+    return variable;
+}
+
+/* Adds a name with its variable. */
+static struct gm_system_variable *add_name(struct gm_reading *reading, struct gm_entry entry)
+{
+    gm_reading_add(reading, entry);
+    return add_variable(reading, &entry);
 }
 
 /* Adds a name, or all elements of a list, in a role, numbered from *count. */
-static bool add_names(struct gm_reading *reading, const struct gm_target *target, enum gm_entry_role role,
+static void add_names(struct gm_reading *reading, const struct gm_target *target, enum gm_entry_role role,
                       size_t *count)
 {
     struct gm_entry entry = gm_reading_entry_for(reading, target, role);
     long low = 0, high = 0;
     entry.indexed = target->index.begin < target->index.end;
     if (entry.indexed && !gm_reading_bounds(reading, target->index, "elements of a list", &low, &high)) {
-        return gm_fail_first(&reading->fault, target->index.begin,
-                             "the bounds of a list were expected, as in %.*s[1..3]",
-                             (int)(entry.length < 60 ? entry.length : 60), entry.name);
+        gm_system_refuse(reading->system, target->index.begin,
+                         "the bounds of a list were expected, as in %.*s[1..3]",
+                         gm_brief_length(entry.length), entry.name);
     }
     if (high < low) {
-        return gm_fail_first(&reading->fault, target->index.begin, "a list has at least one element");
+        gm_system_refuse(reading->system, target->index.begin, "a list has at least one element");
     }
-    for (long i = low; i <= high && !reading->fault.failed; i++) {
-        entry.index = i;
+    for (entry.index = low; entry.index <= high; entry.index++) {
         entry.number = (*count)++;
-        if (gm_reading_add(reading, entry)) {
-            add_variable(reading, &entry);
-        }
+        add_name(reading, entry);
     }
-    return !reading->fault.failed;
 }
 
 /* Adds names separated by blanks or commas. */
-static bool add_all_names(struct gm_reading *reading, struct gm_span rest, enum gm_entry_role role,
+static void add_all_names(struct gm_reading *reading, struct gm_span rest, enum gm_entry_role role,
                           size_t *count)
 {
-    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end && !reading->fault.failed;
+    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end;
          rest = gm_span_trimmed(reading->text, rest)) {
-        struct gm_target target;
         if (reading->text[rest.begin] == ',') {
             rest.begin++;
-        } else if (gm_reading_target(reading, &rest, &target)) {
+        } else {
+            const struct gm_target target = gm_reading_target(reading, &rest);
             add_names(reading, &target, role, count);
         }
     }
-    return !reading->fault.failed;
+}
+
+static void add_components(struct gm_reading *reading, struct gm_span names)
+{
+    add_all_names(reading, names, GM_ENTRY_COMPONENT, &reading->component_count);
 }
 
 /* Adds p_NAME or v_NAME for every coordinate, or NAME_t of a field. */
-static bool add_derived(struct gm_reading *reading, const char *before, const char *behind,
-                        enum gm_entry_role role, size_t *count, size_t n)
+static void add_derived(struct gm_reading *reading, const char *before, const char *behind,
+                        enum gm_entry_role role, size_t n)
 {
-    for (size_t i = 0, made = 0; made < n && !reading->fault.failed; i++) {
+    size_t *count = role == GM_ENTRY_COMPONENT ? &reading->component_count : &reading->velocity_count;
+    for (size_t i = 0, made = 0; made < n; i++) {
         struct gm_entry entry = reading->entries[i];
         if (entry.role != GM_ENTRY_COMPONENT) {
             continue;
         }
         entry.name = gm_arena_print(reading->system->arena, "%s%s%s", before, entry.name, behind);
-        if (!entry.name) {
-            return gm_fail_memory(&reading->fault);
-        }
         entry.length = strlen(entry.name);
         entry.role = role;
         entry.number = (*count)++;
-        if (gm_reading_add(reading, entry)) {
-            add_variable(reading, &entry);
-        }
+        add_name(reading, entry);
         made++;
     }
-    return !reading->fault.failed;
 }
 
 /* parameter: NAME = value; low .. high; meaning; unit */
-static bool add_parameter(struct gm_reading *reading, const struct gm_system_line *line, bool lists)
+static void add_parameter(struct gm_reading *reading, const struct gm_read_line *line, bool lists)
 {
     struct gm_span rest = line->value, piece;
-    struct gm_written_range range;
-    struct gm_target target;
     gm_span_take(reading->text, &rest, ";", &piece);
-    if (!gm_reading_assignment(reading, piece, &target)) {
-        return false;
-    }
+    const struct gm_target target = gm_reading_assignment(reading, piece);
     const bool is_list = target.index.begin < target.index.end;
     if (is_list != lists) {
-        return true;
+        return;
     }
     const size_t first = reading->parameter_count, entries = reading->entry_count;
-    if (!add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count)) {
-        return false;
-    }
+    add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count);
     struct gm_span values = target.value, value = values;
     size_t pieces = 0;
-    for (size_t i = first; i < reading->parameter_count && !reading->fault.failed; i++) {
+    for (size_t i = first; i < reading->parameter_count; i++) {
         struct gm_entry *entry = &reading->entries[entries + i - first];
         struct gm_system_variable *variable = &reading->system->variables[i];
         pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
@@ -132,12 +123,10 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
     }
     if (is_list &&
         (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first))) {
-        return gm_fail_first(&reading->fault, target.value.begin, "%zu values were expected, or one for all",
-                             reading->parameter_count - first);
+        gm_system_refuse(reading->system, target.value.begin, "%zu values were expected, or one for all",
+                         reading->parameter_count - first);
     }
-    if (!gm_reading_range(reading, rest, &range)) {
-        return false;
-    }
+    const struct gm_written_range range = gm_reading_range(reading, rest);
     for (size_t i = first; i < reading->parameter_count; i++) {
         struct gm_system_variable *variable = &reading->system->variables[i];
         variable->low = range.low;
@@ -145,13 +134,12 @@ static bool add_parameter(struct gm_reading *reading, const struct gm_system_lin
         variable->meaning = gm_reading_text(reading, range.meaning);
         variable->unit = gm_reading_text(reading, range.unit);
     }
-    return !reading->fault.failed;
 }
 
 /* Replaces values of the file by the given ones. */
 static void give(struct gm_reading *reading)
 {
-    for (size_t i = reading->system->choices.count; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = reading->system->choices.count; i < reading->entry_count; i++) {
         struct gm_entry *entry = &reading->entries[i];
         const char *name = reading->system->variables[entry->number].name;
         double given = NAN;
@@ -161,16 +149,14 @@ static void give(struct gm_reading *reading)
                 entry->node = gm_formula_constant(&reading->system->graph, given);
                 entry->read = true;
                 entry->value.end = entry->value.begin;
-                if (reading->system->graph.failed) {
-                    gm_fail_memory(&reading->fault);
-                }
+                gm_system_need_graph(reading->system);
             }
         }
     }
 }
 
 /* Adds half the length of a field's line and the points of its grid, as the last parameters. */
-static bool add_ring(struct gm_reading *reading)
+static void add_ring(struct gm_reading *reading)
 {
     static const struct {
         enum gm_system_word word;
@@ -179,8 +165,8 @@ static bool add_ring(struct gm_reading *reading)
     } rows[GM_RING_PARAMETERS] = {{GM_WORD_HALF_LENGTH, 20, "half the length of the line"},
                                   {GM_WORD_POINTS, 400, "of the grid"}};
     for (size_t i = 0; i < GM_RING_PARAMETERS; i++) {
-        const struct gm_system_line *line = gm_reading_line(reading, rows[i].word);
-        struct gm_entry entry = {.name = (char *)gm_system_words[rows[i].word].word,
+        const struct gm_read_line *line = gm_reading_line(reading, rows[i].word);
+        struct gm_entry entry = {.name = gm_system_words[rows[i].word].word,
                                  .length = strlen(gm_system_words[rows[i].word].word),
                                  .role = GM_ENTRY_PARAMETER,
                                  .number = reading->parameter_count++,
@@ -190,82 +176,83 @@ static bool add_ring(struct gm_reading *reading)
             struct gm_span rest = line->value;
             entry.place = line->place;
             gm_span_take(reading->text, &rest, ";", &entry.value);
-            if (!gm_reading_number(reading, entry.value, &number)) {
-                return false;
-            }
+            number = gm_reading_number(reading, entry.value);
         }
         entry.node = gm_formula_constant(&reading->system->graph, number);
-        struct gm_system_variable *variable =
-            gm_reading_add(reading, entry) ? add_variable(reading, &entry) : NULL;
-        if (!variable) {
-            return false;
-        }
+        struct gm_system_variable *variable = add_name(reading, entry);
         variable->derived = rows[i].word == GM_WORD_POINTS; /* a whole number: a row of the scene */
         variable->text = line ? gm_reading_text(reading, entry.value) : NULL;
         variable->meaning = gm_arena_print(reading->system->arena, "%s", rows[i].meaning);
         variable->unit = gm_reading_text(reading, (struct gm_span){0, 0});
-        if (!variable->meaning) {
-            return gm_fail_memory(&reading->fault);
-        }
     }
-    return !reading->fault.failed;
 }
 
 /* Lists follow the numbers that give their lengths; then all formulas are read, which may hold both. */
-bool gm_declared_parameters(struct gm_reading *reading)
+void gm_declared_parameters(struct gm_reading *reading)
 {
-    const struct gm_written_choices *choices = &reading->system->choices;
+    struct gm_user_system *system = reading->system;
+    const struct gm_written_choices *choices = &system->choices;
     for (size_t i = 0; i < choices->count; i++) {
-        gm_reading_add(reading, (struct gm_entry){.name = (char *)choices->list[i].name,
+        gm_reading_add(reading, (struct gm_entry){.name = choices->list[i].name,
                                                   .length = strlen(choices->list[i].name),
                                                   .place = choices->list[i].place,
                                                   .role = GM_ENTRY_CHOICE});
     }
     for (int lists = 0; lists < 2; lists++) {
-        for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+        for (size_t i = 0; i < reading->line_count; i++) {
             if (reading->lines[i].word == GM_WORD_PARAMETER) {
                 add_parameter(reading, &reading->lines[i], lists);
             }
         }
         give(reading);
     }
-    if (gm_system_is_field(reading->system) && !reading->fault.failed && !add_ring(reading)) {
-        return false;
+    if (gm_system_is_field(system)) {
+        add_ring(reading);
     }
-    for (size_t i = choices->count; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = choices->count; i < reading->entry_count; i++) {
+        if (!reading->entries[i].read) {
+            gm_reading_define(reading, (uint32_t)i);
+        }
         const struct gm_entry *entry = &reading->entries[i];
-        struct gm_system_variable *variable = &reading->system->variables[entry->number];
-        if (entry->read || gm_reading_define(reading, (uint32_t)i)) {
-            variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
+        struct gm_system_variable *variable = &system->variables[entry->number];
+        variable->value = system->graph.nodes[entry->node].value;
+        if (!isfinite(variable->value)) {
+            gm_system_refuse(system, entry->place, "%s is not a finite number", variable->name);
         }
-        if (!reading->fault.failed && !isfinite(variable->value)) {
-            gm_fail_first(&reading->fault, entry->place, "%s is not a finite number", variable->name);
-        } else if (!reading->fault.failed &&
-                   (variable->value < variable->low || variable->value > variable->high)) {
-            gm_fail_first(&reading->fault, entry->place, "%s = %g lies outside of its range, %g .. %g",
-                          variable->name, variable->value, variable->low, variable->high);
+        if (variable->value < variable->low || variable->value > variable->high) {
+            gm_system_refuse(system, entry->place, "%s = %g lies outside of its range, %g .. %g",
+                             variable->name, variable->value, variable->low, variable->high);
         }
     }
-    return !reading->fault.failed;
 }
 
 /* Returns the line of a triangulation; NULL without one, and for mesh: X = F, which moves nodes. */
-static const struct gm_system_line *mesh_of(const struct gm_reading *reading)
+static const struct gm_read_line *mesh_of(const struct gm_reading *reading)
 {
-    const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_MESH);
+    const struct gm_read_line *line = gm_reading_line(reading, GM_WORD_MESH);
     return line && gm_span_until(reading->text, line->value, "=") < line->value.end ? NULL : line;
 }
 
-bool gm_declared_kind(struct gm_reading *reading)
+/* Lines that a kind of systems cannot lack, beside those by which it is known. */
+static const struct {
+    enum gm_system_kind kind;
+    enum gm_system_word word, known_by; /* known_by: the line that a fault names */
+} needed[] = {{GM_MATRICES, GM_WORD_COMPONENTS, GM_WORD_K_MATRIX},
+              {GM_MATRICES, GM_WORD_L_MATRIX, GM_WORD_K_MATRIX},
+              {GM_MATRICES, GM_WORD_S_FUNCTION, GM_WORD_K_MATRIX},
+              {GM_LAGRANGIAN, GM_WORD_COORDINATES, GM_WORD_LAGRANGE},
+              {GM_CANONICAL, GM_WORD_COORDINATES, GM_WORD_HAMILTONIAN}};
+
+void gm_declared_kind(struct gm_reading *reading)
 {
-    const struct gm_system_line *energy = gm_reading_line(reading, GM_WORD_HAMILTONIAN),
-                                *lagrange = gm_reading_line(reading, GM_WORD_LAGRANGE),
-                                *rate = gm_reading_line(reading, GM_WORD_RATE),
-                                *bracket = gm_reading_line(reading, GM_WORD_BRACKET),
-                                *field = gm_reading_line(reading, GM_WORD_FIELD),
-                                *potential = gm_reading_line(reading, GM_WORD_POTENTIAL),
-                                *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX),
-                                *mesh = mesh_of(reading);
+    struct gm_user_system *system = reading->system;
+    const struct gm_read_line *energy = gm_reading_line(reading, GM_WORD_HAMILTONIAN),
+                              *lagrange = gm_reading_line(reading, GM_WORD_LAGRANGE),
+                              *rate = gm_reading_line(reading, GM_WORD_RATE),
+                              *bracket = gm_reading_line(reading, GM_WORD_BRACKET),
+                              *field = gm_reading_line(reading, GM_WORD_FIELD),
+                              *potential = gm_reading_line(reading, GM_WORD_POTENTIAL),
+                              *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX), *mesh = mesh_of(reading);
     enum gm_system_kind kind = mesh                          ? GM_FORMS
                                : matrix                      ? GM_MATRICES
                                : field && rate && !potential ? GM_EVOLUTION
@@ -279,91 +266,76 @@ bool gm_declared_kind(struct gm_reading *reading)
                                          "with K-matrix",  "of forms"};
     if (!matrix &&
         (gm_reading_line(reading, GM_WORD_L_MATRIX) || gm_reading_line(reading, GM_WORD_S_FUNCTION))) {
-        return gm_fail_first(&reading->fault, 0,
-                             "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
+        gm_system_refuse(system, 0,
+                         "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
     }
     if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh) {
-        return gm_fail_first(&reading->fault, 0,
-                             "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
-                             "or K-matrix, L-matrix and S");
+        gm_system_refuse(system, 0,
+                         "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
+                         "or K-matrix, L-matrix and S");
     }
     if (field && !mesh && gm_span_until(reading->text, field->value, "=") < field->value.end) {
-        return gm_fail_first(&reading->fault, field->place,
-                             "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
+        gm_system_refuse(system, field->place,
+                         "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
     }
     if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES && kind != GM_FORMS) {
-        return field ? gm_fail_first(
-                           &reading->fault, field->place,
-                           "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x")
-                     : gm_fail_first(&reading->fault, potential->place,
-                                     "V is of a field, which a line \"field\" names");
+        gm_system_refuse(system, (field ? field : potential)->place,
+                         field
+                             ? "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x"
+                             : "V is of a field, which a line \"field\" names");
     }
     if (kind == GM_POISSON && !energy) {
-        return gm_fail_first(&reading->fault, bracket->place, "a system with a bracket needs H");
+        gm_system_refuse(system, bracket->place, "a system with a bracket needs H");
     }
     for (size_t i = 0; i < reading->line_count; i++) {
-        const struct gm_system_line *line = &reading->lines[i];
+        const struct gm_read_line *line = &reading->lines[i];
         if (!(gm_system_words[line->word].kinds & 1u << kind)) {
-            return gm_fail_first(&reading->fault, line->place, "a system %s has no line \"%s\"", called[kind],
-                                 gm_system_words[line->word].word);
+            gm_system_refuse(system, line->place, "a system %s has no line \"%s\"", called[kind],
+                             gm_system_words[line->word].word);
         }
     }
-    static const enum gm_system_word needed[] = {GM_WORD_COMPONENTS, GM_WORD_L_MATRIX, GM_WORD_S_FUNCTION};
-    for (size_t i = 0; i < sizeof needed / sizeof *needed && kind == GM_MATRICES; i++) {
-        if (!gm_reading_line(reading, needed[i])) {
-            return gm_fail_first(&reading->fault, matrix->place, "a system with K-matrix needs a line \"%s\"",
-                                 gm_system_words[needed[i]].word);
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++) {
+        if (needed[i].kind == kind && !gm_reading_line(reading, needed[i].word)) {
+            gm_system_refuse(system, gm_reading_line(reading, needed[i].known_by)->place,
+                             "a system %s needs a line \"%s\"", called[kind],
+                             gm_system_words[needed[i].word].word);
         }
     }
-    if (kind <= GM_LAGRANGIAN && !gm_reading_line(reading, GM_WORD_COORDINATES)) {
-        return gm_fail_first(&reading->fault, (kind ? lagrange : energy)->place,
-                             "a system %s needs a line \"coordinates\"", called[kind]);
-    }
-    reading->system->kind = kind;
-    return true;
+    system->kind = kind;
 }
 
 /* Adds the new components on the left side of a rate or a bracket. */
-static bool add_components_of(struct gm_reading *reading, struct gm_span piece)
+static void add_components_of(struct gm_reading *reading, struct gm_span piece)
 {
     struct gm_span rest = {piece.begin, gm_span_until(reading->text, piece, "=")};
     for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end;
          rest = gm_span_trimmed(reading->text, rest)) {
-        struct gm_target target;
-        if (!gm_reading_target(reading, &rest, &target)) {
-            return false;
-        }
+        const struct gm_target target = gm_reading_target(reading, &rest);
         if (target.index.begin < target.index.end) {
-            return gm_fail_first(&reading->fault, target.name.begin,
-                                 "a system with lists needs a line \"components\"");
+            gm_system_refuse(reading->system, target.name.begin,
+                             "a system with lists needs a line \"components\"");
         }
-        if (!gm_reading_entry(reading, reading->text + target.name.begin, target.name.end - target.name.begin,
-                              false, 0)) {
+        if (!gm_reading_named(reading, target.name)) {
             add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
         }
     }
-    return !reading->fault.failed;
 }
 
 /* Adds components in the order of rates and brackets. */
-static bool add_components_in_order(struct gm_reading *reading, enum gm_system_word word)
+static void add_components_in_order(struct gm_reading *reading, enum gm_system_word word)
 {
-    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+    for (size_t i = 0; i < reading->line_count; i++) {
         struct gm_span rest = reading->lines[i].value, piece;
-        while (reading->lines[i].word == word && !reading->fault.failed &&
-               gm_span_take(reading->text, &rest, ",", &piece)) {
+        while (reading->lines[i].word == word && gm_span_take(reading->text, &rest, ",", &piece)) {
             add_components_of(reading, piece);
         }
     }
-    return !reading->fault.failed;
 }
 
 /* Returns the number of the component that a text names; SIZE_MAX for another text. */
 static size_t component_named(struct gm_reading *reading, struct gm_span name)
 {
-    name = gm_span_trimmed(reading->text, name);
-    const struct gm_entry *entry =
-        gm_reading_entry(reading, reading->text + name.begin, name.end - name.begin, false, 0);
+    const struct gm_entry *entry = gm_reading_named(reading, gm_span_trimmed(reading->text, name));
     return entry && entry->role == GM_ENTRY_COMPONENT ? entry->number : SIZE_MAX;
 }
 
@@ -411,18 +383,15 @@ static bool pair_components(struct gm_reading *reading, size_t *order)
 
 /* Reorders the components of x' = v and the rates of v, which may have any order: all x, then all v. The first of two
    fields, which is drawn, stays. */
-static bool put_places_first(struct gm_reading *reading)
+static void put_places_first(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const size_t n = reading->component_count, first = system->variable_count - n;
     size_t *order = gm_arena_take(system->arena, n + 1, sizeof *order);
     struct gm_system_variable *moved = gm_arena_take(system->arena, n + 1, sizeof *moved);
-    if (!order || !moved) {
-        return gm_fail_memory(&reading->fault);
-    }
     memset(order, 0xff, n * sizeof *order);
     if ((n == 2 && gm_system_is_field(system)) || !pair_components(reading, order)) {
-        return true;
+        return;
     }
     for (size_t i = 0; i < n; i++) {
         moved[order[i]] = system->variables[first + i];
@@ -432,53 +401,44 @@ static bool put_places_first(struct gm_reading *reading)
         struct gm_entry *entry = &reading->entries[i];
         entry->number = entry->role == GM_ENTRY_COMPONENT ? order[entry->number] : entry->number;
     }
-    return true;
 }
 
 /* Adds the tangents of all components: xi1_q, xi2_q. */
-static bool add_tangents(struct gm_reading *reading)
+static void add_tangents(struct gm_reading *reading)
 {
-    const struct gm_system_line *line = gm_reading_line(reading, GM_WORD_TANGENTS);
+    const struct gm_read_line *line = gm_reading_line(reading, GM_WORD_TANGENTS);
     const size_t n = reading->component_count;
-    long count = 0;
     if (!line || reading->without_tangents) {
-        return true;
+        return;
     }
-    if (!gm_reading_whole(reading, line->value, &count)) {
-        return false;
-    }
+    const long count = gm_reading_whole(reading, line->value);
     if (count < 1 || count > GM_MOST_TANGENTS || (size_t)count > n) {
-        return gm_fail_first(&reading->fault, line->value.begin,
-                             "tangents is %ld: there are 1 to %zu tangents of %zu component%s", count,
-                             n < GM_MOST_TANGENTS ? n : GM_MOST_TANGENTS, n, gm_plural((double)n));
+        gm_system_refuse(reading->system, line->value.begin,
+                         "tangents is %ld: there are 1 to %zu tangents of %zu component%s", count,
+                         n < GM_MOST_TANGENTS ? n : GM_MOST_TANGENTS, n, gm_plural((double)n));
     }
     if (gm_reading_line(reading, GM_WORD_CONSTRAINT)) {
-        return gm_fail_first(&reading->fault, line->place, "a system with constraints has no tangents");
+        gm_system_refuse(reading->system, line->place, "a system with constraints has no tangents");
     }
-    for (long k = 1; k <= count && !reading->fault.failed; k++) {
+    for (long k = 1; k <= count; k++) {
         char before[32];
         snprintf(before, sizeof before, "xi%ld_", k);
-        add_derived(reading, before, "", GM_ENTRY_COMPONENT, &reading->component_count, n);
+        add_derived(reading, before, "", GM_ENTRY_COMPONENT, n);
     }
     reading->system->tangents = (size_t)count;
-    return !reading->fault.failed;
 }
 
 /* Reorders variables: parameters, components, velocities become components, t, parameters, velocities,
    components at the start, components of the exact solution. Tangents move behind what they belong to. */
-static bool arrange(struct gm_reading *reading)
+static void arrange(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
     const size_t solutions = gm_system_is_field(system) ? 0 : n; /* of forms they are not used */
     struct gm_system_variable *all = gm_arena_take(system->arena, 2 * n + 1 + p + v + solutions, sizeof *all),
                               *met = system->variables;
-    char *t = gm_arena_print(system->arena, "t");
-    if (!all || !t) {
-        return gm_fail_memory(&reading->fault);
-    }
     all[n] = unsaid;
-    all[n].name = t;
+    all[n].name = gm_arena_print(system->arena, "t");
     /* a text without declarations has no variables; its fault comes later */
     if (met) {
         memcpy(all, met + p, n * sizeof *all);
@@ -504,259 +464,226 @@ static bool arrange(struct gm_reading *reading)
         struct gm_system_variable *other = &all[system->initial + i];
         *other = all[n];
         other->name = gm_arena_print(system->arena, i < n ? "%s(0)" : "exact(%s)", all[i % n].name);
-        if (!other->name) {
-            return gm_fail_memory(&reading->fault);
-        }
         system->variable_count++;
     }
     if (gm_system_is_form(system)) {
         system->first_call = system->velocities + GM_FORM_PLACES;
         system->calls = gm_arena_take(system->arena, GM_MOST_FORM_CALLS, sizeof *system->calls);
-        if (!system->calls) {
-            return gm_fail_memory(&reading->fault);
-        }
     }
     all[n].value = 0; /* unless the start names another time */
-    return true;
 }
 
-/* Adds the place x, which is not a component, with the offset of that line. */
-static bool add_place(struct gm_reading *reading, const struct gm_system_line *line)
+/* Adds a place, x, y or z, which is not a component, with the offset of that line. */
+static void add_place(struct gm_reading *reading, const char *name, size_t offset)
 {
-    char x[] = "x";
-    const struct gm_entry place = {.name = x,
-                                   .length = 1,
-                                   .place = line->place,
-                                   .role = GM_ENTRY_VELOCITY,
-                                   .number = reading->velocity_count++};
-    return gm_reading_add(reading, place) && add_variable(reading, &place);
+    add_name(reading, (struct gm_entry){.name = name,
+                                        .length = 1,
+                                        .place = offset,
+                                        .role = GM_ENTRY_VELOCITY,
+                                        .number = reading->velocity_count++});
 }
 
-/* Adds names, and reports it if there are not `least` to `most`. */
-static bool add_counted(struct gm_reading *reading, struct gm_span names, size_t least, size_t most,
-                        const char *sentence)
+/* Adds the components of a line, of which there are `least` to `most`, and x. */
+static void add_counted(struct gm_reading *reading, const struct gm_read_line *line, size_t least,
+                        size_t most, const char *sentence)
 {
-    if (!add_all_names(reading, names, GM_ENTRY_COMPONENT, &reading->component_count)) {
-        return false;
-    }
+    add_components(reading, line->value);
     const size_t n = reading->component_count;
-    return (n >= least && n <= most) ||
-           gm_fail_first(&reading->fault, names.begin, "there are %zu to %zu %s", least, most, sentence);
-}
-
-/* Adds fields, x, and their derivatives over x. */
-static bool add_fields(struct gm_reading *reading, const struct gm_system_line *field)
-{
-    static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
-    if (!add_counted(reading, field->value, 1, GM_MOST_FIELDS, "fields, as in field: u v") ||
-        !add_place(reading, field)) {
-        return false;
+    if (n < least || n > most) {
+        gm_system_refuse(reading->system, line->value.begin, "there are %zu to %zu %s", least, most,
+                         sentence);
     }
-    const size_t n = reading->component_count;
-    for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
-        if (!add_derived(reading, "", derivatives[k], GM_ENTRY_VELOCITY, &reading->velocity_count, n)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/* Adds the components of a system of matrices, and x. */
-static bool add_components(struct gm_reading *reading, const struct gm_system_line *components)
-{
-    return add_counted(reading, components->value, 2, GM_MOST_OF_MATRICES,
-                       "components, as in components: u v w") &&
-           add_place(reading, components);
+    add_place(reading, "x", line->place);
 }
 
 /* Adds u and u_t, and the variables of densities: x and u_x. */
-static bool add_field(struct gm_reading *reading, const struct gm_system_line *field)
+static void add_field(struct gm_reading *reading, const struct gm_read_line *field)
 {
-    if (!add_all_names(reading, field->value, GM_ENTRY_COMPONENT, &reading->component_count)) {
-        return false;
-    }
+    add_components(reading, field->value);
     if (reading->component_count != 1) {
-        return gm_fail_first(&reading->fault, field->value.begin, "a field has one name, as in field: u");
+        gm_system_refuse(reading->system, field->value.begin, "a field has one name, as in field: u");
     }
-    return add_derived(reading, "", "_t", GM_ENTRY_COMPONENT, &reading->component_count, 1) &&
-           add_place(reading, field) &&
-           add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, &reading->velocity_count, 1);
+    add_derived(reading, "", "_t", GM_ENTRY_COMPONENT, 1);
+    add_place(reading, "x", field->place);
+    add_derived(reading, "", "_x", GM_ENTRY_VELOCITY, 1);
 }
 
-/* NAME = k-form, NAME = dual k-form, .. */
-static bool add_forms(struct gm_reading *reading, enum gm_system_word word)
+/* The form that a line declares with a name and a degree; *name is trimmed. */
+static struct gm_form_declared form_of(struct gm_reading *reading, struct gm_span piece,
+                                       enum gm_system_word word, struct gm_span *name)
 {
     static const char *const degrees[] = {"0-form",      "1-form",      "2-form", "dual 0-form",
                                           "dual 1-form", "dual 2-form", NULL};
-    const struct gm_system_line *line = gm_reading_line(reading, word);
-    struct gm_span rest = line ? line->value : (struct gm_span){0, 0}, piece;
-    struct gm_user_system *system = reading->system;
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        struct gm_span name = {piece.begin, gm_span_until(reading->text, piece, "=")};
-        struct gm_target target;
-        const size_t end = piece.end, equals = name.end;
-        name = gm_span_trimmed(reading->text, name);
-        const char *text = gm_reading_text(
-            reading, gm_span_trimmed(reading->text, (struct gm_span){equals + (equals < end), end}));
-        size_t degree = 0;
-        while (text && degrees[degree] && strcmp(degrees[degree], text) != 0) {
-            degree++;
-        }
-        if (!degrees[degree]) {
-            const int length = (int)(name.end - name.begin < 60 ? name.end - name.begin : 60);
-            return equals == end ? gm_fail_first(&reading->fault, name.begin,
-                                                 "%.*s has no degree: write %s: %.*s = 0-form", length,
-                                                 reading->text + name.begin, gm_system_words[word].word,
-                                                 length, reading->text + name.begin)
-                                 : gm_fail_first(&reading->fault, equals + 1,
-                                                 "a form is a 0-form, 1-form or 2-form, or a dual one: dual "
-                                                 "0-form, dual 1-form, dual 2-form");
-        }
-        if (!gm_reading_reserve(reading, (void **)&system->forms, reading->component_count,
-                                sizeof *system->forms)) {
-            return false;
-        }
-        system->forms[reading->component_count] = (struct gm_form_declared){
-            (int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN, name.begin, GM_NO_NODE, GM_NO_NODE,
-            GM_NO_NODE,        GM_NO_NODE};
-        if (gm_reading_target(reading, &name, &target)) {
-            add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
-        }
+    const size_t end = piece.end, equals = gm_span_until(reading->text, piece, "=");
+    *name = gm_reading_between(reading, piece.begin, equals);
+    const char *text = gm_reading_text(reading, gm_reading_between(reading, equals + (equals < end), end));
+    size_t degree = 0;
+    while (degrees[degree] && strcmp(degrees[degree], text) != 0) {
+        degree++;
     }
-    return !reading->fault.failed;
+    const int length = gm_brief_length(name->end - name->begin);
+    if (!degrees[degree] && equals == end) {
+        gm_system_refuse(reading->system, name->begin, "%.*s has no degree: write %s: %.*s = 0-form", length,
+                         reading->text + name->begin, gm_system_words[word].word, length,
+                         reading->text + name->begin);
+    }
+    if (!degrees[degree]) {
+        gm_system_refuse(reading->system, equals + 1,
+                         "a form is a 0-form, 1-form or 2-form, or a dual one: dual 0-form, dual 1-form, "
+                         "dual 2-form");
+    }
+    return (struct gm_form_declared){(int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN,
+                                     name->begin,       GM_NO_NODE,  GM_NO_NODE,
+                                     GM_NO_NODE,        GM_NO_NODE};
 }
 
-/* Adds forms, the place, and room for operators. */
-static bool add_places(struct gm_reading *reading)
+/* NAME = k-form, NAME = dual k-form, .. */
+static void add_forms(struct gm_reading *reading, enum gm_system_word word)
 {
-    static char places[GM_FORM_PLACES][2] = {"x", "y", "z"};
+    const struct gm_read_line *line = gm_reading_line(reading, word);
+    struct gm_span rest = line ? line->value : (struct gm_span){0, 0}, piece, name;
+    struct gm_user_system *system = reading->system;
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        const struct gm_form_declared form = form_of(reading, piece, word, &name);
+        gm_reading_reserve(reading, (void **)&system->forms, reading->component_count, sizeof *system->forms);
+        system->forms[reading->component_count] = form;
+        const struct gm_target target = gm_reading_target(reading, &name);
+        add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
+    }
+}
+
+/* Adds the place, and unnamed variables for operators. */
+static void add_places(struct gm_reading *reading)
+{
+    static const char *const places[GM_FORM_PLACES] = {"x", "y", "z"};
     for (size_t i = 0; i < GM_FORM_PLACES; i++) {
-        const struct gm_entry place = {
-            .name = places[i], .length = 1, .role = GM_ENTRY_VELOCITY, .number = reading->velocity_count++};
-        if (!gm_reading_add(reading, place) || !add_variable(reading, &place)) {
-            return false;
-        }
+        add_place(reading, places[i], 0);
     }
     for (size_t i = 0; i < GM_MOST_FORM_CALLS; i++) {
-        const struct gm_entry unnamed = {.name = places[0], .length = 0};
         reading->velocity_count++;
-        if (!add_variable(reading, &unnamed)) {
-            return false;
-        }
+        add_variable(reading, &(struct gm_entry){.name = ""});
     }
-    return true;
 }
 
-bool gm_declared_state(struct gm_reading *reading)
+/* Adds coordinates and momenta, and velocities of a Lagrangian. */
+static void add_coordinates(struct gm_reading *reading, const struct gm_read_line *coordinates)
 {
     struct gm_user_system *system = reading->system;
-    const struct gm_system_line *coordinates = gm_reading_line(reading, GM_WORD_COORDINATES),
-                                *momenta = gm_reading_line(reading, GM_WORD_MOMENTA),
-                                *velocities = gm_reading_line(reading, GM_WORD_VELOCITIES),
-                                *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
-    if (coordinates) {
-        add_all_names(reading, coordinates->value, GM_ENTRY_COMPONENT, &reading->component_count);
-        const size_t n = reading->component_count;
-        if (momenta &&
-            add_all_names(reading, momenta->value, GM_ENTRY_COMPONENT, &reading->component_count) &&
-            reading->component_count != 2 * n) {
-            gm_fail_first(&reading->fault, momenta->place, "%zu momenta for %zu coordinate%s",
-                          reading->component_count - n, n, gm_plural((double)n));
-        }
-        if (!momenta) {
-            add_derived(reading, "p_", "", GM_ENTRY_COMPONENT, &reading->component_count, n);
-        }
-        if (system->kind == GM_LAGRANGIAN && velocities) {
-            add_all_names(reading, velocities->value, GM_ENTRY_VELOCITY, &reading->velocity_count);
-        } else if (system->kind == GM_LAGRANGIAN) {
-            add_derived(reading, "v_", "", GM_ENTRY_VELOCITY, &reading->velocity_count, n);
-        }
-        if (!reading->fault.failed && system->kind == GM_LAGRANGIAN && reading->velocity_count != n) {
-            gm_fail_first(&reading->fault, velocities->place, "%zu velocities for %zu coordinates",
-                          reading->velocity_count, n);
-        }
-    } else if (system->kind == GM_FIELD) {
-        add_field(reading, gm_reading_line(reading, GM_WORD_FIELD));
-    } else if (system->kind == GM_EVOLUTION) {
-        add_fields(reading, gm_reading_line(reading, GM_WORD_FIELD));
-    } else if (system->kind == GM_MATRICES) {
-        add_components(reading, components);
-    } else if (system->kind == GM_FORMS) {
-        if (add_forms(reading, GM_WORD_FIELD) && add_forms(reading, GM_WORD_UNKNOWN)) {
-            add_places(reading);
-        }
-    } else if (components) {
-        add_all_names(reading, components->value, GM_ENTRY_COMPONENT, &reading->component_count);
+    const struct gm_read_line *momenta = gm_reading_line(reading, GM_WORD_MOMENTA),
+                              *velocities = gm_reading_line(reading, GM_WORD_VELOCITIES);
+    add_components(reading, coordinates->value);
+    const size_t n = reading->component_count;
+    if (momenta) {
+        add_components(reading, momenta->value);
     } else {
-        const bool rates = system->kind == GM_RATES;
-        if (add_components_in_order(reading, rates ? GM_WORD_RATE : GM_WORD_BRACKET) && rates) {
+        add_derived(reading, "p_", "", GM_ENTRY_COMPONENT, n);
+    }
+    if (reading->component_count != 2 * n) {
+        gm_system_refuse(system, momenta->place, "%zu momenta for %zu coordinate%s",
+                         reading->component_count - n, n, gm_plural((double)n));
+    }
+    if (system->kind != GM_LAGRANGIAN) {
+        return;
+    }
+    if (velocities) {
+        add_all_names(reading, velocities->value, GM_ENTRY_VELOCITY, &reading->velocity_count);
+    } else {
+        add_derived(reading, "v_", "", GM_ENTRY_VELOCITY, n);
+    }
+    if (reading->velocity_count != n) {
+        gm_system_refuse(system, velocities->place, "%zu velocities for %zu coordinates",
+                         reading->velocity_count, n);
+    }
+}
+
+void gm_declared_state(struct gm_reading *reading)
+{
+    static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
+    const struct gm_read_line *coordinates = gm_reading_line(reading, GM_WORD_COORDINATES),
+                              *components = gm_reading_line(reading, GM_WORD_COMPONENTS),
+                              *field = gm_reading_line(reading, GM_WORD_FIELD),
+                              *list = coordinates ? coordinates : components;
+    const enum gm_system_kind kind = reading->system->kind;
+    if (coordinates) {
+        add_coordinates(reading, coordinates);
+    } else if (kind == GM_FIELD) {
+        add_field(reading, field);
+    } else if (kind == GM_EVOLUTION) {
+        add_counted(reading, field, 1, GM_MOST_FIELDS, "fields, as in field: u v");
+        for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
+            add_derived(reading, "", derivatives[k], GM_ENTRY_VELOCITY, reading->component_count);
+        }
+    } else if (kind == GM_MATRICES) {
+        add_counted(reading, components, 2, GM_MOST_OF_MATRICES, "components, as in components: u v w");
+    } else if (kind == GM_FORMS) {
+        add_forms(reading, GM_WORD_FIELD);
+        add_forms(reading, GM_WORD_UNKNOWN);
+        add_places(reading);
+    } else if (components) {
+        add_components(reading, components->value);
+    } else {
+        add_components_in_order(reading, kind == GM_RATES ? GM_WORD_RATE : GM_WORD_BRACKET);
+        if (kind == GM_RATES) {
             put_places_first(reading);
         }
     }
-    if (!reading->fault.failed && reading->component_count > GM_MOST_COMPONENTS) {
-        const struct gm_system_line *list = coordinates ? coordinates : components;
-        gm_fail_first(&reading->fault, list ? list->value.begin : 0, "a system has at most %d components",
-                      GM_MOST_COMPONENTS);
+    if (reading->component_count > GM_MOST_COMPONENTS) {
+        gm_system_refuse(reading->system, list ? list->value.begin : 0, "a system has at most %d components",
+                         GM_MOST_COMPONENTS);
     }
-    char t[] = "t";
-    const struct gm_entry time = {.name = t, .length = 1, .role = GM_ENTRY_TIME};
-    return !reading->fault.failed && add_tangents(reading) && arrange(reading) &&
-           gm_reading_add(reading, time);
+    add_tangents(reading);
+    arrange(reading);
+    gm_reading_add(reading, (struct gm_entry){.name = "t", .length = 1, .role = GM_ENTRY_TIME});
 }
 
-bool gm_declared_relations(struct gm_reading *reading)
+void gm_declared_relations(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
-    for (size_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = 0; i < reading->entry_count; i++) {
         const struct gm_entry *entry = &reading->entries[i];
-        gm_node_id node;
-        if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end &&
-            gm_reading_bound(reading, entry->value, &entry->bound, entry->element, &node)) {
-            struct gm_system_variable *variable = &system->variables[system->parameters + entry->number];
-            variable->start = node;
+        if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end) {
+            const size_t number = system->parameters + entry->number;
+            const gm_node_id node = gm_reading_bound(reading, entry->value, &entry->bound, entry->element);
+            system->variables[number].start = node;
             /* half the length of the line is a key unless it follows from others */
-            variable->derived |= system->parameters + entry->number == system->velocities - 2 &&
-                                 gm_system_is_field(system) &&
-                                 system->graph.nodes[node].operation != GM_CONSTANT;
+            system->variables[number].derived |= number == system->velocities - 2 &&
+                                                 gm_system_is_field(system) &&
+                                                 system->graph.nodes[node].operation != GM_CONSTANT;
         }
     }
-    return !reading->fault.failed;
 }
 
 /* True if a line defines a function. */
-static bool is_function(struct gm_reading *reading, const struct gm_system_line *line)
+static bool is_function(struct gm_reading *reading, const struct gm_read_line *line)
 {
     const size_t name = line->value.begin + gm_name_length(reading->text + line->value.begin,
                                                            line->value.end - line->value.begin);
     return line->word == GM_WORD_LET && name > line->value.begin &&
-           reading->text[gm_span_trimmed(reading->text, (struct gm_span){name, line->value.end}).begin] ==
-               '(';
+           reading->text[gm_reading_between(reading, name, line->value.end).begin] == '(';
 }
 
 /* NAME(argument, ...) = body */
-static bool add_function(struct gm_reading *reading, struct gm_span rest)
+static void add_function(struct gm_reading *reading, struct gm_span rest)
 {
-    struct gm_target target;
+    const struct gm_user_system *system = reading->system;
     struct gm_span left, argument;
-    if (!gm_reading_reserve(reading, (void **)&reading->definitions, reading->definition_count,
-                            sizeof *reading->definitions) ||
-        !gm_reading_target(reading, &rest, &target) || !gm_span_take(reading->text, &rest, "=", &left)) {
-        return false;
-    }
+    gm_reading_reserve(reading, (void **)&reading->definitions, reading->definition_count,
+                       sizeof *reading->definitions);
+    const struct gm_target target = gm_reading_target(reading, &rest);
+    gm_span_take(reading->text, &rest, "=", &left);
     struct gm_definition *definition = &reading->definitions[reading->definition_count];
     *definition = (struct gm_definition){.name = target.name, .body = gm_span_trimmed(reading->text, rest)};
     const size_t close = gm_span_until(reading->text, (struct gm_span){left.begin + 1, left.end}, ")");
     if (close + 1 != left.end || definition->body.begin == definition->body.end) {
-        return gm_fail_first(&reading->fault, close, "%s was expected",
-                             close >= left.end      ? ")"
-                             : close + 1 < left.end ? "="
-                                                    : "a formula");
+        gm_system_refuse(system, close, "%s was expected",
+                         close >= left.end      ? ")"
+                         : close + 1 < left.end ? "="
+                                                : "a formula");
     }
-    left = gm_span_trimmed(reading->text, (struct gm_span){left.begin + 1, close});
+    left = gm_reading_between(reading, left.begin + 1, close);
     while (gm_span_take(reading->text, &left, ",", &argument)) {
         const char *name = reading->text + argument.begin;
         const size_t length = gm_name_length(name, argument.end - argument.begin);
-        const int brief = (int)(length < 60 ? length : 60);
         bool twice = false;
         for (size_t i = 0; i < definition->count; i++) {
             const struct gm_span other = definition->arguments[i];
@@ -764,83 +691,78 @@ static bool add_function(struct gm_reading *reading, struct gm_span rest)
                 other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0;
         }
         if (length == 0 || argument.begin + length < argument.end || gm_formula_reserves(name, length)) {
-            return gm_fail_first(&reading->fault, argument.begin, "the name of an argument was expected");
+            gm_system_refuse(system, argument.begin, "the name of an argument was expected");
         }
         if (twice) {
-            return gm_fail_first(&reading->fault, argument.begin, "%.*s is an argument twice", brief, name);
+            gm_system_refuse(system, argument.begin, "%.*s is an argument twice", gm_brief_length(length),
+                             name);
         }
         if (definition->count == GM_MOST_ARGUMENTS) {
-            return gm_fail_first(&reading->fault, argument.begin, "a function has at most %d arguments",
-                                 GM_MOST_ARGUMENTS);
+            gm_system_refuse(system, argument.begin, "a function has at most %d arguments",
+                             GM_MOST_ARGUMENTS);
         }
         definition->arguments[definition->count++] = argument;
     }
     if (definition->count == 0) {
-        return gm_fail_first(&reading->fault, close, "the name of an argument was expected");
+        gm_system_refuse(system, close, "the name of an argument was expected");
     }
     reading->definition_count++;
-    return true;
 }
 
-bool gm_declared_functions(struct gm_reading *reading)
+void gm_declared_functions(struct gm_reading *reading)
 {
-    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+    for (size_t i = 0; i < reading->line_count; i++) {
         if (is_function(reading, &reading->lines[i])) {
             add_function(reading, reading->lines[i].value);
         }
     }
-    return !reading->fault.failed;
 }
 
 /* Adds the names of functions. */
-static bool add_functions(struct gm_reading *reading)
+static void add_functions(struct gm_reading *reading)
 {
-    for (size_t i = 0; i < reading->definition_count && !reading->fault.failed; i++) {
+    for (size_t i = 0; i < reading->definition_count; i++) {
         const struct gm_target target = {.name = reading->definitions[i].name};
         const struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_FUNCTION),
-                              *other = gm_reading_entry(reading, entry.name, entry.length, false, 0);
-        const int brief = (int)(entry.length < 60 ? entry.length : 60);
+                              *other = gm_reading_named(reading, target.name);
+        const int brief = gm_brief_length(entry.length);
         if (gm_formula_reserves(entry.name, entry.length)) {
-            gm_fail_first(&reading->fault, entry.place, "%.*s is a function of the program", brief,
-                          entry.name);
-        } else if (other && other->role == GM_ENTRY_COMPONENT) {
-            gm_fail_first(&reading->fault, entry.place, "%.*s is a component (%.*s(0) is its start)", brief,
-                          entry.name, brief, entry.name);
-        } else {
-            gm_reading_add(reading, entry);
+            gm_system_refuse(reading->system, entry.place, "%.*s is a function of the program", brief,
+                             entry.name);
         }
+        if (other && other->role == GM_ENTRY_COMPONENT) {
+            gm_system_refuse(reading->system, entry.place, "%.*s is a component (%.*s(0) is its start)",
+                             brief, entry.name, brief, entry.name);
+        }
+        gm_reading_add(reading, entry);
     }
-    return !reading->fault.failed;
 }
 
-bool gm_declared_lets(struct gm_reading *reading)
+void gm_declared_lets(struct gm_reading *reading)
 {
-    if (!add_functions(reading)) {
-        return false;
-    }
-    for (size_t i = 0; i < reading->line_count && !reading->fault.failed; i++) {
+    add_functions(reading);
+    for (size_t i = 0; i < reading->line_count; i++) {
         const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
-        struct gm_target target;
         struct gm_span value = reading->lines[i].value;
         value.end = observed ? gm_span_until(reading->text, value, ";") : value.end;
         if ((reading->lines[i].word != GM_WORD_LET && !observed) ||
             is_function(reading, &reading->lines[i]) ||
-            (observed && gm_span_until(reading->text, value, "..") < value.end) || /* a line with a counter */
-            !gm_reading_assignment(reading, value, &target) ||
-            (observed && target.index.begin < target.index.end)) {
+            (observed && gm_span_until(reading->text, value, "..") < value.end)) { /* a line with a counter */
             continue;
         }
+        const struct gm_target target = gm_reading_assignment(reading, value);
         struct gm_entry entry =
             gm_reading_entry_for(reading, &target, observed ? GM_ENTRY_OBSERVED : GM_ENTRY_NAMED);
         entry.indexed = target.index.begin < target.index.end;
-        if (!entry.indexed || gm_reading_whole(reading, target.index, &entry.index)) {
-            gm_reading_add(reading, entry);
+        if (observed && entry.indexed) {
+            continue;
         }
+        entry.index = entry.indexed ? gm_reading_whole(reading, target.index) : 0;
+        gm_reading_add(reading, entry);
     }
-    for (uint32_t i = 0; i < reading->entry_count && !reading->fault.failed; i++) {
+    for (uint32_t i = 0; i < reading->entry_count; i++) {
         if (reading->entries[i].role >= GM_ENTRY_NAMED && !reading->entries[i].read) {
             gm_reading_define(reading, i);
         }
     }
-    return !reading->fault.failed;
 }

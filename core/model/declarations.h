@@ -7,16 +7,16 @@
 /* The declarations of a system, read in this order: each needs the earlier ones. */
 
 /* Finds the kind of the system, and checks that every line belongs to it. */
-bool gm_declared_kind(struct gm_reading *reading);
+void gm_declared_kind(struct gm_reading *reading);
 /* Finds the lets with arguments, which every formula may call. */
-bool gm_declared_functions(struct gm_reading *reading);
-bool gm_declared_parameters(struct gm_reading *reading);
+void gm_declared_functions(struct gm_reading *reading);
+void gm_declared_parameters(struct gm_reading *reading);
 /* Declares components, velocities and the time; the variables then have the order of struct
    gm_system_variable. */
-bool gm_declared_state(struct gm_reading *reading);
+void gm_declared_state(struct gm_reading *reading);
 /* Reads the formulas of parameters in other parameters, after all have their numbers. */
-bool gm_declared_relations(struct gm_reading *reading);
+void gm_declared_relations(struct gm_reading *reading);
 /* Declares lets and observables, except elements of a list. */
-bool gm_declared_lets(struct gm_reading *reading);
+void gm_declared_lets(struct gm_reading *reading);
 
 #endif

@@ -11,6 +11,7 @@
 #include "core/expression/linear_part.h"
 #include "core/linear/iteration.h"
 #include "core/model/reader.h"
+#include "core/tape.h"
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
 {
@@ -19,13 +20,35 @@ static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_n
 
 gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node, const bool *marked)
 {
-    gm_node_id *gradient = malloc((system->variable_count + 1) * sizeof *gradient);
-    if (!gradient || !gm_gradient(&system->graph, node, marked, system->variable_count, gradient)) {
-        system->graph.failed = true;
-        free(gradient);
-        return NULL;
-    }
+    gm_node_id *gradient = gm_arena_take(system->arena, system->variable_count + 1, sizeof *gradient);
+    gm_arena_need(system->arena, gm_gradient(&system->graph, node, marked, system->variable_count, gradient));
     return gradient;
+}
+
+double *gm_equations_values(const struct gm_user_system *system, const double *variables)
+{
+    double *values = gm_arena_take(system->arena, system->graph.count + (size_t)1, sizeof *values);
+    gm_formula_evaluate(&system->graph, system->graph.count, variables, values);
+    return values;
+}
+
+/* A flag for each variable, true from number `first` on for `count` ones. */
+static bool *marks_of(const struct gm_user_system *system, size_t first, size_t count)
+{
+    bool *marked = gm_arena_take(system->arena, system->variable_count, sizeof *marked);
+    memset(marked + first, true, count * sizeof *marked);
+    return marked;
+}
+
+/* A direction of all components and the time: these nodes, and the speed of the time; NULL: it is not set. */
+static gm_node_id *direction_of(struct gm_user_system *system, const gm_node_id *nodes, double time)
+{
+    gm_node_id *direction = gm_arena_take(system->arena, system->n + 1, sizeof *direction);
+    if (nodes) {
+        memcpy(direction, nodes, system->n * sizeof *direction);
+    }
+    direction[system->n] = gm_formula_constant(&system->graph, time);
+    return direction;
 }
 
 static void derive_poisson(struct gm_user_system *system, const gm_node_id *gradient)
@@ -47,22 +70,15 @@ static void derive_poisson(struct gm_user_system *system, const gm_node_id *grad
 static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *gradient)
 {
     const size_t half = system->n / 2;
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    system->momenta = gm_arena_take(system->arena, half + 1, sizeof *system->momenta);
-    for (size_t i = 0; i < half && marked && system->momenta; i++) {
+    for (size_t i = 0; i < half; i++) {
         system->momenta[i] = gradient[system->velocities + i];
         system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
-        marked[system->velocities + i] = true;
     }
-    if (marked && system->momenta) {
-        gm_sparse_jacobian(&system->graph, system->momenta, half, marked, system->variable_count,
-                           &system->mass);
-    }
+    gm_sparse_jacobian(&system->graph, system->momenta, half, marks_of(system, system->velocities, half),
+                       system->variable_count, &system->mass);
     for (size_t i = 0; i < system->mass.count; i++) {
         system->mass.entries[i].column -= system->velocities;
     }
-    system->graph.failed |= !marked || !system->momenta;
-    free(marked);
 }
 
 static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
@@ -74,60 +90,57 @@ static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm
 static void derive_tangents(struct gm_user_system *system)
 {
     const size_t n = gm_system_motion(system);
-    gm_node_id *direction = gm_system_no_nodes(system, system->n + 1);
-    system->graph.failed |= !direction;
-    for (size_t i = 0; direction && i <= system->n; i++) {
-        direction[i] = gm_formula_constant(&system->graph, 0);
+    gm_node_id *direction = direction_of(system, NULL, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        direction[i] = direction[system->n];
     }
-    for (size_t k = 1; k <= system->tangents && !system->graph.failed; k++) {
+    for (size_t k = 1; k <= system->tangents; k++) {
         for (size_t c = 0; c < n; c++) {
             direction[gm_system_component(system, c, 0)] =
                 gm_formula_variable(&system->graph, gm_system_component(system, c, k));
         }
-        for (size_t c = 0; c < n && !system->graph.failed; c++) {
+        for (size_t c = 0; c < n; c++) {
             system->rates[gm_system_component(system, c, k)] =
                 along(system, system->rates[gm_system_component(system, c, 0)], direction);
         }
     }
 }
 
-static bool derive(struct gm_user_system *system)
+static void derive(struct gm_user_system *system)
 {
     const size_t half = system->n / 2;
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
-    gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
-    if (system->kind == GM_CANONICAL && !system->graph.failed) {
+    system->momenta = system->kind == GM_LAGRANGIAN
+                          ? gm_arena_take(system->arena, half + 1, sizeof *system->momenta)
+                          : NULL;
+    const size_t mark = gm_arena_mark(system->arena);
+    const gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
+    if (system->kind == GM_CANONICAL) {
         for (size_t i = 0; i < half; i++) {
             system->rates[i] = gradient[half + i];
             system->rates[half + i] =
                 add_force(system, gm_negative(&system->graph, gradient[i]), system->variables[i].force);
         }
-    } else if (system->kind == GM_LAGRANGIAN && !system->graph.failed) {
+    } else if (system->kind == GM_LAGRANGIAN) {
         derive_lagrangian(system, gradient);
-    } else if (system->kind == GM_POISSON && !system->graph.failed) {
+    } else if (system->kind == GM_POISSON) {
         derive_poisson(system, gradient);
-    } else if (system->kind == GM_MATRICES && !system->graph.failed) {
+    } else if (system->kind == GM_MATRICES) {
         memcpy(system->rates, gradient, system->n * sizeof *gradient);
-    } else if (system->kind == GM_FIELD && !system->graph.failed) {
+    } else if (system->kind == GM_FIELD) {
         system->rates[0] = gm_formula_variable(&system->graph, 1);
         system->rates[1] = gm_negative(&system->graph, gradient[0]);
     }
-    free(gradient);
     derive_tangents(system);
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    bool *timed = NULL;
-    if (marked && !system->graph.failed) {
-        marked[system->n] = true;
-        timed = gm_formula_dependent(&system->graph, marked, system->variable_count);
-    }
-    for (size_t i = 0; timed && i < system->n; i++) {
+    gm_system_need_graph(system);
+    const bool *timed = gm_arena_keep(
+        system->arena,
+        gm_formula_dependent(&system->graph, marks_of(system, system->n, 1), system->variable_count), free);
+    for (size_t i = 0; i < system->n; i++) {
         system->timed |= system->rates[i] != GM_NO_NODE && timed[system->rates[i]];
     }
-    system->timed |= timed && !rates && timed[system->energy];
-    free(marked);
-    const bool good = timed && !system->graph.failed;
-    free(timed);
-    return good;
+    system->timed |= !rates && timed[system->energy];
+    gm_arena_release(system->arena, mark);
 }
 
 /* True for a velocity of a Lagrangian. */
@@ -162,22 +175,20 @@ static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id n
         direction[i] = gm_formula_variable(&system->graph, system->velocities + i);
     }
     gm_node_id rate = along(system, node, direction);
-    return !system->graph.failed && gm_equations_in_velocities(system, &rate, 1) ? rate : GM_NO_NODE;
+    gm_equations_in_velocities(system, &rate, 1);
+    return rate;
 }
 
 /* The rate of change of a node along the motion; GM_NO_NODE if it is unknown (for a Lagrangian, or with a
-   constraint) or when out of memory. */
+   constraint). */
 static gm_node_id rate_of(struct gm_user_system *system, gm_node_id node)
 {
-    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
-    if (direction && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
-        memcpy(direction, system->rates, system->n * sizeof *direction);
-        direction[system->n] = gm_formula_constant(&system->graph, 1);
-        rate = system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
-                                             : along(system, node, direction);
+    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
+        return GM_NO_NODE;
     }
-    free(direction);
-    return rate;
+    gm_node_id *direction = direction_of(system, system->rates, 1);
+    return system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
+                                         : along(system, node, direction);
 }
 
 double *gm_equations_fixed(const struct gm_user_system *system)
@@ -220,15 +231,14 @@ static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[
 }
 
 /* Checks each triple with a varying bracket once: for other triples the sum has no terms. */
-static bool check_jacobi(struct gm_user_system *system, struct gm_fault *fault)
+static void check_jacobi(struct gm_user_system *system)
 {
     const size_t n = system->n;
-    gm_node_id *direction = malloc((n + 1) * sizeof *direction);
+    gm_node_id *direction = direction_of(system, NULL, 0);
     system->jacobi = GM_ZERO_PROVED;
-    system->graph.failed |= !direction;
     for (size_t j = 0; j < n; j++) {
         for (size_t k = j + 1; k < n; k++) {
-            for (size_t i = 0; varies(system, j, k) && i < n && !system->graph.failed; i++) {
+            for (size_t i = 0; varies(system, j, k) && i < n; i++) {
                 /* a triple is checked at the first of its varying pairs */
                 const bool elsewhere = (i < j && (varies(system, i, j) || varies(system, i, k))) ||
                                        (i > j && i < k && varies(system, j, i));
@@ -239,33 +249,27 @@ static bool check_jacobi(struct gm_user_system *system, struct gm_fault *fault)
                 const enum gm_identity found =
                     gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
                 if (found == GM_NOT_ZERO) {
-                    free(direction);
-                    return gm_fail(fault, system->bracket_place,
-                                   "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
-                                   system->variables[triple[0]].name, system->variables[triple[1]].name,
-                                   system->variables[triple[2]].name);
+                    gm_system_refuse(system, system->bracket_place,
+                                     "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
+                                     system->variables[triple[0]].name, system->variables[triple[1]].name,
+                                     system->variables[triple[2]].name);
                 }
                 system->jacobi = found == GM_ZERO_PROVED ? system->jacobi : found;
             }
         }
     }
-    free(direction);
-    return true;
 }
 
 /* {x_i, C} = 0 for all i */
 static enum gm_identity check_casimir(struct gm_user_system *system, gm_node_id node)
 {
     enum gm_identity all = GM_ZERO_PROVED;
-    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
-    for (size_t i = 0; direction && i < system->n && all != GM_NOT_ZERO; i++) {
-        memcpy(direction, &system->bracket[i * system->n], system->n * sizeof *direction);
-        direction[system->n] = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < system->n && all != GM_NOT_ZERO; i++) {
+        const gm_node_id *direction = direction_of(system, &system->bracket[i * system->n], 0);
         const enum gm_identity found = gm_equations_vanishes(system, along(system, node, direction));
         all = found == GM_ZERO_PROVED ? all : found;
     }
-    free(direction);
-    return direction ? all : GM_UNTESTED;
+    return all;
 }
 
 /* A nonzero rate that should vanish, and its quantity. */
@@ -278,115 +282,109 @@ struct broken {
 static bool keeps_constraints(struct gm_user_system *system, const struct gm_system_item *symmetry,
                               struct broken *broken)
 {
-    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
-    bool kept = true;
-    for (size_t i = 0; direction && i <= system->n; i++) {
-        direction[i] = i < system->n / 2 ? symmetry->nodes[i] : gm_formula_constant(&system->graph, 0);
+    gm_node_id *direction = direction_of(system, NULL, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        direction[i] = i < system->n / 2 ? symmetry->nodes[i] : direction[system->n];
     }
     const struct gm_system_item *item;
-    for (size_t i = 0; direction && kept && (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, i)); i++) {
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, i)); i++) {
         *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
-        kept = gm_equations_vanishes(system, broken->node) != GM_NOT_ZERO;
+        if (gm_equations_vanishes(system, broken->node) == GM_NOT_ZERO) {
+            return false;
+        }
     }
-    system->graph.failed |= !direction;
-    free(direction);
-    return kept;
+    return true;
 }
 
 /* Tests if the forces do no work along the generator: then the momentum map is conserved with them too. */
 static enum gm_identity check_work(struct gm_user_system *system, const struct gm_system_item *symmetry)
 {
     gm_node_id work = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; i < system->n / 2 && !system->graph.failed; i++) {
+    for (size_t i = 0; i < system->n / 2; i++) {
         const gm_node_id force = system->variables[i].force;
         if (force != GM_NO_NODE) {
             work = gm_sum(&system->graph, work, gm_product(&system->graph, force, symmetry->nodes[i]));
         }
     }
-    return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
+    return gm_equations_vanishes(system, work);
 }
 
-/* With coordinates: the energy is constant along the generator, lifted to momenta or velocities. With
-   components: generator and field commute. Appends the momentum map. */
+/* Generator and field commute. */
+static enum gm_identity check_commuting(struct gm_user_system *system, const struct gm_system_item *item,
+                                        struct broken *broken)
+{
+    const gm_node_id *generator = direction_of(system, item->nodes, 0),
+                     *motion = direction_of(system, system->rates, 1);
+    enum gm_identity all = GM_ZERO_PROVED;
+    for (size_t i = 0; i < system->n && all != GM_NOT_ZERO; i++) {
+        const gm_node_id one = along(system, system->rates[i], generator),
+                         other = along(system, item->nodes[i], motion);
+        *broken = (struct broken){"the motion", gm_difference(&system->graph, one, other)};
+        const enum gm_identity found = gm_equations_vanishes(system, broken->node);
+        all = found == GM_ZERO_PROVED ? all : found;
+    }
+    return all;
+}
+
+/* With coordinates: the energy is constant along the generator, lifted to momenta or velocities. Appends the
+   momentum map. */
 static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_system_item *item,
                                        struct broken *broken)
 {
-    const size_t half = system->n / 2, n = system->n;
-    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    struct gm_formula *graph = &system->graph;
+    const size_t half = system->n / 2;
+    const bool canonical = system->kind == GM_CANONICAL;
+    gm_node_id map = gm_formula_constant(graph, 0), change = map;
     if (system->kind > GM_LAGRANGIAN) {
-        gm_node_id *direction = malloc((n + 1) * sizeof *direction);
-        enum gm_identity all = GM_ZERO_PROVED;
-        for (size_t i = 0; direction && i < n && all != GM_NOT_ZERO; i++) {
-            memcpy(direction, item->nodes, n * sizeof *direction);
-            direction[n] = zero;
-            const gm_node_id one = along(system, system->rates[i], direction);
-            memcpy(direction, system->rates, n * sizeof *direction);
-            direction[n] = gm_formula_constant(&system->graph, 1);
-            const gm_node_id other = along(system, item->nodes[i], direction);
-            *broken = (struct broken){"the motion", gm_difference(&system->graph, one, other)};
-            const enum gm_identity found = gm_equations_vanishes(system, broken->node);
-            all = found == GM_ZERO_PROVED ? all : found;
-        }
-        free(direction);
-        return direction ? all : GM_UNTESTED;
+        return check_commuting(system, item, broken);
     }
-    gm_node_id map = zero, change = zero;
-    gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
-    for (size_t i = 0; i < half && !system->graph.failed; i++) {
-        const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
-        map = gm_sum(&system->graph, map, gm_product(&system->graph, momentum, item->nodes[i]));
-        change = gm_sum(&system->graph, change, gm_product(&system->graph, gradient[i], item->nodes[i]));
+    const gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
+    for (size_t i = 0; i < half; i++) {
+        const gm_node_id momentum = gm_formula_variable(graph, half + i);
+        map = gm_sum(graph, map, gm_product(graph, momentum, item->nodes[i]));
+        change = gm_sum(graph, change, gm_product(graph, gradient[i], item->nodes[i]));
     }
     /* H: lift to momenta, -p dX/dq; L: lift to velocities, dX/dq v */
-    for (size_t i = 0; i < half && !system->graph.failed; i++) {
-        gm_node_id *slopes =
-            gm_equations_gradient(system, system->kind == GM_CANONICAL ? map : item->nodes[i], NULL);
-        for (size_t k = 0; k < half && !system->graph.failed; k++) {
-            if (system->kind == GM_CANONICAL && i == 0) {
-                change = gm_difference(&system->graph, change,
-                                       gm_product(&system->graph, gradient[half + k], slopes[k]));
-            } else if (system->kind == GM_LAGRANGIAN) {
-                const gm_node_id moved = gm_product(
-                    &system->graph, slopes[k], gm_formula_variable(&system->graph, system->velocities + k));
-                change = gm_sum(&system->graph, change,
-                                gm_product(&system->graph, gradient[system->velocities + i], moved));
+    for (size_t i = 0; i < (canonical ? 1 : half); i++) {
+        const size_t mark = gm_arena_mark(system->arena);
+        const gm_node_id *slopes = gm_equations_gradient(system, canonical ? map : item->nodes[i], NULL);
+        for (size_t k = 0; k < half; k++) {
+            if (canonical) {
+                change = gm_difference(graph, change, gm_product(graph, gradient[half + k], slopes[k]));
+            } else {
+                const gm_node_id moved =
+                    gm_product(graph, slopes[k], gm_formula_variable(graph, system->velocities + k));
+                change = gm_sum(graph, change, gm_product(graph, gradient[system->velocities + i], moved));
             }
         }
-        free(slopes);
+        gm_arena_release(system->arena, mark);
     }
-    free(gradient);
     if (!keeps_constraints(system, item, broken)) {
         return GM_NOT_ZERO;
     }
-    *broken = (struct broken){system->kind == GM_CANONICAL ? "H" : "L", change};
-    gm_node_id *nodes = gm_arena_resize(system->arena, item->nodes, half + 1, sizeof *nodes);
-    if (!nodes || system->graph.failed) {
-        system->graph.failed = true;
-        return GM_UNTESTED;
-    }
-    item->nodes = nodes;
-    nodes[half] = map;
+    *broken = (struct broken){canonical ? "H" : "L", change};
+    item->nodes = gm_arena_resize(system->arena, item->nodes, half + 1, sizeof *item->nodes);
+    item->nodes[half] = map;
     item->count = half + 1;
     return gm_equations_vanishes(system, change);
 }
 
 /* Refuses a symmetry, with the rate of the broken quantity at one of three points, whose coordinates are 1/2,
    1 and 3/2 in turn. */
-static bool refuse_symmetry(struct gm_user_system *system, const struct gm_system_item *item,
-                            struct broken broken, struct gm_fault *fault)
+static _Noreturn void refuse_symmetry(struct gm_user_system *system, const struct gm_system_item *item,
+                                      struct broken broken)
 {
     size_t count = 0, used = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, broken.node, &count);
-    double *variables = malloc(system->variable_count * sizeof *variables);
-    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    const gm_node_id *parts =
+        gm_arena_keep(system->arena, gm_formula_parts(&system->graph, broken.node, &count), free);
+    double *variables = gm_arena_take(system->arena, system->variable_count, sizeof *variables);
     char point[160] = "", rate[40] = "";
-    for (size_t turn = 0; parts && variables && values && turn < 3 && rate[0] == '\0'; turn++) {
+    for (size_t turn = 0; turn < 3 && rate[0] == '\0'; turn++) {
         for (size_t i = 0; i < system->variable_count; i++) {
             const bool parameter = i >= system->parameters && i < system->velocities;
             variables[i] = parameter ? system->variables[i].value : 0.5 * (double)((i + turn) % 3 + 1);
         }
-        gm_formula_evaluate_parts(&system->graph, parts, count, variables, values);
-        const double value = values[broken.node];
+        const double value = gm_equations_values(system, variables)[broken.node];
         if (isfinite(value) && fabs(value) > 1e-9) {
             snprintf(rate, sizeof rate, ", at the rate %.4g", value);
         }
@@ -402,10 +400,8 @@ static bool refuse_symmetry(struct gm_user_system *system, const struct gm_syste
                                      used > 0 ? ", " : " at ", system->variables[i].name, variables[i]);
         }
     }
-    free(parts);
-    free(variables);
-    free(values);
-    return gm_fail(fault, item->place, "this is not a symmetry: it changes %s%s%s", broken.what, rate, point);
+    gm_system_refuse(system, item->place, "this is not a symmetry: it changes %s%s%s", broken.what, rate,
+                     point);
 }
 
 /* The variables that a formula may contain beside parameters: the first `below` ones, and those in a list. */
@@ -439,75 +435,75 @@ static bool is_of_components(struct gm_user_system *system, gm_node_id node, siz
 }
 
 /* A surface is fixed: its size depends only on parameters and conserved quantities. */
-static bool check_surface(struct gm_user_system *system, const struct gm_system_item *item,
-                          struct gm_fault *fault)
+static void check_surface(struct gm_user_system *system, const struct gm_system_item *item)
 {
     for (size_t k = 0; k < item->count; k++) {
         const gm_node_id rate = rate_of(system, item->nodes[k]);
         const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
                                              : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
-        if (!kept && !system->graph.failed) {
-            return gm_fail(
-                fault, item->place,
+        if (!kept) {
+            gm_system_refuse(
+                system, item->place,
                 "a surface does not move: its size depends only on parameters and conserved quantities");
         }
     }
-    return true;
 }
 
-static bool check_items(struct gm_user_system *system, struct gm_fault *fault)
+static void check_item(struct gm_user_system *system, struct gm_system_item *item, bool forced)
+{
+    struct broken broken = {NULL, GM_NO_NODE};
+    gm_node_id rate;
+    switch (item->word) {
+    case GM_WORD_INVARIANT:
+        rate = rate_of(system, item->nodes[0]);
+        item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
+        if (item->check == GM_NOT_ZERO && !forced) {
+            gm_system_refuse(system, item->place,
+                             "%.60s is not an invariant; observe: takes nearly conserved quantities",
+                             item->name);
+        }
+        break;
+    case GM_WORD_SURFACE:
+        check_surface(system, item);
+        break;
+    case GM_WORD_SECTION:
+        if (!item->periodic && is_of_components(system, item->nodes[0], 0)) {
+            gm_system_refuse(system, item->place,
+                             "what a section waits for never changes: it holds no component, and no t");
+        }
+        break;
+    case GM_WORD_CASIMIR:
+        item->check = check_casimir(system, item->nodes[0]);
+        if (item->check == GM_NOT_ZERO) {
+            gm_system_refuse(system, item->place,
+                             "%.60s is not a Casimir: its bracket with the components is not 0", item->name);
+        }
+        break;
+    case GM_WORD_SYMMETRY:
+        item->check = check_symmetry(system, item, &broken);
+        if (item->check == GM_NOT_ZERO) {
+            refuse_symmetry(system, item, broken);
+        }
+        if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
+            item->check = GM_NOT_ZERO; /* still a symmetry, but a force breaks its law */
+        }
+        break;
+    default:
+        break;
+    }
+}
+
+static void check_items(struct gm_user_system *system)
 {
     bool forced = gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) != NULL;
     for (size_t i = 0; i < system->n; i++) {
         forced |= system->variables[i].force != GM_NO_NODE;
     }
-    for (size_t i = 0; i < system->item_count && !system->graph.failed; i++) {
-        struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_INVARIANT) {
-            const gm_node_id rate = rate_of(system, item->nodes[0]);
-            item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
-            if (item->check == GM_NOT_ZERO && !forced) {
-                return gm_fail(fault, item->place,
-                               "%.60s is not an invariant; observe: takes nearly conserved quantities",
-                               item->name);
-            }
-        } else if (item->word == GM_WORD_SURFACE) {
-            if (!check_surface(system, item, fault)) {
-                return false;
-            }
-        } else if (item->word == GM_WORD_SECTION && !item->periodic) {
-            if (is_of_components(system, item->nodes[0], 0)) {
-                return gm_fail(fault, item->place,
-                               "what a section waits for never changes: it holds no component, and no t");
-            }
-        } else if (item->word == GM_WORD_CASIMIR) {
-            item->check = check_casimir(system, item->nodes[0]);
-            if (item->check == GM_NOT_ZERO) {
-                return gm_fail(fault, item->place,
-                               "%.60s is not a Casimir: its bracket with the components is not 0",
-                               item->name);
-            }
-        } else if (item->word == GM_WORD_SYMMETRY) {
-            struct broken broken = {NULL, GM_NO_NODE};
-            item->check = check_symmetry(system, item, &broken);
-            if (item->check == GM_NOT_ZERO) {
-                return refuse_symmetry(system, item, broken, fault);
-            }
-            if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
-                item->check = GM_NOT_ZERO; /* still a symmetry, but a force breaks its law */
-            }
-        }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const size_t mark = gm_arena_mark(system->arena);
+        check_item(system, &system->items[i], forced);
+        gm_arena_release(system->arena, mark);
     }
-    return true;
-}
-
-double *gm_equations_values(const struct gm_user_system *system, const double *variables)
-{
-    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
-    if (values) {
-        gm_formula_evaluate(&system->graph, system->graph.count, variables, values);
-    }
-    return values;
 }
 
 /* A Lagrangian at some coordinates. */
@@ -545,104 +541,106 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
     return true;
 }
 
-/* Computes velocities that were not given from the momenta. False: out of memory. */
-static bool find_velocities(struct transform transform)
+/* Computes velocities that were not given from the momenta. */
+static void find_velocities(struct gm_arena *arena, struct transform transform)
 {
-    const struct gm_user_system *system = transform.system;
-    const double *variables = transform.variables;
-    const size_t half = system->n / 2;
-    double *scratch = malloc((2 * half + gm_newton_scratch(half)) * sizeof *scratch),
-           *v = transform.variables + system->velocities;
-    bool *given = malloc(half * sizeof *given);
-    const bool opened = scratch && given;
-    if (opened) {
-        const struct gm_implicit_equations equations = {.size = half,
-                                                        .data = &transform,
-                                                        .linear = momenta_at,
-                                                        .counted = half,
-                                                        .least = 0x1p-52,
-                                                        .roundoff = 0x1p-40,
-                                                        .halved = true};
-        struct gm_progress ignored = {0};
-        double *wanted = scratch, *found = scratch + half;
-        transform.given = given;
-        transform.wanted = wanted;
-        for (size_t i = 0; i < half; i++) {
-            given[i] = !isnan(v[i]);
-            wanted[i] = given[i] ? v[i] : variables[half + i];
-            found[i] = given[i] ? v[i] : 0;
-        }
-        const bool solved = gm_newton_solve(&equations, scratch + 2 * half, found, &ignored);
-        for (size_t i = 0; i < half; i++) {
-            v[i] = solved ? found[i] : NAN;
-        }
+    const size_t half = transform.system->n / 2;
+    double *v = transform.variables + transform.system->velocities;
+    double *scratch = gm_arena_take(arena, gm_newton_scratch(half), sizeof *scratch),
+           *wanted = gm_arena_take(arena, half, sizeof *wanted),
+           *found = gm_arena_take(arena, half, sizeof *found);
+    bool *given = gm_arena_take(arena, half, sizeof *given);
+    const struct gm_implicit_equations equations = {.size = half,
+                                                    .data = &transform,
+                                                    .linear = momenta_at,
+                                                    .counted = half,
+                                                    .least = 0x1p-52,
+                                                    .roundoff = 0x1p-40,
+                                                    .halved = true};
+    struct gm_progress ignored = {0};
+    transform.given = given;
+    transform.wanted = wanted;
+    for (size_t i = 0; i < half; i++) {
+        given[i] = !isnan(v[i]);
+        wanted[i] = given[i] ? v[i] : transform.variables[half + i];
+        found[i] = given[i] ? v[i] : 0;
     }
-    free(given);
-    free(scratch);
-    return opened;
+    const bool solved = gm_newton_solve(&equations, scratch, found, &ignored);
+    for (size_t i = 0; i < half; i++) {
+        v[i] = solved ? found[i] : NAN;
+    }
 }
 
-/* True if a variable has its own start, from the file or given. */
-static bool is_told(const struct gm_user_system *system, const double *given, size_t number)
-{
-    return system->variables[number].start != GM_NO_NODE || (given && !isnan(given[number]));
-}
-
-/* All nodes that the start depends on: formulas, and momenta with the mass matrix; freed by the caller. */
-static gm_node_id *parts_of_start(const struct gm_user_system *system, size_t *count)
+/* All nodes that the start depends on: formulas, and momenta with the mass matrix. */
+static gm_node_id *parts_of_start(struct gm_arena *arena, const struct gm_user_system *system, size_t *count)
 {
     const size_t half = system->momenta ? system->n / 2 : 0;
     const size_t solutions = system->variable_count - system->exact;
-    gm_node_id *nodes = malloc((system->initial + solutions + half + system->mass.count + 1) * sizeof *nodes);
+    gm_node_id *nodes =
+        gm_arena_take(arena, system->initial + solutions + half + system->mass.count + 1, sizeof *nodes);
     size_t found = 0;
-    for (size_t i = 0; nodes && i < system->initial; i++) {
-        nodes[found] = system->variables[i].start;
+    for (size_t i = 0; i < system->initial + solutions; i++) {
+        nodes[found] =
+            i < system->initial ? system->variables[i].start : system->variables[i - system->initial].exact;
         found += nodes[found] != GM_NO_NODE;
     }
-    for (size_t i = 0; nodes && i < solutions; i++) {
-        nodes[found] = system->variables[i].exact;
-        found += nodes[found] != GM_NO_NODE;
-    }
-    for (size_t i = 0; nodes && i < half; i++) {
+    for (size_t i = 0; i < half; i++) {
         nodes[found++] = system->momenta[i];
     }
-    for (size_t i = 0; nodes && half > 0 && i < system->mass.count; i++) {
+    for (size_t i = 0; half > 0 && i < system->mass.count; i++) {
         nodes[found++] = system->mass.entries[i].node;
     }
-    gm_node_id *parts = nodes ? gm_formula_parts_of(&system->graph, nodes, found, count) : NULL;
-    free(nodes);
-    return parts;
+    return gm_arena_keep(arena, gm_formula_parts_of(&system->graph, nodes, found, count), free);
 }
 
-double *gm_equations_start(const struct gm_user_system *system, const double *given)
+/* A start that is computed: the values that replace the file's, and the values of all variables. */
+struct start {
+    const struct gm_user_system *system;
+    const double *given; /* NULL: none */
+    double *variables;
+};
+
+static bool is_given(const struct start *start, size_t number)
 {
-    const size_t half = system->n / 2;
-    struct transform start = {.system = system};
-    double *variables = malloc(system->variable_count * sizeof *variables);
-    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
-    gm_node_id *parts = parts_of_start(system, &start.part_count);
-    const bool good = variables && values && parts;
-    for (size_t i = 0; good && i < system->variable_count; i++) {
+    return start->given && !isnan(start->given[number]);
+}
+
+/* Sets momenta that have no start of their own. */
+static void set_momenta(const struct start *start, const double *values)
+{
+    const struct gm_user_system *system = start->system;
+    for (size_t i = 0; system->momenta && i < system->n / 2; i++) {
+        const size_t p = system->n / 2 + i;
+        if (system->variables[p].start == GM_NO_NODE && !is_given(start, p)) {
+            start->variables[p] = values[system->momenta[i]];
+        }
+    }
+}
+
+static void find_start(struct gm_arena *arena, void *data)
+{
+    const struct start *start = data;
+    const struct gm_user_system *system = start->system;
+    double *variables = start->variables,
+           *values = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *values);
+    struct transform transform = {.system = system, .variables = variables, .values = values};
+    transform.parts = parts_of_start(arena, system, &transform.part_count);
+    for (size_t i = 0; i < system->variable_count; i++) {
         const bool follows = i < system->initial && system->variables[i].start != GM_NO_NODE;
         variables[i] = follows ? NAN : system->variables[i].value;
-        variables[i] = given && !isnan(given[i]) ? given[i] : variables[i];
+        variables[i] = is_given(start, i) ? start->given[i] : variables[i];
     }
     /* a start may depend on others: each round uses the values of the last one */
     size_t found = 0, before = 0;
-    for (bool first = true; good && (first || found > before); first = false) {
+    for (bool first = true; first || found > before; first = false) {
         before = found;
-        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
+        gm_formula_evaluate_parts(&system->graph, transform.parts, transform.part_count, variables, values);
         for (size_t i = 0; i < system->initial; i++) {
             const gm_node_id node = system->variables[i].start;
-            variables[i] = node == GM_NO_NODE || (given && !isnan(given[i])) ? variables[i] : values[node];
+            variables[i] = node == GM_NO_NODE || is_given(start, i) ? variables[i] : values[node];
         }
-        for (size_t i = 0; system->momenta && i < half; i++) {
-            variables[half + i] =
-                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
-        }
-        for (size_t i = 0; i < system->n; i++) {
-            variables[system->initial + i] = variables[i];
-        }
+        set_momenta(start, values);
+        memcpy(variables + system->initial, variables, system->n * sizeof *variables);
         for (size_t i = system->exact; i < system->variable_count; i++) {
             const gm_node_id node = system->variables[i - system->exact].exact;
             variables[i] = node == GM_NO_NODE ? NAN : values[node];
@@ -653,29 +651,27 @@ double *gm_equations_start(const struct gm_user_system *system, const double *gi
         }
     }
     bool unknown = false;
-    for (size_t i = 0; good && system->momenta && i < half; i++) {
+    for (size_t i = 0; system->momenta && i < system->n / 2; i++) {
         unknown |= isnan(variables[system->velocities + i]);
     }
-    start.variables = variables;
-    start.values = values;
-    start.parts = parts;
-    if (unknown && find_velocities(start)) {
-        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
-        for (size_t i = 0; i < half; i++) {
-            variables[half + i] =
-                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
-        }
+    if (unknown) {
+        find_velocities(arena, transform);
+        gm_formula_evaluate_parts(&system->graph, transform.parts, transform.part_count, variables, values);
+        set_momenta(start, values);
     }
-    for (size_t i = 0; good && i < system->n; i++) {
-        variables[system->initial + i] = variables[i];
+    memcpy(variables + system->initial, variables, system->n * sizeof *variables);
+}
+
+double *gm_equations_start(const struct gm_user_system *system, const double *given)
+{
+    struct start start = {system, given, malloc(system->variable_count * sizeof *start.variables)};
+    struct gm_arena *arena = gm_arena_open();
+    if (!start.variables || !gm_arena_run(arena, find_start, &start)) {
+        free(start.variables);
+        start.variables = NULL;
     }
-    free(parts);
-    free(values);
-    if (!good) {
-        free(variables);
-        return NULL;
-    }
-    return variables;
+    gm_arena_close(arena);
+    return start.variables;
 }
 
 /* True if momenta determine velocities: no pivot of the mass matrix (half * half, after `half` numbers of
@@ -774,95 +770,90 @@ static size_t rank_of(double *matrix, size_t rows, size_t columns, size_t *depen
 }
 
 /* The start must satisfy the constraints, with rates 0; and constraints must be independent. */
-static bool check_constraints(struct gm_user_system *system, const double *start, struct gm_fault *fault)
+static void check_constraints(struct gm_user_system *system, const double *start)
 {
     const size_t half = system->n / 2;
-    size_t count = 0, last = 0;
+    size_t count = 0, last = 0, dependent;
     const struct gm_system_item *item;
-    gm_node_id *nodes = malloc((system->item_count + 1) * sizeof *nodes);
-    for (; nodes && (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, count)); count++) {
+    gm_node_id *nodes = gm_arena_take(system->arena, system->item_count + 1, sizeof *nodes);
+    for (; (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, count)); count++) {
         nodes[count] = item->nodes[0];
         last = item->place;
+        if (!is_of_components(system, item->nodes[0], half)) {
+            gm_system_refuse(system, item->place, "a constraint holds coordinates and parameters alone");
+        }
     }
-    bool *marked = calloc(system->variable_count, sizeof *marked);
     struct gm_sparse slopes = {0};
-    for (size_t i = 0; marked && i < half; i++) {
-        marked[i] = true;
+    gm_sparse_keep(system->arena, &slopes,
+                   gm_sparse_jacobian(&system->graph, nodes, count, marks_of(system, 0, half),
+                                      system->variable_count, &slopes));
+    double *matrix = gm_arena_take(system->arena, count * half + 1, sizeof *matrix),
+           *rates = gm_arena_take(system->arena, count + 1, sizeof *rates);
+    const double *values = gm_equations_values(system, start);
+    for (size_t i = 0; i < slopes.count; i++) {
+        const struct gm_sparse_entry *slope = &slopes.entries[i];
+        const double velocity = system->kind == GM_LAGRANGIAN ? start[system->velocities + slope->column]
+                                                              : values[system->rates[slope->column]];
+        matrix[slope->row * half + slope->column] = values[slope->node];
+        rates[slope->row] += values[slope->node] * velocity;
     }
-    double *matrix = calloc(count * half + count + 1, sizeof *matrix), *values = NULL;
-    if (nodes && marked && matrix &&
-        gm_sparse_jacobian(&system->graph, nodes, count, marked, system->variable_count, &slopes)) {
-        values = gm_equations_values(system, start);
-    }
-    bool good = true;
-    for (size_t k = 0; good && k < count && !system->graph.failed; k++) {
+    for (size_t k = 0; k < count; k++) {
         item = gm_system_item_of(system, GM_WORD_CONSTRAINT, k);
-        good = is_of_components(system, item->nodes[0], half) ||
-               gm_fail(fault, item->place, "a constraint holds coordinates and parameters alone");
-    }
-    if (values && good) {
-        double *rates = matrix + count * half;
-        for (size_t i = 0; i < slopes.count; i++) {
-            const struct gm_sparse_entry *slope = &slopes.entries[i];
-            const double velocity = system->kind == GM_LAGRANGIAN ? start[system->velocities + slope->column]
-                                                                  : values[system->rates[slope->column]];
-            matrix[slope->row * half + slope->column] = values[slope->node];
-            rates[slope->row] += values[slope->node] * velocity;
+        if (!(fabs(values[nodes[k]]) <= 1e-10)) {
+            gm_system_refuse(system, item->place, "the start breaks this constraint: it is %g, not 0",
+                             values[nodes[k]]);
         }
-        for (size_t k = 0; k < count && good; k++) {
-            item = gm_system_item_of(system, GM_WORD_CONSTRAINT, k);
-            good = fabs(values[item->nodes[0]]) <= 1e-10 ||
-                   gm_fail(fault, item->place, "the start breaks this constraint: it is %g, not 0",
-                           values[item->nodes[0]]);
-            good = good &&
-                   (fabs(rates[k]) <= 1e-10 ||
-                    gm_fail(fault, item->place,
-                            "the start breaks this constraint: its rate of change is %g, not 0", rates[k]));
+        if (!(fabs(rates[k]) <= 1e-10)) {
+            gm_system_refuse(system, item->place,
+                             "the start breaks this constraint: its rate of change is %g, not 0", rates[k]);
         }
-        size_t dependent;
-        const size_t rank = good ? rank_of(matrix, count, half, &dependent) : count;
-        good = good && (rank == count || gm_fail(fault, last,
-                                                 "the constraints depend on each other at the start: the "
-                                                 "derivatives of %zu have the rank %zu",
-                                                 count, rank));
     }
-    system->graph.failed |= !values;
-    free(slopes.entries);
-    free(nodes);
-    free(marked);
-    free(matrix);
-    free(values);
-    return good;
+    const size_t rank = rank_of(matrix, count, half, &dependent);
+    if (rank != count) {
+        gm_system_refuse(system, last,
+                         "the constraints depend on each other at the start: the derivatives of %zu have "
+                         "the rank %zu",
+                         count, rank);
+    }
 }
 
 /* A density of steps must be positive and depend on the state alone. */
-static bool check_monitor(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+static void check_monitor(struct gm_user_system *system, const double *values)
 {
     const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_MONITOR, 0);
     if (item && !is_of_components(system, item->nodes[0], system->n)) {
-        return gm_fail(fault, item->place, "a monitor holds %s and parameters alone",
-                       system->kind <= GM_LAGRANGIAN ? "coordinates, momenta" : "components");
+        gm_system_refuse(system, item->place, "a monitor holds %s and parameters alone",
+                         system->kind <= GM_LAGRANGIAN ? "coordinates, momenta" : "components");
     }
     const double density = item ? values[item->nodes[0]] : 1;
-    return (density > 0 && isfinite(density)) ||
-           gm_fail(fault, item->place,
-                   "the monitor is %g at the start: how dense steps are is a number above 0", density);
+    if (!(density > 0 && isfinite(density))) {
+        gm_system_refuse(system, item->place,
+                         "the monitor is %g at the start: how dense steps are is a number above 0", density);
+    }
 }
 
-/* Half axes must be positive. */
-static bool check_sizes(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+/* Half axes must be positive; stops and conserved quantities must be finite at the start. */
+static void check_values_of_items(struct gm_user_system *system, const double *values)
 {
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_SURFACE, i)); i++) {
         for (size_t k = 0; k < item->count; k++) {
             const double size = values[item->nodes[k]];
             if (!(size > 0 && isfinite(size))) {
-                return gm_fail(fault, item->place, "the size of a surface is %g, and has to be above 0",
-                               size);
+                gm_system_refuse(system, item->place, "the size of a surface is %g, and has to be above 0",
+                                 size);
             }
         }
     }
-    return true;
+    for (size_t i = 0; i < system->item_count; i++) {
+        item = &system->items[i];
+        const bool stops = item->word == GM_WORD_STOP;
+        if ((stops || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) &&
+            !isfinite(values[item->nodes[0]])) {
+            gm_system_refuse(system, item->place, "%.60s is not finite at the start",
+                             stops ? "what ends the run" : item->name);
+        }
+    }
 }
 
 static bool is_unknown(struct gm_formula *graph, gm_node_id part, const void *start)
@@ -873,8 +864,7 @@ static bool is_unknown(struct gm_formula *graph, gm_node_id part, const void *st
 
 /* Reports a start that is not finite, whose variables all are; if every start waits for another, they form a
    circle. */
-static bool check_values(struct gm_user_system *system, const double *start, const double *values,
-                         struct gm_fault *fault)
+static void check_values(struct gm_user_system *system, const double *start, const double *values)
 {
     size_t waiting = system->n, waits_for = 0;
     for (size_t i = 0; i < system->n; i++) {
@@ -886,46 +876,24 @@ static bool check_values(struct gm_user_system *system, const double *start, con
                                      ? GM_NO_NODE
                                      : gm_formula_first(&system->graph, variable->start, is_unknown, start);
         if (other == GM_NO_NODE) {
-            return gm_fail(
-                fault, variable->start == GM_NO_NODE ? 0 : first_not_finite(system, variable->start, values),
+            gm_system_refuse(
+                system, variable->start == GM_NO_NODE ? 0 : first_not_finite(system, variable->start, values),
                 "%.60s is not finite at the start", variable->name);
         }
         waits_for = waiting == system->n ? system->graph.nodes[other].a : waits_for;
         waiting = waiting == system->n ? i : waiting;
     }
-    if (waiting == system->n) {
-        return true;
+    if (waiting < system->n) {
+        gm_system_refuse(system, system->variables[waiting].start_place,
+                         "a circle: the start of %.60s needs that of %.60s", system->variables[waiting].name,
+                         system->variables[waits_for].name);
     }
-    return gm_fail(fault, system->variables[waiting].start_place,
-                   "a circle: the start of %.60s needs that of %.60s", system->variables[waiting].name,
-                   system->variables[waits_for].name);
 }
 
-/* Stops and conserved quantities must be finite at the start. */
-static bool check_looked_at(struct gm_user_system *system, const double *values, struct gm_fault *fault)
+/* Rates, and the energy, must be finite at the start. */
+static void check_rates(struct gm_user_system *system, const double *values)
 {
-    bool good = true;
-    for (size_t i = 0; i < system->item_count && good; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_STOP || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) {
-            good = isfinite(values[item->nodes[0]]) ||
-                   gm_fail(fault, item->place, "%.60s is not finite at the start",
-                           item->word == GM_WORD_STOP ? "what ends the run" : item->name);
-        }
-    }
-    return good;
-}
-
-static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
-{
-    double *start = gm_equations_start(system, NULL),
-           *values = start ? gm_equations_values(system, start) : NULL;
-    bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
-    good = good && (!values || check_values(system, start, values, fault));
-    if (values && good && gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
-        good = check_constraints(system, start, fault);
-    }
-    for (size_t i = 0; values && good && i < system->n; i++) {
+    for (size_t i = 0; i < system->n; i++) {
         if (system->rates[i] == GM_NO_NODE || isfinite(values[system->rates[i]])) {
             continue;
         }
@@ -938,87 +906,99 @@ static bool check_start(struct gm_user_system *system, struct gm_fault *fault)
             place = system->graph.places[system->energy]; /* a derivative is too large, although all written
                                                              parts are finite */
         }
-        good =
-            gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
+        gm_system_refuse(system, place, "the rate of %.60s is not finite at the start",
+                         system->variables[i].name);
     }
-    if (values && good && (system->kind == GM_CANONICAL || system->kind == GM_POISSON)) {
-        good =
-            isfinite(values[system->energy]) ||
-            gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
+    if ((system->kind == GM_CANONICAL || system->kind == GM_POISSON) && !isfinite(values[system->energy])) {
+        gm_system_refuse(system, first_not_finite(system, system->energy, values),
+                         "H is not finite at the start");
     }
-    good = good && (!values || (check_monitor(system, values, fault) && check_sizes(system, values, fault) &&
-                                check_looked_at(system, values, fault)));
-    system->graph.failed |= !values;
-    free(start);
-    free(values);
-    return good;
 }
 
-/* True if a field's formula has no other component, time or place than these numbers. */
-static bool holds_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
-                       const char *what, struct gm_fault *fault)
+static void check_start(struct gm_user_system *system)
+{
+    const size_t mark = gm_arena_mark(system->arena);
+    double *start = gm_arena_keep(system->arena, gm_equations_start(system, NULL), free);
+    const double *values = gm_equations_values(system, start);
+    if (system->kind == GM_LAGRANGIAN && !gm_equations_check_legendre(system, start, system->fault)) {
+        gm_arena_leave(system->arena);
+    }
+    check_values(system, start, values);
+    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
+        check_constraints(system, start);
+    }
+    check_rates(system, values);
+    check_monitor(system, values);
+    check_values_of_items(system, values);
+    gm_arena_release(system->arena, mark);
+}
+
+/* A field's formula has no other component, time or place than these numbers. */
+static void need_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
+                      const char *what)
 {
     const struct allowed allowed = {system, 0, numbers, count};
     const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
-    if (part == GM_NO_NODE) {
-        return true;
+    if (part != GM_NO_NODE) {
+        const uint32_t place = system->graph.places[node];
+        gm_system_refuse(system, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
+                         system->variables[system->graph.nodes[part].a].name);
     }
-    const uint32_t place = system->graph.places[node];
-    return gm_fail(fault, place == GM_NO_PLACE ? 0 : place, "%s does not hold %.60s", what,
-                   system->variables[system->graph.nodes[part].a].name);
 }
 
 /* V and S may have corners in parameters only, which are constant. */
-static bool is_smooth(struct gm_user_system *system, const char *what, struct gm_fault *fault)
+static void need_smooth(struct gm_user_system *system, const char *what)
 {
-    bool *marked = malloc(system->n * sizeof *marked);
-    for (size_t i = 0; marked && i < system->n; i++) {
-        marked[i] = true;
-    }
     const gm_node_id kink =
-        marked ? gm_formula_kink(&system->graph, system->energy, marked, system->n) : GM_NO_NODE;
-    system->graph.failed |= !marked;
-    free(marked);
-    return !system->graph.failed &&
-           (kink == GM_NO_NODE || gm_fail(fault, system->graph.places[kink],
-                                          "%s has to be smooth, and %s is not: its force would jump", what,
-                                          gm_operation_rows[system->graph.nodes[kink].operation].name));
+        gm_formula_kink(&system->graph, system->energy, marks_of(system, 0, system->n), system->n);
+    if (kink != GM_NO_NODE) {
+        gm_system_refuse(system, system->graph.places[kink],
+                         "%s has to be smooth, and %s is not: its force would jump", what,
+                         gm_operation_rows[system->graph.nodes[kink].operation].name);
+    }
+}
+
+/* A number of a field's line holds parameters alone. */
+static void need_constant(struct gm_user_system *system, gm_node_id node, const struct gm_system_item *item)
+{
+    const struct allowed allowed = {system, 0, NULL, 0};
+    const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
+    if (part != GM_NO_NODE) { /* other lines may contain the variable too */
+        gm_system_refuse(system, item->place, "%s does not hold %.60s",
+                         item->word == GM_WORD_ENDS ? "ends:" : "alpha:",
+                         system->variables[system->graph.nodes[part].a].name);
+    }
 }
 
 /* Checks the variables in starts, exact solutions, densities and numbers of a field. */
-static bool check_line(struct gm_user_system *system, size_t densities, struct gm_fault *fault)
+static void check_line(struct gm_user_system *system, size_t densities)
 {
     const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
     size_t in_density[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
-    bool good = true;
     for (size_t i = 0; i < n + densities; i++) {
         in_density[i] = i < n ? i : x + i - n;
     }
-    for (size_t i = 0; i < n && good; i++) {
+    for (size_t i = 0; i < n; i++) {
         const struct gm_system_variable *field = &system->variables[i];
-        good = holds_only(system, field->start, in_start, 1, "the start of a field", fault) &&
-               (field->exact == GM_NO_NODE ||
-                holds_only(system, field->exact, in_exact, 2, "the exact solution of a field", fault));
+        need_only(system, field->start, in_start, 1, "the start of a field");
+        if (field->exact != GM_NO_NODE) {
+            need_only(system, field->exact, in_exact, 2, "the exact solution of a field");
+        }
     }
-    for (size_t i = 0; i < system->item_count && good; i++) {
+    for (size_t i = 0; i < system->item_count; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             item->check = GM_UNTESTED;
-            good = holds_only(system, item->nodes[0], in_density, n + densities, "a density", fault);
+            need_only(system, item->nodes[0], in_density, n + densities, "a density");
         }
-        const char *const what = item->word == GM_WORD_ENDS ? "ends:" : "alpha:";
         const bool constant = item->word == GM_WORD_ENDS || item->word == GM_WORD_ALPHA;
-        for (size_t k = 0; constant && k < item->count && good; k++) {
-            good = holds_only(system, item->nodes[k], NULL, 0, what, fault);
+        for (size_t k = 0; constant && k < item->count; k++) {
+            need_constant(system, item->nodes[k], item);
         }
-        for (size_t k = 0; constant && k < item->option_count && good; k++) {
-            good = holds_only(system, item->options[k].node, NULL, 0, what, fault);
-        }
-        if (constant && !good) {
-            fault->offset = item->place; /* other lines may contain the variable too */
+        for (size_t k = 0; constant && k < item->option_count; k++) {
+            need_constant(system, item->options[k].node, item);
         }
     }
-    return good && !system->graph.failed;
 }
 
 size_t gm_system_mass_field(const struct gm_user_system *system, gm_node_id node)
@@ -1053,120 +1033,108 @@ bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_no
     return good;
 }
 
-static bool check_masses(struct gm_user_system *system, struct gm_fault *fault)
+static void check_masses(struct gm_user_system *system)
 {
     bool known[GM_MOST_FIELDS] = {false};
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_MASS, i)); i++) {
         const size_t field = gm_system_mass_field(system, item->nodes[0]);
         if (field == system->n) {
-            return gm_fail(fault, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
+            gm_system_refuse(system, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
         }
         if (known[field]) {
-            return gm_fail(fault, item->place, "the mass of %.60s is given twice",
-                           system->variables[field].name);
+            gm_system_refuse(system, item->place, "the mass of %.60s is given twice",
+                             system->variables[field].name);
         }
         known[field] = true;
         gm_node_id line, rest;
-        if (!gm_system_linear_part(system, item->nodes[0], &line, &rest)) {
-            return false;
-        }
+        gm_arena_need(system->arena, gm_system_linear_part(system, item->nodes[0], &line, &rest));
         if (!gm_is_constant(&system->graph, rest, 0)) {
-            return gm_fail(fault, item->place,
-                           "a mass is linear in %.60s and its derivatives, with constant coefficients",
-                           system->variables[field].name);
+            gm_system_refuse(system, item->place,
+                             "a mass is linear in %.60s and its derivatives, with constant coefficients",
+                             system->variables[field].name);
         }
     }
-    return true;
 }
 
-static bool check_evolution(struct gm_user_system *system, struct gm_fault *fault)
+static void check_evolution(struct gm_user_system *system)
 {
     const size_t n = system->n, derivatives = GM_MOST_DERIVATIVES * n;
     size_t in_rate[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
-    bool good = true;
     for (size_t i = 0; i < n + derivatives + 1; i++) {
         in_rate[i] = i < n ? i : system->velocities + i - n;
     }
-    for (size_t i = 0; i < n && good; i++) {
-        good =
-            holds_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field", fault);
+    for (size_t i = 0; i < n; i++) {
+        need_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field");
     }
-    return good && check_masses(system, fault) && check_line(system, derivatives + 1, fault);
+    check_masses(system);
+    check_line(system, derivatives + 1);
 }
 
-static bool check_field(struct gm_user_system *system, struct gm_fault *fault)
+static void check_field(struct gm_user_system *system)
 {
     enum { U, U_T };
     const size_t in_v[] = {U};
-    if (!is_smooth(system, "V", fault) || !holds_only(system, system->energy, in_v, 1, "V", fault)) {
-        return false;
-    }
+    need_smooth(system, "V");
+    need_only(system, system->energy, in_v, 1, "V");
     if (system->variables[U_T].exact != GM_NO_NODE) {
-        return gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
+        gm_system_refuse(system, 0, "exact: is of %.60s alone", system->variables[U].name);
     }
-    return check_line(system, 2, fault);
+    check_line(system, 2);
 }
 
 /* K = -K', entry by entry. */
-static bool is_skew(struct gm_user_system *system, size_t which, struct gm_fault *fault)
+static void check_skew(struct gm_user_system *system, size_t which)
 {
     const size_t n = system->n;
     const gm_node_id *entries = system->matrices + which * n * n;
     const size_t *places = system->matrix_places + which * n * n;
-    static const char *const names[] = {"K", "L"};
+    const char *name = which == 0 ? "K" : "L";
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j <= i; j++) {
-            if (!holds_only(system, entries[i * n + j], NULL, 0, "an entry of a matrix", fault) ||
-                !holds_only(system, entries[j * n + i], NULL, 0, "an entry of a matrix", fault)) {
-                return false;
+            const size_t pair[] = {i * n + j, j * n + i};
+            for (size_t side = 0; side < 2; side++) {
+                need_only(system, entries[pair[side]], NULL, 0, "an entry of a matrix");
             }
             for (size_t side = 0; side < 2; side++) {
-                const size_t at = side == 0 ? i * n + j : j * n + i;
-                const struct gm_node *entry = &system->graph.nodes[entries[at]];
+                const struct gm_node *entry = &system->graph.nodes[entries[pair[side]]];
                 if (entry->operation == GM_CONSTANT && !isfinite(entry->value)) {
-                    return gm_fail(fault, places[at], "an entry of %s is not a finite number", names[which]);
+                    gm_system_refuse(system, places[pair[side]], "an entry of %s is not a finite number",
+                                     name);
                 }
             }
-            const gm_node_id sum = gm_sum(&system->graph, entries[i * n + j], entries[j * n + i]);
-            if (system->graph.failed) {
-                return false;
-            }
+            const gm_node_id sum = gm_sum(&system->graph, entries[pair[0]], entries[pair[1]]);
             if (gm_equations_vanishes(system, sum) != GM_NOT_ZERO) {
                 continue;
             }
-            return i == j ? gm_fail(fault, places[i * n + j], "%s has to be skew: entry %zu, %zu is not 0",
-                                    names[which], i + 1, i + 1)
-                          : gm_fail(fault, places[i * n + j],
-                                    "%s has to be skew: entry %zu, %zu is not minus entry %zu, %zu",
-                                    names[which], i + 1, j + 1, j + 1, i + 1);
+            if (i == j) {
+                gm_system_refuse(system, places[pair[0]], "%s has to be skew: entry %zu, %zu is not 0", name,
+                                 i + 1, i + 1);
+            }
+            gm_system_refuse(system, places[pair[0]],
+                             "%s has to be skew: entry %zu, %zu is not minus entry %zu, %zu", name, i + 1,
+                             j + 1, j + 1, i + 1);
         }
     }
-    return true;
 }
 
-/* True if a K + b L - S'' is regular for some a and b at some point: else a component lacks an equation. */
-static bool is_determined(struct gm_user_system *system, struct gm_fault *fault)
+/* a K + b L - S'' is regular for some a and b at some point: else a component lacks an equation. */
+static void check_determined(struct gm_user_system *system)
 {
     enum { TRIALS = 4 };
     const size_t n = system->n;
     struct gm_sparse hessian = {0};
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    double *values = gm_equations_start(system, NULL), *all = NULL;
-    for (size_t i = 0; marked && i < n; i++) {
-        marked[i] = true;
-    }
-    bool good =
-        marked && values &&
-        gm_sparse_jacobian(&system->graph, system->rates, n, marked, system->variable_count, &hessian);
-    all = good ? malloc((system->graph.count + (size_t)1) * sizeof *all) : NULL;
+    double *values = gm_arena_keep(system->arena, gm_equations_start(system, NULL), free);
+    gm_sparse_keep(system->arena, &hessian,
+                   gm_sparse_jacobian(&system->graph, system->rates, n, marks_of(system, 0, n),
+                                      system->variable_count, &hessian));
     size_t free_one = 0;
-    for (int trial = 0; all && trial < TRIALS && free_one < n; trial++) {
+    for (int trial = 0; trial < TRIALS && free_one < n; trial++) {
         double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];
         for (size_t i = 0; i < n; i++) {
             values[i] = 0.3 + 0.37 * sin(1 + 2.3 * (double)i + 5.1 * trial);
         }
-        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+        const double *all = gm_equations_values(system, values);
         for (size_t i = 0; i < n * n; i++) {
             matrix[i] = (1.31 + 0.4 * trial) * all[system->matrices[i]] +
                         (0.73 - 0.3 * trial) * all[system->matrices[n * n + i]];
@@ -1176,31 +1144,28 @@ static bool is_determined(struct gm_user_system *system, struct gm_fault *fault)
         }
         rank_of(matrix, n, n, &free_one);
     }
-    good =
-        all && (free_one == n ||
-                gm_fail(fault, gm_formula_origin(&system->graph, system->energy),
-                        "the equations do not determine %.60s: a K + b L - S'' is singular for all a and b",
-                        system->variables[free_one].name));
-    free(hessian.entries);
-    free(marked);
-    free(values);
-    free(all);
-    return good;
+    if (free_one < n) {
+        gm_system_refuse(system, gm_formula_origin(&system->graph, system->energy),
+                         "the equations do not determine %.60s: a K + b L - S'' is singular for all a and b",
+                         system->variables[free_one].name);
+    }
 }
 
-static bool check_matrices(struct gm_user_system *system, struct gm_fault *fault)
+static void check_matrices(struct gm_user_system *system)
 {
     size_t in_s[GM_MOST_OF_MATRICES];
     for (size_t i = 0; i < system->n; i++) {
         in_s[i] = i;
-        const gm_node_id jump = system->variables[i].jump;
-        if (jump != GM_NO_NODE && !holds_only(system, jump, NULL, 0, "a jump", fault)) {
-            return false;
+        if (system->variables[i].jump != GM_NO_NODE) {
+            need_only(system, system->variables[i].jump, NULL, 0, "a jump");
         }
     }
-    return is_skew(system, 0, fault) && is_skew(system, 1, fault) && is_smooth(system, "S", fault) &&
-           holds_only(system, system->energy, in_s, system->n, "S", fault) && is_determined(system, fault) &&
-           check_line(system, 1, fault);
+    check_skew(system, 0);
+    check_skew(system, 1);
+    need_smooth(system, "S");
+    need_only(system, system->energy, in_s, system->n, "S");
+    check_determined(system);
+    check_line(system, 1);
 }
 
 static bool is_tangent(struct gm_formula *graph, gm_node_id part, const void *system)
@@ -1210,7 +1175,7 @@ static bool is_tangent(struct gm_formula *graph, gm_node_id part, const void *sy
 }
 
 /* The motion does not depend on its tangents. */
-static bool check_tangents(struct gm_user_system *system, struct gm_fault *fault)
+static void check_tangents(struct gm_user_system *system)
 {
     const size_t n = gm_system_motion(system);
     for (size_t c = 0; c <= n && system->tangents > 0; c++) {
@@ -1219,28 +1184,41 @@ static bool check_tangents(struct gm_user_system *system, struct gm_fault *fault
                              energy ? system->energy : system->rates[gm_system_component(system, c % n, 0)],
                          part = gm_formula_first(&system->graph, node, is_tangent, system);
         if (part != GM_NO_NODE) {
-            return gm_fail(fault, system->graph.places[part], "the motion does not depend on its tangents");
+            gm_system_refuse(system, system->graph.places[part],
+                             "the motion does not depend on its tangents");
         }
     }
-    return true;
+}
+
+static void derive_and_check(struct gm_arena *arena, void *data)
+{
+    struct gm_user_system *system = data;
+    derive(system);
+    const size_t mark = gm_arena_mark(arena);
+    check_tangents(system);
+    if (system->kind == GM_FIELD) {
+        check_field(system);
+    } else if (system->kind == GM_MATRICES) {
+        check_matrices(system);
+    } else if (system->kind == GM_EVOLUTION) {
+        check_evolution(system);
+    } else {
+        if (system->kind == GM_POISSON) {
+            check_jacobi(system);
+        }
+        check_start(system);
+        check_items(system);
+    }
+    gm_system_need_graph(system);
+    gm_arena_release(arena, mark);
 }
 
 bool gm_equations_derive(struct gm_user_system *system, struct gm_fault *fault)
 {
     *fault = (struct gm_fault){0};
-    if (gm_system_is_form(system)) { /* core/form compiles them */
-        return true;
-    }
-    if (!derive(system) || !check_tangents(system, fault)) {
-        return false;
-    }
-    if (gm_system_is_field(system)) {
-        return system->kind == GM_FIELD      ? check_field(system, fault)
-               : system->kind == GM_MATRICES ? check_matrices(system, fault)
-                                             : check_evolution(system, fault);
-    }
-    return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
-           check_items(system, fault) && !system->graph.failed;
+    system->fault = fault;
+    /* core/form compiles forms */
+    return gm_system_is_form(system) || gm_arena_run(system->arena, derive_and_check, system);
 }
 
 bool gm_equations_open(struct gm_user_system *system, const char *text, size_t length,

@@ -28,10 +28,10 @@ size_t gm_system_mass_field(const struct gm_user_system *system, gm_node_id node
 bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_node_id *line,
                            gm_node_id *rest);
 
-/* The derivatives of a node over all variables, 0 for those that are not marked; `marked` is NULL: all are. The
-   caller frees; NULL, with graph.failed set, when out of memory. */
+/* The derivatives of a node over all variables, 0 for those that are not marked; `marked` is NULL: all are. Inside a
+   body of the system's arena. */
 gm_node_id *gm_equations_gradient(struct gm_user_system *system, gm_node_id node, const bool *marked);
-/* The values of all nodes for these variables. The caller frees; NULL when out of memory. */
+/* The values of all nodes for these variables. Inside a body of the system's arena. */
 double *gm_equations_values(const struct gm_user_system *system, const double *variables);
 /* Replaces the momenta of a Lagrangian in nodes by dL/dv. False when out of memory. */
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count);

@@ -43,6 +43,15 @@ const char *gm_fact_word(enum gm_fact fact)
     return rows[fact].word;
 }
 
+/* The search, inside a body of the system's arena. Sets of variables: coordinates; momenta, or velocities; all that
+   moves; `own` marks none, and now and then one. */
+struct search {
+    struct gm_user_system *system;
+    struct gm_finding *findings;
+    gm_node_id *nodes; /* of facets */
+    bool *q, *p, *all, *own;
+};
+
 /* true if a node depends on a marked variable */
 static bool depends(struct gm_user_system *system, gm_node_id node, const bool *marked)
 {
@@ -81,15 +90,16 @@ static enum gm_identity vanishes(struct gm_user_system *system, gm_node_id node,
         return GM_ZERO_PROVED;
     }
     enum gm_identity all = GM_ZERO_PROVED;
-    gm_node_id *gradient = gm_equations_gradient(system, node, sets[0]);
-    for (size_t i = 0; i < system->variable_count && all != GM_NOT_ZERO && !system->graph.failed; i++) {
-        const bool is_zero = !sets[0][i] || gm_is_constant(&system->graph, gradient[i], 0);
-        const enum gm_identity found =
-            is_zero ? GM_ZERO_PROVED : vanishes(system, gradient[i], sets + 1, depth - 1);
-        all = found == GM_ZERO_PROVED ? all : found;
+    const size_t mark = gm_arena_mark(system->arena);
+    const gm_node_id *gradient = gm_equations_gradient(system, node, sets[0]);
+    for (size_t i = 0; i < system->variable_count && all != GM_NOT_ZERO; i++) {
+        if (sets[0][i] && !gm_is_constant(&system->graph, gradient[i], 0)) {
+            const enum gm_identity found = vanishes(system, gradient[i], sets + 1, depth - 1);
+            all = found == GM_ZERO_PROVED ? all : found;
+        }
     }
-    free(gradient);
-    all = system->graph.failed ? GM_UNTESTED : all;
+    gm_arena_release(system->arena, mark);
+    gm_system_need_graph(system);
     const struct sets of = {system, sets, depth};
     const bool kinked =
         all != GM_NOT_ZERO && gm_formula_first(&system->graph, node, is_kink, &of) != GM_NO_NODE;
@@ -101,20 +111,19 @@ struct term {
     gm_node_id node, coefficient;
 };
 
-/* The terms of a node as a sum, at most MOST_TERMS; none when out of memory. */
-static struct term *terms_of(struct gm_user_system *system, gm_node_id root, const bool *components,
-                             size_t *count)
+/* The terms of a node as a sum, at most MOST_TERMS. */
+static struct term *terms_of(const struct search *search, gm_node_id root, size_t *count)
 {
+    struct gm_user_system *system = search->system;
     struct gm_formula *graph = &system->graph;
-    bool *dependent = gm_formula_dependent(graph, components, system->variable_count);
+    const bool *dependent =
+        gm_arena_keep(system->arena, gm_formula_dependent(graph, search->all, system->variable_count), free);
     struct term *terms = gm_arena_take(system->arena, 2 * (MOST_TERMS + 1), sizeof *terms),
-                *stack = terms ? terms + MOST_TERMS + 1 : NULL;
+                *stack = terms + MOST_TERMS + 1;
     size_t depth = 0;
     *count = 0;
-    if (dependent && terms) {
-        stack[depth++] = (struct term){root, gm_formula_constant(graph, 1)};
-    }
-    while (depth > 0 && !graph->failed) {
+    stack[depth++] = (struct term){root, gm_formula_constant(graph, 1)};
+    while (depth > 0) {
         const struct term top = stack[--depth];
         const struct gm_node here = graph->nodes[top.node];
         const bool is_last = *count + depth + 2 > MOST_TERMS;
@@ -146,25 +155,27 @@ static struct term *terms_of(struct gm_user_system *system, gm_node_id root, con
         }
         terms[(*count)++] = top;
     }
-    graph->failed |= !dependent || !terms;
-    free(dependent);
-    *count = graph->failed ? 0 : *count;
+    gm_system_need_graph(system);
     return terms;
 }
 
 /* The first term whose derivatives do not vanish; the node itself if no single term is the reason. */
-static gm_node_id culprit(struct gm_user_system *system, gm_node_id node, const bool *components,
-                          const bool *const *sets, size_t depth)
+static gm_node_id culprit(const struct search *search, gm_node_id node, const bool *const *sets, size_t depth)
 {
+    struct gm_user_system *system = search->system;
     size_t count = 0;
-    struct term *terms = terms_of(system, node, components, &count);
+    const size_t mark = gm_arena_mark(system->arena);
+    const struct term *terms = terms_of(search, node, &count);
     const size_t most = system->graph.count + MOST_GROWN;
-    gm_node_id found = GM_NO_NODE;
-    for (size_t i = 0; i < count && i < MOST_TRIED && found == GM_NO_NODE && system->graph.count < most;
-         i++) {
-        found = vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO ? terms[i].node : GM_NO_NODE;
+    gm_node_id found = node;
+    for (size_t i = 0; i < count && i < MOST_TRIED && system->graph.count < most; i++) {
+        if (vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO) {
+            found = terms[i].node;
+            break;
+        }
     }
-    return found == GM_NO_NODE ? node : found;
+    gm_arena_release(system->arena, mark);
+    return found;
 }
 
 static void conclude(struct gm_finding *finding, enum gm_identity found)
@@ -181,56 +192,69 @@ static void deny(struct gm_finding *finding, gm_node_id term, const char *why)
     finding->why = why;
 }
 
+/* Concludes that the derivatives of a node over sets[0], of these over sets[1] .. vanish; else one of its terms is
+   the reason. Returns whether the finding holds. */
+static bool need_vanishing(const struct search *search, struct gm_finding *finding, gm_node_id node,
+                           const bool *const *sets, size_t depth)
+{
+    conclude(finding, vanishes(search->system, node, sets, depth));
+    finding->term = finding->holds ? GM_NO_NODE : culprit(search, node, sets, depth);
+    return finding->holds;
+}
+
 /* Tests the energy, or L with velocities for momenta: if L = T(v) - V(q), H separates as well, and the
    transform of a quadratic T is quadratic. */
-static void find_split(struct gm_user_system *system, struct gm_finding *findings, const bool *q,
-                       const bool *p, const bool *all)
+static void find_split(const struct search *search)
 {
-    struct gm_finding *separable = &findings[GM_FACT_SEPARABLE], *nystrom = &findings[GM_FACT_NYSTROM];
-    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    struct gm_finding *separable = &search->findings[GM_FACT_SEPARABLE],
+                      *nystrom = &search->findings[GM_FACT_NYSTROM];
+    const gm_node_id energy = search->system->energy;
+    const bool lagrangian = search->system->kind == GM_LAGRANGIAN;
+    const bool *const both[] = {search->p, search->q}, *const thrice[] = {search->p, search->p, search->p};
     separable->asked = nystrom->asked = true;
-    conclude(separable, vanishes(system, system->energy, (const bool *const[]){p, q}, 2));
-    if (!separable->holds) {
-        separable->term = culprit(system, system->energy, all, (const bool *const[]){p, q}, 2);
+    if (!need_vanishing(search, separable, energy, both, 2)) {
         separable->why = lagrangian ? "holds coordinates and velocities" : NULL;
         deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
-        return;
-    }
-    conclude(nystrom, vanishes(system, system->energy, (const bool *const[]){p, p, p}, 3));
-    if (!nystrom->holds) {
-        nystrom->term = culprit(system, system->energy, all, (const bool *const[]){p, p, p}, 3);
+    } else if (!need_vanishing(search, nystrom, energy, thrice, 3)) {
         nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;
     }
 }
 
-/* Derivative over variable i; any node when out of memory. `own` marks no variable. */
-static gm_node_id slope_of(struct gm_user_system *system, gm_node_id node, bool *own, size_t i)
+/* Derivative over variable i. */
+static gm_node_id slope_of(const struct search *search, gm_node_id node, size_t i)
 {
-    own[i] = true;
-    gm_node_id *gradient = gm_equations_gradient(system, node, own);
-    own[i] = false;
-    const gm_node_id slope = gradient ? gradient[i] : 0;
-    free(gradient);
+    struct gm_arena *arena = search->system->arena;
+    const size_t mark = gm_arena_mark(arena);
+    search->own[i] = true;
+    const gm_node_id slope = gm_equations_gradient(search->system, node, search->own)[i];
+    search->own[i] = false;
+    gm_arena_release(arena, mark);
     return slope;
 }
 
-/* True if a node depends on variable i. `own` marks no variable. */
-static bool depends_on(struct gm_user_system *system, gm_node_id node, bool *own, size_t i)
+/* True if a node depends on variable i. */
+static bool depends_on(const struct search *search, gm_node_id node, size_t i)
 {
-    own[i] = true;
-    const bool depending = depends(system, node, own);
-    own[i] = false;
+    search->own[i] = true;
+    const bool depending = depends(search->system, node, search->own);
+    search->own[i] = false;
     return depending;
+}
+
+/* The first momentum, or velocity of a Lagrangian. */
+static size_t first_moving(const struct gm_user_system *system)
+{
+    return system->kind == GM_LAGRANGIAN ? system->velocities : system->n / 2;
 }
 
 /* True if the system has unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and no forces. Else the
    finding has the reason. */
-static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_finding *findings,
-                            struct gm_finding *finding, const bool *all, bool *own)
+static bool is_of_unit_mass(const struct search *search, struct gm_finding *finding)
 {
-    const size_t half = system->n / 2;
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const size_t half = system->n / 2, first = first_moving(system);
     const bool lagrangian = system->kind == GM_LAGRANGIAN;
-    const size_t first = lagrangian ? system->velocities : half;
     if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
         deny(finding, GM_NO_NODE, "it has constraints");
         return false;
@@ -241,22 +265,22 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
             return false;
         }
     }
-    if (!findings[GM_FACT_SEPARABLE].holds || system->timed) {
-        deny(finding, GM_NO_NODE, system->timed ? "the time occurs" : findings[GM_FACT_NYSTROM].why);
+    if (!search->findings[GM_FACT_SEPARABLE].holds || system->timed) {
+        deny(finding, GM_NO_NODE, system->timed ? "the time occurs" : search->findings[GM_FACT_NYSTROM].why);
         return false;
     }
-    for (size_t i = 0; i < half && finding->holds && !system->graph.failed; i++) {
-        const gm_node_id p = gm_formula_variable(&system->graph, first + i);
+    for (size_t i = 0; i < half && finding->holds; i++) {
+        const gm_node_id p = gm_formula_variable(graph, first + i);
         const gm_node_id slope = lagrangian ? system->momenta[i] : system->rates[i];
-        conclude(finding, gm_equations_vanishes(system, gm_difference(&system->graph, slope, p)));
+        conclude(finding, gm_equations_vanishes(system, gm_difference(graph, slope, p)));
         size_t count = 0;
-        struct term *terms = finding->holds ? NULL : terms_of(system, system->energy, all, &count);
+        const struct term *terms = finding->holds ? NULL : terms_of(search, system->energy, &count);
         finding->why = lagrangian ? "is not of |v|^2/2" : "is not of |p|^2/2";
         for (size_t k = 0; k < count && k < MOST_TRIED && finding->term == GM_NO_NODE; k++) {
-            if (depends_on(system, terms[k].node, own, first + i)) {
-                const gm_node_id part = gm_product(&system->graph, terms[k].coefficient,
-                                                   slope_of(system, terms[k].node, own, first + i));
-                const gm_node_id rest = gm_difference(&system->graph, part, p);
+            if (depends_on(search, terms[k].node, first + i)) {
+                const gm_node_id part =
+                    gm_product(graph, terms[k].coefficient, slope_of(search, terms[k].node, first + i));
+                const gm_node_id rest = gm_difference(graph, part, p);
                 finding->term =
                     gm_equations_vanishes(system, rest) == GM_NOT_ZERO ? terms[k].node : GM_NO_NODE;
             }
@@ -265,49 +289,43 @@ static bool is_of_unit_mass(struct gm_user_system *system, const struct gm_findi
     if (!finding->holds && finding->term == GM_NO_NODE) {
         finding->why = lagrangian ? "the kinetic energy is not |v|^2/2" : "the kinetic energy is not |p|^2/2";
     }
-    return finding->holds && !system->graph.failed;
+    return finding->holds;
 }
 
 /* a node with `count` variables from `first` on set to 0 */
 static gm_node_id at_zero(struct gm_user_system *system, gm_node_id node, size_t first, size_t count)
 {
+    const size_t mark = gm_arena_mark(system->arena);
     gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count);
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = first; replacement && i < first + count; i++) {
+    for (size_t i = first; i < first + count; i++) {
         replacement[i] = zero;
     }
-    system->graph.failed |=
-        !replacement || !gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
+    gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
+    gm_arena_release(system->arena, mark);
     return node;
 }
 
 /* V of a system that is_of_unit_mass: H, or -L, at rest */
 static gm_node_id potential_of(struct gm_user_system *system)
 {
-    return system->kind == GM_LAGRANGIAN
-               ? gm_negative(&system->graph,
-                             at_zero(system, system->energy, system->velocities, system->n / 2))
-               : at_zero(system, system->energy, system->n / 2, system->n / 2);
+    const gm_node_id rest = at_zero(system, system->energy, first_moving(system), system->n / 2);
+    return system->kind == GM_LAGRANGIAN ? gm_negative(&system->graph, rest) : rest;
 }
 
 /* values of all nodes at the start */
-static double *values_at_start(struct gm_user_system *system)
+static const double *values_at_start(struct gm_user_system *system)
 {
-    double *start = gm_equations_start(system, NULL),
-           *values = start ? gm_arena_keep(system->arena, gm_equations_values(system, start), free) : NULL;
-    system->graph.failed |= !values;
-    free(start);
-    return values;
+    return gm_equations_values(system, gm_arena_keep(system->arena, gm_equations_start(system, NULL), free));
 }
 
 /* forces[i] = -d node / d q_i */
-static void forces_of(struct gm_user_system *system, gm_node_id node, const bool *q, gm_node_id *forces)
+static void forces_of(const struct search *search, gm_node_id node, gm_node_id *forces)
 {
-    gm_node_id *gradient = gm_equations_gradient(system, node, q);
-    for (size_t i = 0; gradient && i < system->n / 2; i++) {
-        forces[i] = gm_negative(&system->graph, gradient[i]);
+    const gm_node_id *gradient = gm_equations_gradient(search->system, node, search->q);
+    for (size_t i = 0; i < search->system->n / 2; i++) {
+        forces[i] = gm_negative(&search->system->graph, gradient[i]);
     }
-    free(gradient);
 }
 
 /* A term of the potential that depends on one coordinate alone, and its second derivative. */
@@ -317,147 +335,141 @@ struct well {
 };
 
 /* The wells of all terms. A stiffness that depends on the state makes none. */
-static struct well *wells_of(struct gm_user_system *system, const struct term *terms, size_t count,
-                             const bool *q, const bool *all, bool *own)
+static struct well *wells_of(const struct search *search, const struct term *terms, size_t count)
 {
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
     struct well *wells = gm_arena_take(system->arena, count + 1, sizeof *wells);
-    const size_t most = system->graph.count + MOST_GROWN;
-    system->graph.failed |= !wells;
-    for (size_t k = 0; k < count && !system->graph.failed; k++) {
+    const size_t most = graph->count + MOST_GROWN;
+    for (size_t k = 0; k < count; k++) {
         struct well *well = &wells[k];
         size_t size = 0, held = 0;
-        gm_node_id *parts = gm_formula_parts(&system->graph, terms[k].node, &size);
+        const gm_node_id *parts =
+            gm_arena_keep(system->arena, gm_formula_parts(graph, terms[k].node, &size), free);
         *well = (struct well){.coordinate = SIZE_MAX};
         for (size_t i = 0; i < size; i++) {
-            const struct gm_node *part = &system->graph.nodes[parts[i]];
-            if (part->operation == GM_VARIABLE && q[part->a]) {
+            const struct gm_node *part = &graph->nodes[parts[i]];
+            if (part->operation == GM_VARIABLE && search->q[part->a]) {
                 well->coordinate = held++ == 0 ? part->a : SIZE_MAX;
             }
         }
-        system->graph.failed |= !parts;
-        free(parts);
-        if (well->coordinate == SIZE_MAX || system->graph.count > most) {
+        if (well->coordinate == SIZE_MAX || graph->count > most) {
             well->coordinate = SIZE_MAX;
             continue;
         }
         const size_t i = well->coordinate;
-        well->slope =
-            gm_product(&system->graph, terms[k].coefficient, slope_of(system, terms[k].node, own, i));
-        well->stiffness = slope_of(system, well->slope, own, i);
-        well->coordinate = depends(system, well->stiffness, all) ? SIZE_MAX : i;
+        well->slope = gm_product(graph, terms[k].coefficient, slope_of(search, terms[k].node, i));
+        well->stiffness = slope_of(search, well->slope, i);
+        well->coordinate = depends(system, well->stiffness, search->all) ? SIZE_MAX : i;
     }
     return wells;
 }
 
 /* The quadratic terms of each coordinate give its frequency; the rest of them, and all others, are U. */
-static void find_fast_linear(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
-                             gm_node_id *nodes, const bool *q, const bool *all, bool *own)
+static void find_fast_linear(const struct search *search, struct gm_finding *finding, gm_node_id potential,
+                             gm_node_id *nodes)
 {
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
     const size_t half = system->n / 2;
     size_t count = 0, frequencies = 0;
-    struct gm_formula *graph = &system->graph;
     const gm_node_id zero = gm_formula_constant(graph, 0);
-    struct term *terms = terms_of(system, potential, all, &count);
-    struct well *wells = wells_of(system, terms, count, q, all, own);
-    double *values = graph->failed ? NULL : values_at_start(system);
+    const struct term *terms = terms_of(search, potential, &count);
+    const struct well *wells = wells_of(search, terms, count);
+    const double *values = values_at_start(system);
     gm_node_id slow = zero, *squares = gm_arena_take(system->arena, 2 * half + 1, sizeof *squares),
-               *rest = squares ? squares + half : NULL;
-    graph->failed |= !squares;
-    for (size_t i = 0; i < half && !graph->failed; i++) {
+               *rest = squares + half;
+    for (size_t i = 0; i < half; i++) {
         squares[i] = rest[i] = zero;
     }
-    for (size_t k = 0; k < count && !graph->failed; k++) {
+    for (size_t k = 0; k < count; k++) {
         const size_t i = wells[k].coordinate;
         if (i == SIZE_MAX || !(values[wells[k].stiffness] > 0)) {
-            slow =
-                gm_sum(&system->graph, slow, gm_product(&system->graph, terms[k].coefficient, terms[k].node));
+            slow = gm_sum(graph, slow, gm_product(graph, terms[k].coefficient, terms[k].node));
             continue;
         }
-        squares[i] = gm_sum(&system->graph, squares[i], wells[k].stiffness);
-        rest[i] = gm_sum(&system->graph, rest[i], at_zero(system, wells[k].slope, i, 1));
+        squares[i] = gm_sum(graph, squares[i], wells[k].stiffness);
+        rest[i] = gm_sum(graph, rest[i], at_zero(system, wells[k].slope, i, 1));
         frequencies++;
     }
-    if (frequencies == 0 && !graph->failed) {
+    if (frequencies == 0) {
         deny(finding, GM_NO_NODE, "no coordinate has a frequency of its own");
         for (size_t k = 0; k < count && finding->term == GM_NO_NODE; k++) {
-            finding->term = depends(system, terms[k].node, q) ? terms[k].node : GM_NO_NODE;
+            finding->term = depends(system, terms[k].node, search->q) ? terms[k].node : GM_NO_NODE;
             finding->why = finding->term == GM_NO_NODE ? finding->why : NULL;
         }
-    } else if (!graph->failed) {
-        forces_of(system, slow, q, nodes + half);
-        for (size_t i = 0; i < half; i++) {
-            nodes[i] =
-                squares[i] == zero ? zero : gm_simplified(&system->graph, GM_OPERATION_SQRT, squares[i], 0);
-            nodes[half + i] = gm_difference(&system->graph, nodes[half + i], rest[i]);
-        }
-        finding->nodes = nodes;
+        return;
     }
+    forces_of(search, slow, nodes + half);
+    for (size_t i = 0; i < half; i++) {
+        nodes[i] = squares[i] == zero ? zero : gm_simplified(graph, GM_OPERATION_SQRT, squares[i], 0);
+        nodes[half + i] = gm_difference(graph, nodes[half + i], rest[i]);
+    }
+    finding->nodes = nodes;
 }
 
 /* Finds the term -1/|q|; the others are the perturbation. */
-static void find_kepler_split(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
-                              gm_node_id *nodes, const bool *q, const bool *all)
+static void find_kepler_split(const struct search *search, struct gm_finding *finding, gm_node_id potential,
+                              gm_node_id *nodes)
 {
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
     size_t count = 0;
-    struct term *terms = terms_of(system, potential, all, &count);
-    const gm_node_id x = gm_formula_variable(&system->graph, 0), y = gm_formula_variable(&system->graph, 1);
-    const gm_node_id square =
-        gm_sum(&system->graph, gm_product(&system->graph, x, x), gm_product(&system->graph, y, y));
-    const gm_node_id inverse =
-        gm_simplified(&system->graph, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
-                      gm_simplified(&system->graph, GM_OPERATION_SQRT, square, 0));
-    gm_node_id perturbation = gm_formula_constant(&system->graph, 0), other = GM_NO_NODE;
+    const struct term *terms = terms_of(search, potential, &count);
+    const gm_node_id x = gm_formula_variable(graph, 0), y = gm_formula_variable(graph, 1);
+    const gm_node_id square = gm_sum(graph, gm_product(graph, x, x), gm_product(graph, y, y));
+    const gm_node_id inverse = gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1),
+                                             gm_simplified(graph, GM_OPERATION_SQRT, square, 0));
+    gm_node_id perturbation = gm_formula_constant(graph, 0), other = GM_NO_NODE;
     bool found = false;
-    for (size_t k = 0; k < count && !system->graph.failed; k++) {
-        const gm_node_id term = gm_product(&system->graph, terms[k].coefficient, terms[k].node);
-        const bool held = depends(system, terms[k].node, q);
-        const enum gm_identity is_kepler =
-            found || !held || k >= MOST_TRIED
-                ? GM_NOT_ZERO
-                : gm_equations_vanishes(system, gm_sum(&system->graph, term, inverse));
+    for (size_t k = 0; k < count; k++) {
+        const gm_node_id term = gm_product(graph, terms[k].coefficient, terms[k].node);
+        const bool held = depends(system, terms[k].node, search->q);
+        const enum gm_identity is_kepler = found || !held || k >= MOST_TRIED
+                                               ? GM_NOT_ZERO
+                                               : gm_equations_vanishes(system, gm_sum(graph, term, inverse));
         if (is_kepler == GM_ZERO_PROVED || is_kepler == GM_ZERO_TESTED) {
             conclude(finding, is_kepler);
             found = true;
         } else {
-            perturbation = gm_sum(&system->graph, perturbation, term);
+            perturbation = gm_sum(graph, perturbation, term);
             other = held && other == GM_NO_NODE ? terms[k].node : other;
         }
     }
     nodes[0] = potential;
-    forces_of(system, perturbation, q, nodes + 1);
-    double *values = system->graph.failed ? NULL : values_at_start(system);
+    forces_of(search, perturbation, nodes + 1);
     if (!found) {
         deny(finding, other, other == GM_NO_NODE ? "there is no -1/|q|" : NULL);
-    } else if (values && !(values[potential] < 0)) {
+    } else if (!(values_at_start(system)[potential] < 0)) {
         deny(finding, GM_NO_NODE, "the potential is not negative at the start");
     }
     finding->nodes = nodes;
 }
 
 /* V, V', V'' */
-static void find_one_degree(struct gm_user_system *system, struct gm_finding *finding, gm_node_id potential,
-                            gm_node_id *nodes, bool *own)
+static void find_one_degree(const struct search *search, struct gm_finding *finding, gm_node_id potential,
+                            gm_node_id *nodes)
 {
     nodes[0] = potential;
-    nodes[1] = slope_of(system, nodes[0], own, 0);
-    nodes[2] = slope_of(system, nodes[1], own, 0);
+    nodes[1] = slope_of(search, nodes[0], 0);
+    nodes[2] = slope_of(search, nodes[1], 0);
     finding->nodes = nodes;
 }
 
 /* Finds c with -c p for every force, from the first one, by the derivatives of force and momentum. */
-static void find_conformal(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
-                           const bool *all, bool *own)
+static void find_conformal(const struct search *search, struct gm_finding *finding, gm_node_id *nodes)
 {
     static const char changes[] = "is not a constant multiple of the momentum";
-    const size_t half = system->n / 2;
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const size_t half = system->n / 2, first = first_moving(system);
     const bool lagrangian = system->kind == GM_LAGRANGIAN;
-    const size_t first = lagrangian ? system->velocities : half;
     for (size_t i = 0; i < half; i++) {
         finding->asked |= system->variables[i].force != GM_NO_NODE;
     }
-    for (size_t i = 0; i < half && finding->asked && finding->holds && !system->graph.failed; i++) {
+    for (size_t i = 0; i < half && finding->asked && finding->holds; i++) {
         const gm_node_id written = system->variables[i].force;
-        const gm_node_id p = lagrangian ? system->momenta[i] : gm_formula_variable(&system->graph, first + i);
+        const gm_node_id p = lagrangian ? system->momenta[i] : gm_formula_variable(graph, first + i);
         gm_node_id force = written;
         if (force == GM_NO_NODE) {
             deny(finding, GM_NO_NODE, "no force acts");
@@ -468,13 +480,13 @@ static void find_conformal(struct gm_user_system *system, struct gm_finding *fin
             gm_equations_in_velocities(system, &force, 1);
         }
         if (i == 0) {
-            nodes[0] = gm_negative(&system->graph, gm_simplified(&system->graph, GM_OPERATION_DIVIDE,
-                                                                 slope_of(system, force, own, first),
-                                                                 slope_of(system, p, own, first)));
+            nodes[0] =
+                gm_negative(graph, gm_simplified(graph, GM_OPERATION_DIVIDE, slope_of(search, force, first),
+                                                 slope_of(search, p, first)));
         }
-        const gm_node_id rest = gm_sum(&system->graph, force, gm_product(&system->graph, nodes[0], p));
+        const gm_node_id rest = gm_sum(graph, force, gm_product(graph, nodes[0], p));
         conclude(finding, gm_equations_vanishes(system, rest));
-        const bool varies = depends(system, nodes[0], all) || depends_on(system, nodes[0], own, system->n);
+        const bool varies = depends(system, nodes[0], search->all) || depends_on(search, nodes[0], system->n);
         if (!finding->holds || varies) {
             deny(finding, written, i == 0 ? changes : NULL);
         }
@@ -483,36 +495,40 @@ static void find_conformal(struct gm_user_system *system, struct gm_finding *fin
 }
 
 /* Finds the facets of H = |p|^2/2 + V(q), and of its Lagrangian. */
-static void find_mechanical(struct gm_user_system *system, struct gm_finding *findings, gm_node_id *nodes,
-                            const bool *q, const bool *all, bool *own)
+static void find_mechanical(const struct search *search, gm_node_id *nodes)
 {
-    struct gm_finding common = findings[GM_FACT_SEPARABLE];
+    struct gm_user_system *system = search->system;
+    struct gm_finding common = search->findings[GM_FACT_SEPARABLE];
     const size_t n = system->n;
     const bool canonical =
         system->kind == GM_CANONICAL && system->tangents == 0; /* else more moves than H says */
-    const bool holds = is_of_unit_mass(system, findings, &common, all, own);
+    const bool holds = is_of_unit_mass(search, &common);
     const gm_node_id potential = holds ? potential_of(system) : GM_NO_NODE;
-    static const enum gm_fact facts[] = {GM_FACT_FAST_LINEAR, GM_FACT_KEPLER_SPLIT, GM_FACT_LAGRANGIAN};
-    for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
-        findings[facts[i]] = common;
+    const struct {
+        enum gm_fact fact;
+        bool asked;
+        void (*find)(const struct search *search, struct gm_finding *finding, gm_node_id potential,
+                     gm_node_id *nodes);
+        gm_node_id *nodes;
+        size_t count;
+    } facets[] = {
+        {GM_FACT_FAST_LINEAR, canonical, find_fast_linear, nodes, n},
+        {GM_FACT_KEPLER_SPLIT, canonical && n == 4, find_kepler_split, nodes + n, 3},
+        {GM_FACT_LAGRANGIAN, n == 2, find_one_degree, nodes + n + 3, 3},
+    };
+    enum { FACETS = sizeof facets / sizeof *facets };
+    for (size_t i = 0; i < FACETS; i++) {
+        struct gm_finding *finding = &search->findings[facets[i].fact];
+        *finding = common;
+        finding->asked = facets[i].asked;
+        if (holds && facets[i].asked) {
+            facets[i].find(search, finding, potential, facets[i].nodes);
+        }
     }
-    findings[GM_FACT_FAST_LINEAR].asked = canonical;
-    findings[GM_FACT_KEPLER_SPLIT].asked = canonical && n == 4;
-    findings[GM_FACT_LAGRANGIAN].asked = n == 2;
-    if (holds && canonical) {
-        find_fast_linear(system, &findings[GM_FACT_FAST_LINEAR], potential, nodes, q, all, own);
-    }
-    if (holds && canonical && n == 4) {
-        find_kepler_split(system, &findings[GM_FACT_KEPLER_SPLIT], potential, nodes + n, q, all);
-    }
-    if (holds && n == 2) {
-        find_one_degree(system, &findings[GM_FACT_LAGRANGIAN], potential, nodes + n + 3, own);
-    }
-    double *values = holds && !system->graph.failed ? values_at_start(system) : NULL;
-    for (size_t i = 0; i < sizeof facts / sizeof *facts && values && !system->graph.failed; i++) {
-        struct gm_finding *finding = &findings[facts[i]];
-        const size_t count = facts[i] == GM_FACT_FAST_LINEAR ? n : 3;
-        for (size_t k = 0; k < count && finding->asked && finding->holds; k++) {
+    const double *values = holds ? values_at_start(system) : NULL;
+    for (size_t i = 0; i < FACETS && values; i++) {
+        struct gm_finding *finding = &search->findings[facets[i].fact];
+        for (size_t k = 0; k < facets[i].count && finding->asked && finding->holds; k++) {
             if (!isfinite(values[finding->nodes[k]])) { /* p^3/p at rest */
                 deny(finding, GM_NO_NODE, "it cannot be taken apart as it is written");
             }
@@ -520,59 +536,56 @@ static void find_mechanical(struct gm_user_system *system, struct gm_finding *fi
     }
 }
 
-static void find_of_rates(struct gm_user_system *system, struct gm_finding *findings, const bool *components,
-                          bool *own)
+static void find_of_rates(const struct search *search)
 {
-    struct gm_finding *volume = &findings[GM_FACT_VOLUME], *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
-    const bool *const thrice[] = {components, components, components}, *const once[] = {own};
+    struct gm_user_system *system = search->system;
+    struct gm_finding *findings = search->findings, *volume = &findings[GM_FACT_VOLUME],
+                      *divergence = &findings[GM_FACT_DIVERGENCE_FREE];
+    const bool *const thrice[] = {search->all, search->all, search->all}, *const once[] = {search->own};
     gm_node_id sum = gm_formula_constant(&system->graph, 0);
     findings[GM_FACT_LINEAR].asked = findings[GM_FACT_QUADRATIC].asked = true;
     volume->asked = divergence->asked = true;
-    for (size_t i = 0; i < system->n && !system->graph.failed; i++) {
+    for (size_t i = 0; i < system->n; i++) {
         const gm_node_id rate = system->rates[i];
         for (size_t degree = 1; degree <= 2; degree++) {
             struct gm_finding *polynomial = &findings[degree == 1 ? GM_FACT_LINEAR : GM_FACT_QUADRATIC];
             if (polynomial->holds) {
-                conclude(polynomial, vanishes(system, rate, thrice, degree + 1));
+                need_vanishing(search, polynomial, rate, thrice, degree + 1);
                 polynomial->component = i;
-                polynomial->term =
-                    polynomial->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, degree + 1);
             }
         }
-        if (!depends_on(system, rate, own, i)) { /* excludes most rates before a longer test */
+        if (!depends_on(search, rate, i)) { /* excludes most rates before a longer test */
             continue;
         }
-        own[i] = true;
+        search->own[i] = true;
         if (volume->holds) {
-            conclude(volume, vanishes(system, rate, once, 1));
+            need_vanishing(search, volume, rate, once, 1);
             volume->component = i;
-            volume->term = volume->holds ? GM_NO_NODE : culprit(system, rate, components, once, 1);
         }
-        own[i] = false;
-        sum = gm_sum(&system->graph, sum, slope_of(system, rate, own, i));
+        search->own[i] = false;
+        sum = gm_sum(&system->graph, sum, slope_of(search, rate, i));
     }
     conclude(divergence, gm_equations_vanishes(system, sum));
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
 /* Finds x' = v, v' = g(x, t) for the first and the second half of the components. */
-static void find_second_order(struct gm_user_system *system, struct gm_finding *finding, const bool *all,
-                              const bool *velocities)
+static void find_second_order(const struct search *search, struct gm_finding *finding)
 {
+    const struct gm_user_system *system = search->system;
     const size_t half = system->n / 2;
-    const bool *const once[] = {velocities};
+    const bool *const once[] = {search->p};
     finding->asked = true;
     if (system->n % 2 != 0) {
         deny(finding, GM_NO_NODE, "the number of components is odd");
         return;
     }
-    for (size_t i = 0; i < system->n && finding->holds && !system->graph.failed; i++) {
+    for (size_t i = 0; i < system->n && finding->holds; i++) {
         const gm_node_id rate = system->rates[i];
         finding->component = i;
         if (i >= half) {
-            conclude(finding, vanishes(system, rate, once, 1));
-            finding->term = finding->holds ? GM_NO_NODE : culprit(system, rate, all, once, 1);
-        } else if (rate != gm_formula_variable(&system->graph, half + i)) {
+            need_vanishing(search, finding, rate, once, 1);
+        } else if (rate != gm_formula_variable(&search->system->graph, half + i)) {
             deny(finding, rate, "is not a velocity");
         }
     }
@@ -592,7 +605,7 @@ static bool is_alone(const struct gm_user_system *system)
 static void need_zero(struct gm_user_system *system, struct gm_finding *finding, gm_node_id node,
                       size_t component)
 {
-    if (finding->holds && !system->graph.failed) {
+    if (finding->holds) {
         conclude(finding, gm_equations_vanishes(system, node));
         finding->component = component;
         finding->term = finding->holds ? GM_NO_NODE : system->rates[component];
@@ -601,14 +614,14 @@ static void need_zero(struct gm_user_system *system, struct gm_finding *finding,
 
 /* Writes the nodes of the facet: the velocity u of p = 0, or 0; g; W by rows, which are the slopes of v' over v, or
    those of u over x without their symmetric part; c, the slope of v over p, or 1. */
-static void write_magnetic(struct gm_user_system *system, gm_node_id *nodes, bool *own)
+static void write_magnetic(const struct search *search, gm_node_id *nodes)
 {
+    struct gm_user_system *system = search->system;
     struct gm_formula *graph = &system->graph;
     const size_t n = system->n, half = n / 2;
-    const gm_node_id zero = gm_formula_constant(graph, 0);
     gm_node_id *u = nodes, *g = u + half, *w = g + half, *c = w + half * half;
     gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count);
-    system->graph.failed |= !replacement;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
     if (system->kind == GM_RATES) {
         for (size_t i = 0; i < half; i++) {
             u[i] = zero;
@@ -618,47 +631,46 @@ static void write_magnetic(struct gm_user_system *system, gm_node_id *nodes, boo
         return;
     }
     *c = w[0];
-    for (size_t i = 0; i < half && replacement; i++) {
+    for (size_t i = 0; i < half; i++) {
         u[i] = at_zero(system, system->rates[i], half, half);
         replacement[half + i] = gm_negative(graph, gm_simplified(graph, GM_OPERATION_DIVIDE, u[i], *c));
     }
-    for (size_t i = 0; i < half && replacement; i++) {
+    for (size_t i = 0; i < half; i++) {
         g[i] = system->rates[half + i];
-        system->graph.failed |= !gm_formula_substitute(graph, &g[i], 1, replacement, system->variable_count);
-        g[i] = gm_sum(graph, gm_product(graph, *c, g[i]), slope_of(system, u[i], own, n)); /* du/dt */
+        gm_formula_substitute(graph, &g[i], 1, replacement, system->variable_count);
+        g[i] = gm_sum(graph, gm_product(graph, *c, g[i]), slope_of(search, u[i], n)); /* du/dt */
         for (size_t j = 0; j < half; j++) {
-            w[i * half + j] =
-                gm_difference(graph, slope_of(system, u[i], own, j), slope_of(system, u[j], own, i));
+            w[i * half + j] = gm_difference(graph, slope_of(search, u[i], j), slope_of(search, u[j], i));
         }
     }
 }
 
 /* Finds v' = g + W v by the slopes of v' over v, which hold no v and are antisymmetric; or p = v/c + A by those of
    v = dH/dp over p, which are c times the unit matrix. */
-static void find_magnetic(struct gm_user_system *system, struct gm_finding *finding, gm_node_id *nodes,
-                          const bool *all, const bool *velocities, bool *own)
+static void find_magnetic(const struct search *search, struct gm_finding *finding, gm_node_id *nodes)
 {
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
     const size_t half = system->n / 2;
     const bool canonical = system->kind == GM_CANONICAL;
     const size_t first = canonical ? 0 : half; /* of the rates that are looked at */
+    const bool *const fixed = canonical ? search->all : search->p;
     gm_node_id *slopes = nodes + 2 * half;
     for (size_t i = 0; i < half && !canonical; i++) {
-        const gm_node_id v = gm_formula_variable(&system->graph, half + i);
-        need_zero(system, finding, gm_difference(&system->graph, system->rates[i], v), i);
+        const gm_node_id v = gm_formula_variable(graph, half + i);
+        need_zero(system, finding, gm_difference(graph, system->rates[i], v), i);
     }
     for (size_t i = 0; i < half * half && finding->holds; i++) {
         const size_t row = i / half, column = i % half;
-        slopes[i] = slope_of(system, system->rates[first + row], own, half + column);
+        slopes[i] = slope_of(search, system->rates[first + row], half + column);
         if (canonical) {
-            need_zero(system, finding,
-                      row == column ? gm_difference(&system->graph, slopes[i], slopes[0]) : slopes[i], row);
+            need_zero(system, finding, row == column ? gm_difference(graph, slopes[i], slopes[0]) : slopes[i],
+                      row);
         } else if (column <= row) {
-            need_zero(system, finding, gm_sum(&system->graph, slopes[i], slopes[column * half + row]),
-                      first + row);
+            need_zero(system, finding, gm_sum(graph, slopes[i], slopes[column * half + row]), first + row);
         }
-        const bool *const fixed = canonical ? all : velocities;
-        if (finding->holds && (depends(system, slopes[i], fixed) ||
-                               (canonical && depends_on(system, slopes[i], own, system->n)))) {
+        if (finding->holds &&
+            (depends(system, slopes[i], fixed) || (canonical && depends_on(search, slopes[i], system->n)))) {
             deny(finding, system->rates[first + row], NULL);
             finding->component = first + row;
         }
@@ -667,8 +679,8 @@ static void find_magnetic(struct gm_user_system *system, struct gm_finding *find
         deny(finding, GM_NO_NODE, "H is not quadratic in the momenta");
         finding->component = system->n;
     }
-    if (finding->holds && !system->graph.failed) {
-        write_magnetic(system, nodes, own);
+    if (finding->holds) {
+        write_magnetic(search, nodes);
         finding->nodes = nodes;
     }
 }
@@ -733,75 +745,77 @@ static bool *find_switches(const struct gm_user_system *system)
 }
 
 /* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
-static void find_of_parts(struct gm_user_system *system, struct gm_finding *findings)
+static void find_of_parts(const struct search *search)
 {
+    struct gm_user_system *system = search->system;
     size_t count = 0;
-    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, *parts = parts_of_equations(system, &count);
-    bool *switches = find_switches(system);
-    for (size_t k = count; parts && switches && k-- > 0;) {
+    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE;
+    const gm_node_id *parts = gm_arena_keep(system->arena, parts_of_equations(system, &count), free);
+    const bool *switches = gm_arena_keep(system->arena, find_switches(system), free);
+    for (size_t k = count; k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         rough = switches[parts[k]] ? parts[k] : rough;
         time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
-    deny_by(system, &findings[GM_FACT_SMOOTH], rough, system->rates);
-    deny_by(system, &findings[GM_FACT_AUTONOMOUS], time, system->rates);
-    system->graph.failed |= !parts || !switches;
-    free(parts);
-    free(switches);
+    deny_by(system, &search->findings[GM_FACT_SMOOTH], rough, system->rates);
+    deny_by(system, &search->findings[GM_FACT_AUTONOMOUS], time, system->rates);
+}
+
+static void find_all(struct gm_arena *arena, void *data)
+{
+    struct search *search = data;
+    struct gm_user_system *system = search->system;
+    struct gm_finding *findings = search->findings;
+    const size_t half = system->n / 2, count = system->variable_count, mark = gm_arena_mark(arena);
+    const enum gm_system_kind kind = system->kind;
+    search->q = gm_arena_take(arena, 4 * count, sizeof *search->q);
+    search->p = search->q + count;
+    search->all = search->p + count;
+    search->own = search->all + count;
+    memset(search->q, true, half);
+    memset(search->all, true, system->n);
+    if (kind <= GM_LAGRANGIAN || kind == GM_RATES) {
+        memset(search->p + first_moving(system), true, half);
+    }
+    if (kind == GM_LAGRANGIAN) {
+        memset(search->all + system->velocities, true, half);
+    }
+    find_of_parts(search);
+    if (kind <= GM_LAGRANGIAN) {
+        find_split(search);
+        find_conformal(search, &findings[GM_FACT_CONFORMAL], search->nodes);
+        find_mechanical(search, search->nodes + 1);
+    }
+    if (kind == GM_RATES) {
+        find_second_order(search, &findings[GM_FACT_SECOND_ORDER]);
+    }
+    const bool split = findings[GM_FACT_SEPARABLE].asked ? findings[GM_FACT_SEPARABLE].holds
+                                                         : findings[GM_FACT_SECOND_ORDER].holds;
+    if ((kind == GM_RATES || (kind == GM_CANONICAL && is_alone(system))) && !split &&
+        (system->n == 4 || system->n == 6)) {
+        findings[GM_FACT_MAGNETIC].asked = true;
+        find_magnetic(search, &findings[GM_FACT_MAGNETIC], search->nodes + 1);
+    }
+    /* else the rates are only a part of the motion */
+    if (kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
+        find_of_rates(search);
+    }
+    gm_system_need_graph(system);
+    gm_arena_release(arena, mark);
 }
 
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])
 {
-    const size_t half = system->n / 2, count = system->variable_count;
-    gm_node_id *nodes =
-        system->facets ? system->facets : gm_arena_take(system->arena, system->n + 17, sizeof *nodes);
+    if (!system->facets) {
+        system->facets = gm_arena_take(system->arena, system->n + 17, sizeof *system->facets);
+    }
+    struct search search = {.system = system, .findings = findings, .nodes = system->facets};
     for (size_t i = 0; i < GM_FACTS; i++) {
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
     }
-    system->facets = nodes;
-    if (gm_system_is_form(system)) { /* its rates are forms, and no formulas of numbers */
-        return true;
-    }
-    const size_t mark = gm_arena_mark(system->arena);
-    bool *marks = gm_arena_take(system->arena, 5 * count, sizeof *marks);
-    if (!marks || !nodes) {
-        return false;
-    }
-    bool *q = marks, *p = q + count, *components = p + count, *all = components + count, *own = all + count;
-    const size_t moving = system->kind == GM_LAGRANGIAN ? system->velocities : half;
-    for (size_t i = 0; i < system->n; i++) {
-        q[i] = i < half;
-        components[i] = all[i] = true;
-    }
-    for (size_t i = 0; i < half && system->kind <= GM_LAGRANGIAN; i++) {
-        p[moving + i] = all[moving + i] = true;
-    }
-    find_of_parts(system, findings);
-    if (system->kind <= GM_LAGRANGIAN) {
-        find_split(system, findings, q, p, all);
-        find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
-        find_mechanical(system, findings, nodes + 1, q, all, own);
-    }
-    if (system->kind == GM_RATES) {
-        for (size_t i = 0; i < half; i++) {
-            p[half + i] = true;
-        }
-        find_second_order(system, &findings[GM_FACT_SECOND_ORDER], components, p);
-    }
-    const bool split = findings[GM_FACT_SEPARABLE].asked ? findings[GM_FACT_SEPARABLE].holds
-                                                         : findings[GM_FACT_SECOND_ORDER].holds;
-    if ((system->kind == GM_RATES || (system->kind == GM_CANONICAL && is_alone(system))) && !split &&
-        (system->n == 4 || system->n == 6)) {
-        findings[GM_FACT_MAGNETIC].asked = true;
-        find_magnetic(system, &findings[GM_FACT_MAGNETIC], nodes + 1, components, p, own);
-    }
-    /* else the rates are only a part of the motion */
-    if (system->kind != GM_LAGRANGIAN && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
-        find_of_rates(system, findings, components, own);
-    }
-    gm_arena_release(system->arena, mark);
-    return !system->graph.failed;
+    /* the rates of forms are no formulas of numbers */
+    return system->facets && (gm_system_is_form(system) || gm_arena_run(system->arena, find_all, &search));
 }
 
 /* Writes the place of a term, or of the origin of a derived equation; "" if unknown. */
@@ -825,65 +839,70 @@ static bool jumps(enum gm_operation operation)
     return operation != GM_OPERATION_ABS && operation != GM_OPERATION_MIN && operation != GM_OPERATION_MAX;
 }
 
-/* Adds the other switches that the text has, with their places. Returns false when out of memory. */
-static bool add_switches(const struct gm_user_system *system, gm_node_id first, char **reason)
+/* Writes the other switches that the text has, with their places. Returns false when out of memory. */
+static bool write_switches(const struct gm_user_system *system, gm_node_id first, FILE *out)
 {
     enum { MOST = 16 }; /* switches that are named */
     const struct gm_naming naming = gm_system_naming(system);
     size_t count = 0, named = 0;
     gm_node_id *parts = parts_of_equations(system, &count);
-    bool *switches = find_switches(system), good = parts && switches;
-    for (size_t k = 0; good && k < count; k++) {
+    bool *switches = find_switches(system);
+    for (size_t k = 0; switches && k < count && named < MOST; k++) {
         const gm_node_id node = parts[k];
-        if (!switches[node] || system->graph.places[node] == GM_NO_PLACE || node == first ||
-            named++ >= MOST) {
-            continue;
+        if (switches[node] && system->graph.places[node] != GM_NO_PLACE && node != first) {
+            char place[80], *text = gm_formula_text(&system->graph, node, &naming);
+            write_place(system, node, false, place, sizeof place);
+            fprintf(out, "; %s%s: %s", text ? text : "a long term", place,
+                    jumps(system->graph.nodes[node].operation) ? "it jumps" : "its derivative jumps");
+            free(text);
+            named++;
         }
-        char place[80], *text = gm_formula_text(&system->graph, node, &naming), *before = *reason;
-        write_place(system, node, false, place, sizeof place);
-        good =
-            asprintf(reason, "%s; %s%s: %s", before, text ? text : "a long term", place,
-                     jumps(system->graph.nodes[node].operation) ? "it jumps" : "its derivative jumps") >= 0;
-        *reason = good ? *reason : NULL;
-        free(before);
-        free(text);
     }
+    const bool good = parts && switches;
     free(parts);
     free(switches);
     return good;
 }
 
+/* Writes the term that is the reason, with its place. */
+static void write_term(const struct gm_user_system *system, gm_node_id term, bool derived, FILE *out)
+{
+    struct gm_naming naming = gm_system_naming(system);
+    naming.part = NULL; /* written out, without names, to show its contents */
+    char place[80], *text = gm_formula_text(&system->graph, term, &naming);
+    write_place(system, term, derived, place, sizeof place);
+    fprintf(out, "%s%s ", text ? text : "a long term", place);
+    free(text);
+}
+
 char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, const struct gm_finding *finding)
 {
-    char *reason = NULL, *text = NULL;
-    int made = -1;
-    if (finding->holds) {
-        made = asprintf(&reason, "%s%s", rows[fact].yes,
-                        finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
-        return made < 0 ? NULL : reason;
-    }
+    char *reason = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&reason, &size);
     const bool in_rate = finding->component < system->n && fact != GM_FACT_DIVERGENCE_FREE;
-    const char *where = in_rate ? ", in the rate of " : "",
-               *component = in_rate ? system->variables[finding->component].name : "",
-               *why = finding->why ? finding->why : rows[fact].no;
-    if (finding->term == GM_NO_NODE) {
-        made = asprintf(&reason, "%s%s%s", why, where, component);
-    } else {
-        struct gm_naming naming = gm_system_naming(system);
-        naming.part = NULL; /* written out, without names, to show its contents */
-        text = gm_formula_text(&system->graph, finding->term, &naming);
-        char place[80];
-        write_place(system, finding->term, in_rate && system->kind != GM_RATES, place, sizeof place);
-        const bool value = jumps(system->graph.nodes[finding->term].operation);
-        made = asprintf(&reason, "%s%s %s%s%s%s", text ? text : "a long term", place, why, where, component,
-                        fact != GM_FACT_SMOOTH ? ""
-                        : value                ? ": it jumps"
-                                               : ": its derivative jumps");
-    }
-    free(text);
-    if (made >= 0 && fact == GM_FACT_SMOOTH && !add_switches(system, finding->term, &reason)) {
-        free(reason);
+    const gm_node_id term = finding->holds ? GM_NO_NODE : finding->term;
+    bool good = out != NULL;
+    if (!good) {
         return NULL;
     }
-    return made < 0 ? NULL : reason;
+    if (term != GM_NO_NODE) {
+        write_term(system, term, in_rate && system->kind != GM_RATES, out);
+    }
+    if (finding->holds) {
+        fprintf(out, "%s%s", rows[fact].yes, finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
+    } else {
+        fprintf(out, "%s%s%s", finding->why ? finding->why : rows[fact].no,
+                in_rate ? ", in the rate of " : "",
+                in_rate ? system->variables[finding->component].name : "");
+    }
+    if (!finding->holds && fact == GM_FACT_SMOOTH) {
+        fputs(jumps(system->graph.nodes[term].operation) ? ": it jumps" : ": its derivative jumps", out);
+        good = write_switches(system, term, out);
+    }
+    good = fclose(out) == 0 && good;
+    if (!good) {
+        free(reason);
+    }
+    return good ? reason : NULL;
 }

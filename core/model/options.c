@@ -39,98 +39,112 @@ static size_t find_row(uint64_t lines, const char *word, size_t letters)
     return row;
 }
 
-static bool add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+void gm_item_add(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node)
 {
-    double number;
-    if (!gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers) ||
-        !gm_reading_number(reading, span, &number)) {
-        return false;
-    }
-    option->numbers[option->count++] = number;
-    return isfinite(number) || gm_fail_first(&reading->fault, span.begin, "this is not a finite number");
+    gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes);
+    item->nodes[item->count++] = node;
 }
 
-static bool add_numbers(struct gm_reading *reading, struct gm_system_option *option, struct gm_span rest)
+void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
 {
     struct gm_span piece;
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        add_number(reading, option, piece);
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        gm_item_add(reading, item, gm_reading_formula(reading, piece));
     }
-    return !reading->fault.failed;
 }
 
-/* True for the word that stands for the default list. */
-static bool is_usual(const struct gm_reading *reading, struct gm_span value)
+static void add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
 {
-    return gm_span_is(reading->text, value, "usual");
+    gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers);
+    const double number = gm_reading_number(reading, span);
+    option->numbers[option->count++] = number;
+    if (!isfinite(number)) {
+        gm_system_refuse(reading->system, span.begin, "this is not a finite number");
+    }
+}
+
+/* Numbers separated by commas; "usual" stands for the default list. */
+static void add_numbers(struct gm_reading *reading, struct gm_system_option *option, struct gm_span rest)
+{
+    struct gm_span piece;
+    while (!gm_span_is(reading->text, rest, "usual") && gm_span_take(reading->text, &rest, ",", &piece)) {
+        add_number(reading, option, piece);
+    }
 }
 
 /* low .. high */
-static bool add_range(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+static void add_range(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
 {
     const size_t dots = gm_span_until(reading->text, span, "..");
     if (dots == span.end) {
-        return gm_fail_first(&reading->fault, span.begin, "a range was expected, low .. high");
+        gm_system_refuse(reading->system, span.begin, "a range was expected, low .. high");
     }
-    return add_number(reading, option, (struct gm_span){span.begin, dots}) &&
-           add_number(reading, option, (struct gm_span){dots + 2, span.end}) &&
-           (option->numbers[0] < option->numbers[1] ||
-            gm_fail_first(&reading->fault, span.begin, "a range's lower end comes first"));
+    add_number(reading, option, (struct gm_span){span.begin, dots});
+    add_number(reading, option, (struct gm_span){dots + 2, span.end});
+    if (!(option->numbers[0] < option->numbers[1])) {
+        gm_system_refuse(reading->system, span.begin, "a range's lower end comes first");
+    }
 }
 
 /* F, or F = NAME */
-static bool add_formula(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span,
+static void add_formula(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span,
                         bool named)
 {
     const size_t equals = named ? gm_span_until(reading->text, span, "=") : span.end;
     const struct gm_span name =
-        gm_span_trimmed(reading->text, (struct gm_span){equals < span.end ? equals + 1 : equals, span.end});
+        gm_reading_between(reading, equals < span.end ? equals + 1 : equals, span.end);
     if (named && name.begin == name.end) {
-        return gm_fail_first(&reading->fault, span.begin, "a unit has a name: unit 2*pi = h / T");
+        gm_system_refuse(reading->system, span.begin, "a unit has a name: unit 2*pi = h / T");
     }
     option->text = named ? gm_reading_text(reading, name) : NULL;
-    return gm_reading_formula(reading, gm_span_trimmed(reading->text, (struct gm_span){span.begin, equals}),
-                              &option->node);
+    option->node = gm_reading_formula(reading, gm_reading_between(reading, span.begin, equals));
 }
 
 /* A word for show= that it does not have already. */
-static bool add_word(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
+static void add_word(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
 {
     static const char *const taken[] = {"all", "section", "modified", NULL};
     const size_t length = value.end - value.begin;
     option->text = gm_reading_text(reading, value);
-    return option->text &&
-           ((gm_name_length(reading->text + value.begin, length) == length &&
-             gm_span_among(reading->text, value, taken) == 3) ||
-            gm_fail_first(&reading->fault, value.begin, "%.60s is not a new word for show=, as in show plane",
-                          option->text));
+    if (gm_name_length(reading->text + value.begin, length) < length ||
+        gm_span_among(reading->text, value, taken) < 3) {
+        gm_system_refuse(reading->system, value.begin, "%.60s is not a new word for show=, as in show plane",
+                         option->text);
+    }
 }
 
-static bool read_value(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
+static void read_value(struct gm_reading *reading, struct gm_system_option *option, struct gm_span value)
 {
     switch (rows[option->word].follows) {
     case NOTHING:
-        return true;
+        break;
     case TEXT:
-        return (option->text = gm_reading_text(reading, value)) != NULL;
+        option->text = gm_reading_text(reading, value);
+        break;
     case WORD:
-        return add_word(reading, option, value);
+        add_word(reading, option, value);
+        break;
     case NUMBER: /* a field's scale may depend on parameters, and have a name */
-        return option->word == GM_OPTION_SCALE && gm_system_is_field(reading->system)
-                   ? add_formula(reading, option, value, gm_span_until(reading->text, value, "=") < value.end)
-                   : add_number(reading, option, value);
+        if (option->word == GM_OPTION_SCALE && gm_system_is_field(reading->system)) {
+            add_formula(reading, option, value, gm_span_until(reading->text, value, "=") < value.end);
+        } else {
+            add_number(reading, option, value);
+        }
+        break;
     case NUMBERS:
-        return is_usual(reading, value) || add_numbers(reading, option, value);
+        add_numbers(reading, option, value);
+        break;
     case RANGE:
-        return add_range(reading, option, value);
+        add_range(reading, option, value);
+        break;
     case FORMULA:
     case NAMED_FORMULA:
-        return add_formula(reading, option, value, rows[option->word].follows == NAMED_FORMULA);
+        add_formula(reading, option, value, rows[option->word].follows == NAMED_FORMULA);
+        break;
     }
-    return true;
 }
 
-static bool read_option(struct gm_reading *reading, struct gm_system_item *item, struct gm_span piece)
+static void read_option(struct gm_reading *reading, struct gm_system_item *item, struct gm_span piece)
 {
     const uint64_t lines = item->word < 64 ? UINT64_C(1) << item->word : 0;
     const char *text = reading->text + piece.begin;
@@ -138,8 +152,7 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
     while (piece.begin + letters < piece.end && !strchr(" \t\r\n", text[letters])) {
         letters++;
     }
-    const struct gm_span value =
-        gm_span_trimmed(reading->text, (struct gm_span){piece.begin + letters, piece.end});
+    const struct gm_span value = gm_reading_between(reading, piece.begin + letters, piece.end);
     const bool some = value.begin < value.end;
     size_t row = find_row(lines, text, letters);
     const bool is_range = row == GM_OPTIONS && gm_span_until(reading->text, piece, "..") < piece.end;
@@ -156,55 +169,45 @@ static bool read_option(struct gm_reading *reading, struct gm_system_item *item,
         row = GM_OPTION_VALUES;
     }
     char word[64];
-    snprintf(word, sizeof word, "%.*s", (int)(letters < 60 ? letters : 60), text);
+    snprintf(word, sizeof word, "%.*s", gm_brief_length(letters), text);
     if (row == GM_OPTIONS) {
         const char *near = gm_nearest(word, GM_OPTIONS, row_word, &lines);
-        return gm_fail_first(&reading->fault, piece.begin, "%s: has no option \"%s\"%s%s",
-                             gm_system_words[item->word].word, word, near ? "; did you mean " : "",
-                             near ? near : "");
+        gm_system_refuse(reading->system, piece.begin, "%s: has no option \"%s\"%s%s",
+                         gm_system_words[item->word].word, word, near ? "; did you mean " : "",
+                         near ? near : "");
     }
     if (gm_system_option(item, (enum gm_system_option_word)row)) {
-        return gm_fail_first(&reading->fault, piece.begin, "%s is given twice", word);
+        gm_system_refuse(reading->system, piece.begin, "%s is given twice", word);
     }
     if (!is_range && some != (rows[row].follows != NOTHING)) {
-        return gm_fail_first(&reading->fault, some ? value.begin : piece.begin,
-                             some ? "nothing follows the option %s" : "the option %s needs a value", word);
+        gm_system_refuse(reading->system, some ? value.begin : piece.begin,
+                         some ? "nothing follows the option %s" : "the option %s needs a value", word);
     }
-    if (!item->name ||
-        !gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options)) {
-        return false;
-    }
+    gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options);
     struct gm_system_option *option = &item->options[item->option_count++];
     *option = (struct gm_system_option){
         .word = (enum gm_system_option_word)row, .place = piece.begin, .node = GM_NO_NODE};
-    return read_value(reading, option, is_range ? piece : value);
+    read_value(reading, option, is_range ? piece : value);
 }
 
-bool gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
+void gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
 {
     struct gm_span piece;
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ";", &piece)) {
+    while (gm_span_take(reading->text, &rest, ";", &piece)) {
         read_option(reading, item, piece);
     }
-    return !reading->fault.failed;
 }
 
 /* FORMULA, KEY or KEY*FORMULA, with :format or without it, between braces */
-static bool read_braces(struct gm_reading *reading, struct gm_system_item *item, struct gm_span inside)
+static void read_braces(struct gm_reading *reading, struct gm_system_item *item, struct gm_span inside)
 {
-    static const char *const formats[] = {"pi", "T", "/", "nonzero", "s"};
+    static const char *const formats[] = {"pi", "T", "/", "nonzero", "s", NULL};
     const size_t colon = gm_span_until(reading->text, inside, ":");
-    struct gm_span formula = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, colon});
+    struct gm_span formula = gm_reading_between(reading, inside.begin, colon);
     const struct gm_span format = {colon < inside.end ? colon + 1 : colon, inside.end};
-    const size_t letters = format.end - format.begin;
-    bool known = letters == 0;
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        known |=
-            strlen(formats[i]) == letters && memcmp(formats[i], reading->text + format.begin, letters) == 0;
-    }
-    if (!known) {
-        return gm_fail_first(&reading->fault, format.begin,
-                             "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
+    if (format.begin < format.end && !formats[gm_span_among(reading->text, format, formats)]) {
+        gm_system_refuse(reading->system, format.begin,
+                         "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     }
     const char *name = reading->text + formula.begin;
     const size_t length = gm_name_length(name, formula.end - formula.begin);
@@ -213,25 +216,14 @@ static bool read_braces(struct gm_reading *reading, struct gm_system_item *item,
     formula.begin += is_key ? length : 0;
     const bool alone = is_key && formula.begin == formula.end;
     formula.begin += is_key && !alone && reading->text[formula.begin] == '*';
-    gm_node_id node = GM_NO_NODE;
-    reading->exact = true;
-    const bool good = alone || gm_reading_formula(reading, formula, &node);
-    reading->exact = false;
-    if (!good) {
-        return false;
-    }
-    if (!gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes)) {
-        return false;
-    }
-    item->nodes[item->count++] = node;
-    return true;
+    gm_item_add(reading, item, alone ? GM_NO_NODE : gm_reading_formula_of_exact(reading, formula));
 }
 
-bool gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
+void gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
 {
     item->text = gm_reading_text(reading, span);
     bool comment = false;
-    for (size_t at = span.begin; at < span.end && !reading->fault.failed; at++) {
+    for (size_t at = span.begin; at < span.end; at++) {
         const char c = reading->text[at];
         comment = c != '\n' && (comment || c == '#');
         const char *close = c == '{' ? memchr(reading->text + at, '}', span.end - at) : NULL;
@@ -239,11 +231,10 @@ bool gm_text_read(struct gm_reading *reading, struct gm_system_item *item, struc
             continue;
         }
         if (!close) {
-            return gm_fail_first(&reading->fault, at, "this brace has no counterpart");
+            gm_system_refuse(reading->system, at, "this brace has no counterpart");
         }
         const size_t end = (size_t)(close - reading->text);
         read_braces(reading, item, (struct gm_span){at + 1, end});
         at = end;
     }
-    return item->text && !reading->fault.failed;
 }

@@ -11,46 +11,38 @@
 #include "core/model/declarations.h"
 #include "core/model/options.h"
 
-static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_system_line *line,
+static const struct gm_span nameless = {0, 0};
+
+static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_read_line *line,
                                        struct gm_span name)
 {
     struct gm_user_system *system = reading->system;
-    if (!gm_reading_reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items)) {
-        return NULL;
-    }
-    struct gm_system_item *item = &system->items[system->item_count];
-    *item = (struct gm_system_item){.word = line->word,
+    gm_reading_reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items);
+    struct gm_system_item *item = &system->items[system->item_count++];
+    *item = (struct gm_system_item){.word = (enum gm_system_word)line->word,
                                     .place = line->value.begin,
                                     .low = NAN,
                                     .high = NAN,
                                     .name = gm_reading_text(reading, name)};
-    system->item_count += item->name != NULL;
-    return item->name ? item : NULL;
+    return item;
 }
 
-static bool add_node(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node)
+static void add_formula(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
 {
-    if (!gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes)) {
-        return false;
-    }
-    item->nodes[item->count++] = node;
-    return true;
+    gm_item_add(reading, item, gm_reading_formula(reading, span));
 }
 
-static bool add_formula(struct gm_reading *reading, struct gm_system_item *item, struct gm_span span)
-{
-    gm_node_id node;
-    return gm_reading_formula(reading, span, &node) && add_node(reading, item, node);
-}
-
-/* adds formulas separated by commas */
-static bool add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
+/* Takes the piece before the next semicolon. */
+static struct gm_span take_piece(const struct gm_reading *reading, struct gm_span *rest)
 {
     struct gm_span piece;
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        add_formula(reading, item, piece);
-    }
-    return !reading->fault.failed;
+    gm_span_take(reading->text, rest, ";", &piece);
+    return piece;
+}
+
+static const char *word_of(const struct gm_read_line *line)
+{
+    return gm_system_words[line->word].word;
 }
 
 /* The word of an assignment, its range and meaning, or the mark of derived starts. */
@@ -60,8 +52,8 @@ struct assignment {
     bool derived;
 };
 
-/* stores the assigned node in its component */
-static bool assign(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
+/* Stores the assigned node in its component. */
+static void assign(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
                    gm_node_id node, void *data)
 {
     struct gm_user_system *system = reading->system;
@@ -71,20 +63,20 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
         entry->role == GM_ENTRY_VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
     if (entry->role == GM_ENTRY_TIME && word == GM_WORD_START && system->kind == GM_EVOLUTION) {
         const struct gm_node *time = &system->graph.nodes[node];
-        system->variables[system->n].value = time->operation == GM_CONSTANT ? time->value : NAN;
-        return isfinite(system->variables[system->n].value) ||
-               gm_fail_first(&reading->fault, target->value.begin, "the time of the start is a number");
+        if (time->operation != GM_CONSTANT || !isfinite(time->value)) {
+            gm_system_refuse(system, target->value.begin, "the time of the start is a number");
+        }
+        system->variables[system->n].value = time->value;
+        return;
     }
     if (entry->role != GM_ENTRY_COMPONENT && !is_velocity) {
-        return gm_fail_first(&reading->fault, target->name.begin, "%.*s is not a component",
-                             (int)(entry->length < 60 ? entry->length : 60), entry->name);
+        gm_system_refuse(system, target->name.begin, "%.60s is not a component", entry->name);
     }
     struct gm_system_variable *variable =
         &system->variables[(is_velocity ? system->velocities : 0) + entry->number];
     if (gm_system_is_tangent(system, entry->number) && !is_velocity) {
-        return gm_fail_first(&reading->fault, target->name.begin,
-                             "%s is of a tangent, whose start and rate follow from the system",
-                             variable->name);
+        gm_system_refuse(system, target->name.begin,
+                         "%s is of a tangent, whose start and rate follow from the system", variable->name);
     }
     gm_node_id *place = word == GM_WORD_START   ? &variable->start
                         : word == GM_WORD_FORCE ? &variable->force
@@ -92,12 +84,12 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
                         : word == GM_WORD_JUMP  ? &variable->jump
                                                 : &system->rates[entry->number];
     if (word == GM_WORD_FORCE && entry->number >= system->n / 2) {
-        return gm_fail_first(&reading->fault, target->name.begin, "a force acts on a coordinate, not on %s",
-                             variable->name);
+        gm_system_refuse(system, target->name.begin, "a force acts on a coordinate, not on %s",
+                         variable->name);
     }
     if (*place != GM_NO_NODE) {
-        return gm_fail_first(&reading->fault, target->name.begin, "%s: %s is given twice",
-                             gm_system_words[word].word, variable->name);
+        gm_system_refuse(system, target->name.begin, "%s: %s is given twice", gm_system_words[word].word,
+                         variable->name);
     }
     *place = node;
     if (word == GM_WORD_START) {
@@ -108,48 +100,40 @@ static bool assign(struct gm_reading *reading, struct gm_entry *entry, const str
         variable->meaning = gm_reading_text(reading, assignment->range.meaning);
         variable->unit = gm_reading_text(reading, assignment->range.unit);
     }
-    return word != GM_WORD_START || (variable->meaning && variable->unit);
 }
 
-static bool read_assignments(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_assignments(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const enum gm_system_word word = line->word;
     struct gm_span all = line->value, rest = all, piece;
-    struct assignment assignment = {.word = word, .range = {.low = NAN, .high = NAN}};
-    const bool form = gm_system_is_form(reading->system);
-    if (word == GM_WORD_START && !gm_system_is_field(reading->system) && !form) {
-        gm_span_take(reading->text, &all, ";", &rest);
+    struct assignment assignment = {.word = (enum gm_system_word)line->word,
+                                    .range = {.low = NAN, .high = NAN}};
+    const bool ranged = line->word == GM_WORD_START && gm_reading_has_solution(reading);
+    if (ranged) {
+        rest = take_piece(reading, &all);
         all = gm_span_trimmed(reading->text, all);
-        assignment.derived = gm_span_among(reading->text, all, (const char *const[]){"derived", NULL}) == 0;
+        assignment.derived = gm_span_is(reading->text, all, "derived");
         if (!assignment.derived) {
-            gm_reading_range(reading, all, &assignment.range);
+            assignment.range = gm_reading_range(reading, all);
         }
     }
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        struct gm_target target;
-        reading->exact = word == GM_WORD_START && !gm_system_is_field(reading->system) && !form;
-        if (gm_reading_assignment(reading, piece, &target)) {
-            gm_reading_elements(reading, &target, assign, &assignment);
-        }
-        reading->exact = false;
+    reading->exact = ranged;
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        const struct gm_target target = gm_reading_assignment(reading, piece);
+        gm_reading_elements(reading, &target, assign, &assignment);
     }
-    return !reading->fault.failed;
+    reading->exact = false;
 }
 
-/* Takes a name, or an element of a list, off the front of `rest`. NULL with a fault. */
+/* Takes a name, or an element of a list, off the front of `rest`. */
 static const struct gm_entry *take_entry(struct gm_reading *reading, struct gm_span *rest)
 {
-    struct gm_target target;
-    long index = 0;
-    if (!gm_reading_target(reading, rest, &target) ||
-        (target.index.begin < target.index.end && !gm_reading_whole(reading, target.index, &index))) {
-        return NULL;
-    }
-    return gm_reading_sought(reading, &target, index);
+    const struct gm_target target = gm_reading_target(reading, rest);
+    const bool indexed = target.index.begin < target.index.end;
+    return gm_reading_sought(reading, &target, indexed ? gm_reading_whole(reading, target.index) : 0);
 }
 
 /* x y = z */
-static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
+static void read_bracket(struct gm_reading *reading, struct gm_span piece)
 {
     struct gm_user_system *system = reading->system;
     struct gm_span rest = piece;
@@ -158,493 +142,443 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
         rest = gm_span_trimmed(reading->text, rest);
         const size_t place = rest.begin;
         const struct gm_entry *entry = take_entry(reading, &rest);
-        if (!entry) {
-            return false;
-        }
         if (entry->role != GM_ENTRY_COMPONENT) {
-            return gm_fail_first(&reading->fault, place, "a bracket is of two components: bracket: x y = z");
+            gm_system_refuse(system, place, "a bracket is of two components: bracket: x y = z");
         }
         pair[i] = entry->number;
     }
     rest = gm_span_trimmed(reading->text, rest);
     if (rest.begin == rest.end || reading->text[rest.begin] != '=') {
-        return gm_fail_first(&reading->fault, rest.begin, "= was expected");
+        gm_system_refuse(system, rest.begin, "= was expected");
     }
     rest.begin++;
-    gm_node_id node, *entry = &system->bracket[pair[0] * system->n + pair[1]],
-                     *opposite = &system->bracket[pair[1] * system->n + pair[0]];
+    const char *const names[] = {system->variables[pair[0]].name, system->variables[pair[1]].name};
+    gm_node_id *entry = &system->bracket[pair[0] * system->n + pair[1]],
+               *opposite = &system->bracket[pair[1] * system->n + pair[0]];
     if (pair[0] == pair[1]) {
-        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s with itself is 0",
-                             system->variables[pair[0]].name);
+        gm_system_refuse(system, piece.begin, "the bracket of %s with itself is 0", names[0]);
     }
-    if (!gm_reading_formula(reading, rest, &node)) {
-        return false;
-    }
+    const gm_node_id node = gm_reading_formula(reading, rest);
     if (*entry != GM_NO_NODE) {
-        return gm_fail_first(&reading->fault, piece.begin, "the bracket of %s and %s is given twice",
-                             system->variables[pair[0]].name, system->variables[pair[1]].name);
+        gm_system_refuse(system, piece.begin, "the bracket of %s and %s is given twice", names[0], names[1]);
     }
     *entry = node;
     system->bracket_place = piece.begin;
     *opposite = gm_negative(&system->graph, node);
-    return true;
 }
 
-static bool read_brackets(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_brackets(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value, piece;
-    while (!reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
         read_bracket(reading, piece);
     }
-    return !reading->fault.failed;
 }
 
-static bool generate(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
+static void generate(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
                      gm_node_id node, void *data)
 {
     const struct gm_user_system *system = reading->system;
     struct gm_system_item *item = data;
     if (entry->role != GM_ENTRY_COMPONENT || entry->number >= item->count) {
-        return gm_fail_first(&reading->fault, target->name.begin, "a %s moves %s, not %.*s",
-                             gm_system_words[item->word].word,
-                             system->kind <= GM_LAGRANGIAN ? "coordinates" : "components",
-                             (int)(entry->length < 60 ? entry->length : 60), entry->name);
+        gm_system_refuse(system, target->name.begin, "a %s moves %s, not %.60s",
+                         gm_system_words[item->word].word,
+                         system->kind <= GM_LAGRANGIAN ? "coordinates" : "components", entry->name);
     }
     item->nodes[entry->number] = node;
-    return true;
 }
 
 /* symmetry: [name;] x = -y, y = x */
-static bool read_symmetry(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_symmetry(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_user_system *system = reading->system;
-    struct gm_span rest = line->value, name = {0, 0}, piece;
-    if (gm_span_until(reading->text, rest, ";") < rest.end) {
-        gm_span_take(reading->text, &rest, ";", &name);
-    }
-    struct gm_system_item *item = add_item(reading, line, name);
+    struct gm_span rest = line->value, piece;
+    const bool named = gm_span_until(reading->text, rest, ";") < rest.end;
+    struct gm_system_item *item = add_item(reading, line, named ? take_piece(reading, &rest) : nameless);
     const size_t size = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
-    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; item && i < size && !reading->fault.failed; i++) {
-        add_node(reading, item, zero);
+    for (size_t i = 0; i < size; i++) {
+        gm_item_add(reading, item, gm_formula_constant(&system->graph, 0));
     }
-    while (item && !reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        struct gm_target target;
-        if (gm_reading_assignment(reading, piece, &target)) {
-            gm_reading_elements(reading, &target, generate, item);
-        }
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        const struct gm_target target = gm_reading_assignment(reading, piece);
+        gm_reading_elements(reading, &target, generate, item);
     }
-    return !reading->fault.failed;
 }
 
 /* Appends the index of a name as its last digits: length[2] is length2. */
-static bool number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
+static void number_item(struct gm_reading *reading, struct gm_system_item *item, struct gm_span index)
 {
-    long number = 0;
-    if (!gm_reading_whole(reading, index, &number)) {
-        return false;
-    }
+    const long number = gm_reading_whole(reading, index);
     if (number < 0) {
-        return gm_fail_first(&reading->fault, index.begin, "the index of a name is 0 or more, not %ld",
-                             number);
+        gm_system_refuse(reading->system, index.begin, "the index of a name is 0 or more, not %ld", number);
     }
     item->name = gm_arena_print(reading->system->arena, "%s%ld", item->name, number);
-    return item->name || gm_fail_memory(&reading->fault);
 }
 
 /* NAME = formula; options */
-static bool read_named(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_named(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, piece;
-    struct gm_target target;
-    gm_span_take(reading->text, &rest, ";", &piece);
-    if (!gm_reading_assignment(reading, piece, &target)) {
-        return false;
-    }
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = line->value;
+    const struct gm_target target = gm_reading_assignment(reading, take_piece(reading, &rest));
     const bool indexed = target.index.begin < target.index.end;
     if (indexed && reading->counter.begin == reading->counter.end) {
-        return gm_fail_first(&reading->fault, target.index.begin, "this name has no index");
+        gm_system_refuse(system, target.index.begin, "this name has no index");
     }
     struct gm_system_item *item = add_item(reading, line, target.name);
-    if (!item || (indexed && !number_item(reading, item, target.index))) {
-        return false;
+    if (indexed) {
+        number_item(reading, item, target.index);
     }
     const size_t length = strlen(item->name);
     if (gm_reading_reserves(item->name, length)) {
-        return gm_fail_first(&reading->fault, target.name.begin, "the name %.60s" GM_RESERVED, item->name);
+        gm_system_refuse(system, target.name.begin, "the name %.60s" GM_RESERVED, item->name);
     }
     const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
     if (named && named->place != target.name.begin) {
-        return gm_reading_fail_twice(reading, target.name.begin, named);
+        gm_reading_refuse_second(reading, target.name.begin, named);
     }
-    reading->exact = line->word == GM_WORD_OBSERVE && !gm_system_is_field(reading->system) &&
-                     !gm_system_is_form(reading->system);
-    const bool good = named ? add_node(reading, item, named->node) : add_formula(reading, item, target.value);
-    reading->exact = false;
-    if (!good) {
-        return false;
-    }
-    for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
-        const struct gm_system_item *other = &reading->system->items[i];
+    const bool exact = line->word == GM_WORD_OBSERVE && gm_reading_has_solution(reading);
+    gm_item_add(reading, item,
+                named   ? named->node
+                : exact ? gm_reading_formula_of_exact(reading, target.value)
+                        : gm_reading_formula(reading, target.value));
+    for (size_t i = 0; i + 1 < system->item_count; i++) {
+        const struct gm_system_item *other = &system->items[i];
         if ((gm_system_is_observed(other) || other->word == GM_WORD_PART) &&
             strcmp(other->name, item->name) == 0) {
-            return gm_fail_first(&reading->fault, target.name.begin, "%.60s is given twice", item->name);
+            gm_system_refuse(system, target.name.begin, "%.60s is given twice", item->name);
         }
     }
-    return gm_options_read(reading, item, rest);
+    gm_options_read(reading, item, rest);
 }
 
 /* part: A = formula, B = formula; of rates: A; x = formula, y = formula */
-static bool read_part(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_part(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value, piece;
-    const bool rates = reading->system->kind == GM_RATES;
-    if (rates && gm_span_until(reading->text, rest, ";") == rest.end) {
-        return gm_fail_first(&reading->fault, rest.begin,
-                             "a part of rates is a name, a semicolon and its rates");
+    if (reading->system->kind != GM_RATES) {
+        while (gm_span_take(reading->text, &rest, ",", &piece)) {
+            read_named(reading, &(struct gm_read_line){line->word, line->place, piece});
+        }
+        return;
     }
-    while (!rates && !reading->fault.failed && gm_span_take(reading->text, &rest, ",", &piece)) {
-        read_named(reading, &(struct gm_system_line){line->word, line->place, piece});
+    if (gm_span_until(reading->text, rest, ";") == rest.end) {
+        gm_system_refuse(reading->system, rest.end, "a part of rates is a name, a semicolon and its rates");
     }
-    return rates ? read_symmetry(reading, line) : !reading->fault.failed;
+    read_symmetry(reading, line);
 }
 
 /* require: F; sentence */
-static bool read_requirement(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_requirement(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, formula;
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    gm_span_take(reading->text, &rest, ";", &formula);
+    struct gm_span rest = line->value;
+    const struct gm_span formula = take_piece(reading, &rest);
+    struct gm_system_item *item = add_item(reading, line, nameless);
     rest = gm_span_trimmed(reading->text, rest);
-    if (item && rest.begin == rest.end) {
-        return gm_fail_first(&reading->fault, formula.end, "a sentence was expected: %s: F; it says why not",
-                             gm_system_words[line->word].word);
+    if (rest.begin == rest.end) {
+        gm_system_refuse(reading->system, formula.end, "a sentence was expected: %s: F; it says why not",
+                         word_of(line));
     }
-    return item && add_formula(reading, item, formula) && gm_text_read(reading, item, rest);
+    add_formula(reading, item, formula);
+    gm_text_read(reading, item, rest);
 }
 
 /* level: [section;] F; text; options */
-static bool read_level(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_level(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, piece;
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    gm_span_take(reading->text, &rest, ";", &piece);
-    if (!item) {
-        return false;
-    }
+    struct gm_span rest = line->value, piece = take_piece(reading, &rest);
+    struct gm_system_item *item = add_item(reading, line, nameless);
     item->in_section = gm_span_is(reading->text, piece, "section");
     if (item->in_section) {
-        gm_span_take(reading->text, &rest, ";", &piece);
+        piece = take_piece(reading, &rest);
     }
-    const struct gm_system_line *section = gm_reading_line(reading, GM_WORD_SECTION);
-    if (item->in_section && !section) {
-        return gm_fail_first(&reading->fault, line->value.begin, "there is no line \"section\"");
+    if (item->in_section && !gm_reading_line(reading, GM_WORD_SECTION)) {
+        gm_system_refuse(reading->system, line->value.begin, "there is no line \"section\"");
     }
-    reading->exact = true;
-    const bool good = add_formula(reading, item, piece);
-    reading->exact = false;
-    if (good && !gm_span_take(reading->text, &rest, ";", &piece)) {
-        return gm_fail_first(&reading->fault, piece.end, "a text was expected: level: F; the exact orbit");
+    gm_item_add(reading, item, gm_reading_formula_of_exact(reading, piece));
+    if (!gm_span_take(reading->text, &rest, ";", &piece)) {
+        gm_system_refuse(reading->system, piece.end, "a text was expected: level: F; the exact orbit");
     }
-    item->text = good ? gm_reading_text(reading, piece) : NULL;
-    return item->text && gm_options_read(reading, item, rest);
+    item->text = gm_reading_text(reading, piece);
+    gm_options_read(reading, item, rest);
 }
 
 /* Takes the next piece as words key=value. */
 static char *take_words(struct gm_reading *reading, struct gm_span *rest)
 {
-    struct gm_span piece;
-    gm_span_take(reading->text, rest, ";", &piece);
+    const struct gm_span piece = take_piece(reading, rest);
     char *words = gm_reading_text(reading, piece);
-    const bool none = words && strcmp(words, "none") == 0;
-    for (const char *word = words; word && *word && !none; word += strcspn(word, " "), word += *word == ' ') {
+    const bool none = strcmp(words, "none") == 0;
+    for (const char *word = words; *word && !none; word += strcspn(word, " "), word += *word == ' ') {
         if (strcspn(word, "=") >= strcspn(word, " ")) {
-            gm_fail_first(&reading->fault, piece.begin, "%.60s is not of the form key=value: until=100",
-                          word);
-            break;
+            gm_system_refuse(reading->system, piece.begin, "%.60s is not of the form key=value: until=100",
+                             word);
         }
     }
     return words;
 }
 
 /* graph: KEY; options, figure: NAME; WORDS; statement, work: WORDS; options, stability: WORDS; KEY values; options */
-static bool read_optional(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_optional(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, name = {0, 0};
+    struct gm_span rest = line->value;
     const bool named = line->word == GM_WORD_GRAPH || line->word == GM_WORD_FIGURE;
-    if (named) {
-        gm_span_take(reading->text, &rest, ";", &name);
-    }
-    struct gm_system_item *item = add_item(reading, line, name);
-    if (item && line->word != GM_WORD_GRAPH) {
+    struct gm_system_item *item = add_item(reading, line, named ? take_piece(reading, &rest) : nameless);
+    if (line->word != GM_WORD_GRAPH) {
         item->words = take_words(reading, &rest);
     }
-    if (item && line->word == GM_WORD_FIGURE) {
-        rest = gm_span_trimmed(reading->text, rest);
-        item->text = gm_reading_text(reading, rest);
-        return item->text &&
-               (rest.begin < rest.end ||
-                gm_fail_first(&reading->fault, rest.begin,
-                              "a statement was expected: figure: NAME; scheme=rk4; what it shows"));
+    if (line->word != GM_WORD_FIGURE) {
+        gm_options_read(reading, item, rest);
+        return;
     }
-    return item && !reading->fault.failed && gm_options_read(reading, item, rest);
+    rest = gm_span_trimmed(reading->text, rest);
+    item->text = gm_reading_text(reading, rest);
+    if (rest.begin == rest.end) {
+        gm_system_refuse(reading->system, rest.begin,
+                         "a statement was expected: figure: NAME; scheme=rk4; what it shows");
+    }
 }
 
 /* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
-static bool read_section(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_section(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, where, piece;
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    gm_span_take(reading->text, &rest, ";", &where);
-    if (!item) {
-        return false;
-    }
-    item->periodic = where.end - where.begin > 6 && memcmp(reading->text + where.begin, "every ", 6) == 0;
+    const char *text = reading->text;
+    struct gm_span rest = line->value, where = take_piece(reading, &rest), condition, piece;
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    item->periodic = where.end - where.begin > 6 && memcmp(text + where.begin, "every ", 6) == 0;
     where.begin += item->periodic ? 6 : 0;
-    struct gm_span condition;
-    gm_span_take(reading->text, &where, ",", &condition);
+    gm_span_take(text, &where, ",", &condition);
     if (!item->periodic) {
-        const size_t equals = gm_span_until(reading->text, condition, "=");
-        const struct gm_span right =
-            gm_span_trimmed(reading->text, (struct gm_span){equals + 1, condition.end});
-        if (equals == condition.end || right.end - right.begin != 1 || reading->text[right.begin] != '0') {
-            return gm_fail_first(&reading->fault, condition.begin,
-                                 "a section is where something is 0, x = 0, or every T");
+        const size_t equals = gm_span_until(text, condition, "=");
+        if (equals == condition.end ||
+            !gm_span_is(text, gm_reading_between(reading, equals + 1, condition.end), "0")) {
+            gm_system_refuse(reading->system, condition.begin,
+                             "a section is where something is 0, x = 0, or every T");
         }
         condition.end = equals;
     }
-    double period = 1;
-    if (!add_formula(reading, item, condition) ||
-        (item->periodic && !gm_reading_number(reading, condition, &period))) {
-        return false;
-    }
+    add_formula(reading, item, condition);
+    const double period = item->periodic ? gm_reading_number(reading, condition) : 1;
     if (!(period > 0)) {
-        return gm_fail_first(&reading->fault, condition.begin,
-                             "the time between two looks is %g, and has to be above 0", period);
+        gm_system_refuse(reading->system, condition.begin,
+                         "the time between two looks is %g, and has to be above 0", period);
     }
-    gm_span_take(reading->text, &rest, ";", &piece);
-    if (piece.begin == piece.end || !add_formulas(reading, item, piece) || item->count != 3) {
-        return gm_fail_first(&reading->fault, piece.begin, "a section shows two values: ; x, p_x");
+    const struct gm_span shown = take_piece(reading, &rest);
+    gm_item_add_formulas(reading, item, shown);
+    if (item->count != 3) {
+        gm_system_refuse(reading->system, shown.begin, "a section shows two values: ; x, p_x");
     }
-    rest = gm_span_trimmed(reading->text, rest);
-    item->alone = gm_span_is(reading->text, rest, "alone");
+    rest = gm_span_trimmed(text, rest);
+    item->alone = gm_span_is(text, rest, "alone");
     if (rest.begin < rest.end && !item->alone) {
-        return gm_fail_first(&reading->fault, rest.begin,
-                             "\"alone\" was expected: the section is the usual picture");
+        gm_system_refuse(reading->system, rest.begin,
+                         "\"alone\" was expected: the section is the usual picture");
     }
-    while (!reading->fault.failed && gm_span_take(reading->text, &where, ",", &piece)) {
-        gm_node_id holds;
-        if (gm_reading_condition(reading, piece, &holds)) {
-            add_node(reading, item, holds);
-        }
+    while (gm_span_take(text, &where, ",", &piece)) {
+        gm_item_add(reading, item, gm_reading_condition(reading, piece));
     }
-    return !reading->fault.failed;
+}
+
+/* The number of coordinates of a body or of the ends of a rod; 0 for another item. */
+static size_t dimensions_of(const struct gm_system_item *item)
+{
+    return item->word == GM_WORD_VIEW ? item->count : item->word == GM_WORD_ROD ? item->count / 2 : 0;
 }
 
 /* Reads one body, or both ends of a rod, in two or three dimensions. */
-static bool read_view(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_view(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    const struct gm_user_system *system = reading->system;
+    struct gm_system_item *item = add_item(reading, line, nameless);
     struct gm_span rest = line->value, piece;
     const size_t wanted = line->word == GM_WORD_ROD ? 2 : 1;
     size_t ends = 0, dimensions = 0;
     bool equal = true;
-    while (item && !reading->fault.failed && ends < wanted &&
-           gm_span_take(reading->text, &rest, ";", &piece)) {
+    while (ends < wanted && gm_span_take(reading->text, &rest, ";", &piece)) {
         const size_t before = item->count;
-        add_formulas(reading, item, piece);
+        gm_item_add_formulas(reading, item, piece);
         equal = equal && (ends == 0 || item->count - before == dimensions);
         dimensions = item->count - before;
         ends++;
     }
-    if (!reading->fault.failed && (!equal || dimensions < 2 || dimensions > 3 || ends < wanted)) {
-        return gm_fail_first(&reading->fault, line->value.begin,
-                             line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
-                                                       : "a body has two or three coordinates: x, y");
+    if (!equal || dimensions < 2 || dimensions > 3 || ends < wanted) {
+        gm_system_refuse(system, line->value.begin,
+                         line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
+                                                   : "a body has two or three coordinates: x, y");
     }
-    if (item && !reading->fault.failed) {
-        gm_options_read(reading, item, rest);
-    }
-    const struct gm_user_system *system = reading->system;
-    for (size_t i = 0; i + 1 < system->item_count && !reading->fault.failed; i++) {
-        const struct gm_system_item *other = &system->items[i];
-        const size_t of_other = other->word == GM_WORD_VIEW  ? other->count
-                                : other->word == GM_WORD_ROD ? other->count / 2
-                                                             : dimensions;
-        if (of_other != dimensions) {
-            return gm_fail_first(&reading->fault, line->value.begin,
-                                 "%zu coordinate%s, and those of the lines before are %zu", dimensions,
-                                 gm_plural((double)dimensions), of_other);
+    gm_options_read(reading, item, rest);
+    for (size_t i = 0; i + 1 < system->item_count; i++) {
+        const size_t of_other = dimensions_of(&system->items[i]);
+        if (of_other > 0 && of_other != dimensions) {
+            gm_system_refuse(system, line->value.begin,
+                             "%zu coordinate%s, and those of the lines before are %zu", dimensions,
+                             gm_plural((double)dimensions), of_other);
         }
     }
-    return !reading->fault.failed;
 }
 
 /* surface: sphere; r   or   surface: ellipsoid; a, b, c */
-static bool read_surface(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_surface(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, shape;
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    gm_span_take(reading->text, &rest, ";", &shape);
-    const char *word = reading->text + shape.begin;
-    const size_t length = shape.end - shape.begin;
-    const bool sphere = length == 6 && memcmp(word, "sphere", 6) == 0;
-    if (!item || (!sphere && (length != 9 || memcmp(word, "ellipsoid", 9) != 0))) {
-        return gm_fail_first(&reading->fault, shape.begin,
-                             "a surface is a sphere or an ellipsoid: sphere; 1");
+    static const char *const shapes[] = {"sphere", "ellipsoid", NULL};
+    struct gm_span rest = line->value;
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    const struct gm_span word = take_piece(reading, &rest);
+    const size_t shape = gm_span_among(reading->text, word, shapes);
+    const bool sphere = shape == 0;
+    if (!shapes[shape]) {
+        gm_system_refuse(reading->system, word.begin, "a surface is a sphere or an ellipsoid: sphere; 1");
     }
     rest = gm_span_trimmed(reading->text, rest);
-    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != (sphere ? 1 : 3)) {
-        return gm_fail_first(&reading->fault, rest.begin,
-                             sphere ? "a sphere has one radius: sphere; 1"
-                                    : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
+    gm_item_add_formulas(reading, item, rest);
+    if (item->count != (sphere ? 1 : 3)) {
+        gm_system_refuse(reading->system, rest.begin,
+                         sphere ? "a sphere has one radius: sphere; 1"
+                                : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
     }
-    const gm_node_id radius = item->nodes[0];
-    return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
+    while (item->count < 3) {
+        gm_item_add(reading, item, item->nodes[0]);
+    }
 }
 
 /* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
-static bool check_space(struct gm_reading *reading)
+static void check_space(struct gm_reading *reading)
 {
     static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
     static const char taken[] = "the name %s is reserved: it is how a system in space is looked at";
     const struct gm_user_system *system = reading->system;
     bool in_space = false;
     for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        in_space |= (item->word == GM_WORD_VIEW && item->count == 3) ||
-                    (item->word == GM_WORD_ROD && item->count == 6);
+        in_space |= dimensions_of(&system->items[i]) == 3;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_SURFACE && !in_space) {
-            return gm_fail_first(&reading->fault, item->place,
-                                 "a surface needs bodies in space: view: x, y, z");
+            gm_system_refuse(system, item->place, "a surface needs bodies in space: view: x, y, z");
         }
         for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
             if (strcmp(item->name, keys[k]) == 0) {
-                return gm_fail_first(&reading->fault, item->place, taken, keys[k]);
+                gm_system_refuse(system, item->place, taken, keys[k]);
             }
         }
     }
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
         const struct gm_entry *entry = gm_reading_entry(reading, keys[k], strlen(keys[k]), false, 0);
         if (entry && (in_space || entry->role == GM_ENTRY_CHOICE)) {
-            return gm_fail_first(&reading->fault, entry->place, taken, keys[k]);
+            gm_system_refuse(system, entry->place, taken, keys[k]);
         }
     }
-    return true;
 }
 
-static bool read_angles(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_angles(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_user_system *system = reading->system;
-    for (struct gm_span rest = gm_span_trimmed(reading->text, line->value);
-         rest.begin < rest.end && !reading->fault.failed; rest = gm_span_trimmed(reading->text, rest)) {
+    for (struct gm_span rest = line->value; rest.begin < rest.end;
+         rest = gm_span_trimmed(reading->text, rest)) {
         const size_t place = rest.begin;
         if (reading->text[rest.begin] == ',') {
             rest.begin++;
             continue;
         }
         const struct gm_entry *entry = take_entry(reading, &rest);
-        if (!entry) {
-            return false;
-        }
         if (entry->role != GM_ENTRY_COMPONENT ||
             (system->kind != GM_RATES && entry->number >= system->n / 2)) {
-            return gm_fail_first(&reading->fault, place, "an angle is one of the coordinates");
+            gm_system_refuse(system, place, "an angle is one of the coordinates");
         }
         system->variables[entry->number].angle = true;
     }
-    return !reading->fault.failed;
+}
+
+/* F; options */
+static void read_weight(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    struct gm_span rest = line->value;
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    add_formula(reading, item, take_piece(reading, &rest));
+    gm_options_read(reading, item, rest);
 }
 
 /* Reads a number of a ring: half its length, the points of its grid, the jump of the field at its ends. */
-static bool read_ring(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_ring(struct gm_reading *reading, const struct gm_read_line *line)
 {
     static const struct {
         double low, high;
-        const char *told;
+        const char *printed;
     } ranges[] = {{0.01, 1e5, "a number from 0.01 to 1e5"},
                   {3, 1e7, "a whole number from 3 to 1e7"},
                   {-1e6, 1e6, "a number"}};
-    const size_t row = (size_t)line->word - GM_WORD_HALF_LENGTH;
-    double number;
-    struct gm_system_item *item;
-    struct gm_span rest = line->value, value;
-    gm_span_take(reading->text, &rest, ";", &value);
-    if (!gm_reading_number(reading, value, &number)) {
-        return false;
-    }
+    const size_t row = line->word - GM_WORD_HALF_LENGTH;
+    struct gm_span rest = line->value;
+    const double number = gm_reading_number(reading, take_piece(reading, &rest));
     if (!(number >= ranges[row].low && number <= ranges[row].high) ||
         (line->word == GM_WORD_POINTS && number != floor(number) &&
          !gm_system_points_follow(reading->system))) {
-        return gm_fail_first(&reading->fault, line->value.begin, "%s is %g, and has to be %s",
-                             gm_system_words[line->word].word, number, ranges[row].told);
+        gm_system_refuse(reading->system, line->value.begin, "%s is %g, and has to be %s", word_of(line),
+                         number, ranges[row].printed);
     }
-    item = add_item(reading, line, (struct gm_span){0, 0});
-    return item && add_formula(reading, item, value) && gm_options_read(reading, item, rest);
+    read_weight(reading, line);
 }
 
 /* mesh: sphere 1 level: a word, and numbers separated by blanks, which may be formulas without blanks */
-static bool read_generator(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_generator(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    size_t at = line->value.begin, words = 0;
     struct gm_system_item *item = NULL;
-    while (at < line->value.end && !reading->fault.failed) {
+    for (size_t at = line->value.begin; at < line->value.end;) {
         const size_t end = at + strcspn(reading->text + at, " \t\r\n");
         const struct gm_span word = {at, end < line->value.end ? end : line->value.end};
-        if (words++ == 0) {
-            item = add_item(reading, line, word);
-        } else if (item) {
+        if (item) {
             add_formula(reading, item, word);
+        } else {
+            item = add_item(reading, line, word);
         }
         at = word.end + strspn(reading->text + word.end, " \t\r\n");
     }
-    return item && !reading->fault.failed;
 }
 
-static bool read_star(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_text(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    reading->system->texts[line->word] = gm_reading_text(reading, line->value);
+}
+
+static void read_star(struct gm_reading *reading, const struct gm_read_line *line)
 {
     static const char *const words[] = {"auto",     "circumcentric", "barycentric",
                                         "galerkin", "incentric",     NULL};
-    reading->system->texts[line->word] = gm_reading_text(reading, line->value);
-    return reading->system->texts[line->word] &&
-           (words[gm_span_among(reading->text, line->value, words)] ||
-            gm_fail_first(&reading->fault, line->value.begin,
-                          "star: is auto, circumcentric, barycentric, galerkin or incentric"));
+    read_text(reading, line);
+    if (!words[gm_span_among(reading->text, line->value, words)]) {
+        gm_system_refuse(reading->system, line->value.begin,
+                         "star: is auto, circumcentric, barycentric, galerkin or incentric");
+    }
 }
 
 /* equation: NAME; left = right */
-static bool read_equation(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_equation(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_user_system *system = reading->system;
-    struct gm_span rest = line->value, name;
-    gm_span_take(reading->text, &rest, ";", &name);
+    struct gm_span rest = line->value;
+    const struct gm_span name = take_piece(reading, &rest);
+    const struct gm_entry *entry = gm_reading_named(reading, name);
     rest = gm_span_trimmed(reading->text, rest);
-    const struct gm_entry *entry =
-        gm_reading_entry(reading, reading->text + name.begin, name.end - name.begin, false, 0);
     const size_t equals = gm_span_until(reading->text, rest, "=");
     if (!entry || entry->role != GM_ENTRY_COMPONENT || !system->forms[entry->number].unknown) {
-        return gm_fail_first(&reading->fault, name.begin,
-                             "an equation begins with its unknown, as in equation: u; laplace(u) = 0");
+        gm_system_refuse(system, name.begin,
+                         "an equation begins with its unknown, as in equation: u; laplace(u) = 0");
     }
     struct gm_form_declared *form = &system->forms[entry->number];
     if (form->left != GM_NO_NODE) {
-        return gm_fail_first(&reading->fault, name.begin, "%s has two equations", entry->name);
+        gm_system_refuse(system, name.begin, "%s has two equations", entry->name);
     }
     if (equals == rest.end) {
-        return gm_fail_first(&reading->fault, rest.begin, "= was expected");
+        gm_system_refuse(system, rest.begin, "= was expected");
     }
-    return gm_reading_formula(reading, (struct gm_span){rest.begin, equals}, &form->left) &&
-           gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end}, &form->right);
+    form->left = gm_reading_formula(reading, (struct gm_span){rest.begin, equals});
+    form->right = gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end});
 }
 
 /* Reads rows separated by |, with commas between entries. */
-static bool read_matrix(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_matrix(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_user_system *system = reading->system;
-    const char *word = gm_system_words[line->word].word;
     const size_t n = system->n, first = line->word == GM_WORD_K_MATRIX ? 0 : n * n;
     struct gm_span rest = line->value, row, entry;
     size_t rows = 0;
@@ -655,385 +589,330 @@ static bool read_matrix(struct gm_reading *reading, const struct gm_system_line 
             const size_t at = first + rows * n + columns;
             if (rows < n && columns < n) {
                 system->matrix_places[at] = entry.begin;
-                if (!gm_reading_formula(reading, entry, &system->matrices[at])) {
-                    return false;
-                }
+                system->matrices[at] = gm_reading_formula(reading, entry);
             }
         }
         if (columns != n) {
-            return gm_fail_first(&reading->fault, begin, "row %zu of %s has %zu entries for %zu components",
-                                 rows + 1, word, columns, n);
+            gm_system_refuse(system, begin, "row %zu of %s has %zu entries for %zu components", rows + 1,
+                             word_of(line), columns, n);
         }
     }
-    return rows == n || gm_fail_first(&reading->fault, line->value.begin,
-                                      "%s has %zu rows for %zu components", word, rows, n);
+    if (rows != n) {
+        gm_system_refuse(system, line->value.begin, "%s has %zu rows for %zu components", word_of(line), rows,
+                         n);
+    }
 }
 
 /* Reads one of two words. */
-static bool read_choice(struct gm_reading *reading, const struct gm_system_line *line, const char *one,
+static void read_choice(struct gm_reading *reading, const struct gm_read_line *line, const char *one,
                         const char *other)
 {
-    char *text = reading->system->texts[line->word] = gm_reading_text(reading, line->value);
-    return text && (strcmp(text, one) == 0 || strcmp(text, other) == 0 ||
-                    gm_fail_first(&reading->fault, line->value.begin, "%s is %s or %s, not %.60s",
-                                  gm_system_words[line->word].word, one, other, text));
+    read_text(reading, line);
+    const char *text = reading->system->texts[line->word];
+    if (strcmp(text, one) != 0 && strcmp(text, other) != 0) {
+        gm_system_refuse(reading->system, line->value.begin, "%s is %s or %s, not %.60s", word_of(line), one,
+                         other, text);
+    }
 }
 
 /* Reads a graph for compiled kernels: `yes`, the graph of the file; N = 3 .. 5, for a parameter in an index;
    or KEY = VALUE, with that value of the parameter. */
-static bool read_compiled(struct gm_reading *reading, const struct gm_system_line *line, struct gm_span piece)
+static void read_compiled(struct gm_reading *reading, const struct gm_read_line *line, struct gm_span piece)
 {
     struct gm_user_system *system = reading->system;
-    const char *text = reading->text;
-    const size_t equals = gm_span_until(text, piece, "=");
-    const struct gm_span name = gm_span_trimmed(text, (struct gm_span){piece.begin, equals}),
+    const size_t equals = gm_span_until(reading->text, piece, "=");
+    const struct gm_span name = gm_reading_between(reading, piece.begin, equals),
                          value = {equals + 1, piece.end};
-    const struct gm_entry *entry =
-        gm_reading_entry(reading, text + name.begin, name.end - name.begin, false, 0);
-    double number;
+    const struct gm_entry *entry = gm_reading_named(reading, name);
     long low, high;
-    if (equals == piece.end && gm_span_is(text, name, "yes")) {
-        return true;
+    if (equals == piece.end && gm_span_is(reading->text, name, "yes")) {
+        return;
     }
     if (equals < piece.end && entry && entry->role == GM_ENTRY_CHOICE) {
         struct gm_written_choices tried = system->choices;
-        char *word = gm_reading_text(reading, value);
-        if (word && !gm_choices_take(&tried, entry->name, word)) {
-            gm_fail_first(&reading->fault, piece.begin, "compile: %s has no word %.60s", entry->name, word);
+        const char *word = gm_reading_text(reading, value);
+        if (!gm_choices_take(&tried, entry->name, word)) {
+            gm_system_refuse(system, piece.begin, "compile: %s has no word %.60s", entry->name, word);
         }
-        return !reading->fault.failed;
+        return;
     }
     if (equals == piece.end || !entry || entry->role != GM_ENTRY_PARAMETER) {
-        return gm_fail_first(&reading->fault, piece.begin,
-                             "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
+        gm_system_refuse(system, piece.begin,
+                         "compile: says yes, or gives values to a parameter, as in N = 3 .. 5");
     }
     const size_t variable = system->parameters + entry->number;
-    if (gm_reading_bounds(reading, value, "graphs", &low, &high) || reading->fault.failed ||
-        !gm_reading_number(reading, value, &number)) {
-        return !reading->fault.failed;
-    }
-    struct gm_system_item *item = add_item(reading, line, name);
-    if (item) {
+    if (!gm_reading_bounds(reading, value, "graphs", &low, &high)) {
+        const double number = gm_reading_number(reading, value);
+        struct gm_system_item *item = add_item(reading, line, name);
         item->value = number;
         item->variable = variable;
     }
-    return item != NULL;
 }
 
-static bool read_compile(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_compile(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value, piece;
-    bool good = true;
-    while (good && gm_span_take(reading->text, &rest, ";", &piece)) {
-        good = read_compiled(reading, line, piece);
+    while (gm_span_take(reading->text, &rest, ";", &piece)) {
+        read_compiled(reading, line, piece);
     }
-    return good;
 }
 
 /* F; scale: the least divisor of its error */
-static bool read_energy(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_energy(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, energy;
-    gm_span_take(reading->text, &rest, ";", &energy);
+    struct gm_span rest = line->value;
+    const struct gm_span energy = take_piece(reading, &rest);
     rest = gm_span_trimmed(reading->text, rest);
-    struct gm_system_item *item =
-        rest.begin < rest.end ? add_item(reading, line, (struct gm_span){0, 0}) : NULL;
-    return (rest.begin == rest.end || (item && gm_options_read(reading, item, rest))) &&
-           gm_reading_formula(reading, energy, &reading->system->energy);
+    if (rest.begin < rest.end) {
+        gm_options_read(reading, add_item(reading, line, nameless), rest);
+    }
+    reading->system->energy = gm_reading_formula(reading, energy);
 }
 
-/* Takes the name of a key off the front of NAME = F; an empty one without it. False with a fault. */
-static bool take_key(struct gm_reading *reading, struct gm_span *value, struct gm_span *key)
+/* Takes the name of a key off the front of NAME = F; an empty one without it. */
+static struct gm_span take_key(struct gm_reading *reading, struct gm_span *value)
 {
-    struct gm_target target;
-    *key = (struct gm_span){0, 0};
     if (gm_span_until(reading->text, *value, "=") == value->end) {
-        return true;
+        return nameless;
     }
-    if (!gm_reading_assignment(reading, *value, &target)) {
-        return false;
-    }
+    const struct gm_target target = gm_reading_assignment(reading, *value);
     const char *name = reading->text + target.name.begin;
     const size_t length = target.name.end - target.name.begin;
-    *key = target.name;
     *value = target.value;
-    return (target.index.begin == target.index.end && !gm_reading_reserves(name, length) &&
-            !gm_reading_entry(reading, name, length, false, 0)) ||
-           gm_fail_first(&reading->fault, key->begin, "the name %.*s is taken",
-                         (int)(length < 60 ? length : 60), name);
+    if (target.index.begin < target.index.end || gm_reading_reserves(name, length) ||
+        gm_reading_named(reading, target.name)) {
+        gm_system_refuse(reading->system, target.name.begin, "the name %.*s is taken",
+                         gm_brief_length(length), name);
+    }
+    return target.name;
 }
 
 /* F; low .. high; meaning; of members and spread also KEY = F */
-static bool read_timing(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_timing(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const char *word = gm_system_words[line->word].word;
     const bool counts = line->word == GM_WORD_MEMBERS, spreads = line->word == GM_WORD_SPREAD;
-    struct gm_span rest = line->value, value, key = {0, 0};
-    struct gm_written_range range;
-    double number;
-    gm_span_take(reading->text, &rest, ";", &value);
-    if (((counts || spreads) && !take_key(reading, &value, &key)) ||
-        !gm_reading_number(reading, value, &number) || !gm_reading_range(reading, rest, &range)) {
-        return false;
-    }
+    struct gm_span rest = line->value, value = take_piece(reading, &rest);
+    const struct gm_span key = counts || spreads ? take_key(reading, &value) : nameless;
+    const double number = gm_reading_number(reading, value);
+    const struct gm_written_range range = gm_reading_range(reading, rest);
     if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
-        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be %s", word, number,
-                             line->word == GM_WORD_DT ? "above 0" : "0 or more");
+        gm_system_refuse(reading->system, value.begin, "%s is %g, and has to be %s", word_of(line), number,
+                         line->word == GM_WORD_DT ? "above 0" : "0 or more");
     }
     if ((counts && (number < 1 || number != floor(number))) || ((counts || spreads) && number > 1e6)) {
-        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and has to be a %s to 1e6", word,
-                             number, counts ? "whole number from 1" : "number from 0");
+        gm_system_refuse(reading->system, value.begin, "%s is %g, and has to be a %s to 1e6", word_of(line),
+                         number, counts ? "whole number from 1" : "number from 0");
     }
     if (number < range.low || number > range.high) {
-        return gm_fail_first(&reading->fault, value.begin, "%s is %g, and its range is from %g to %g", word,
-                             number, range.low, range.high);
+        gm_system_refuse(reading->system, value.begin, "%s is %g, and its range is from %g to %g",
+                         word_of(line), number, range.low, range.high);
     }
     reading->system->texts[line->word] = gm_reading_text(reading, value);
     struct gm_system_item *item = add_item(reading, line, key);
-    if (!item || !add_formula(reading, item, value)) {
-        return false;
-    }
+    add_formula(reading, item, value);
     item->value = number;
     item->low = range.low;
     item->high = range.high;
     item->text = gm_reading_text(reading, range.meaning);
-    return item->text != NULL;
 }
 
 /* dt = KEY*F: either of the step and a parameter follows from the other; F has no such parameter. */
-static bool read_tie(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_tie(struct gm_reading *reading, const struct gm_read_line *line)
 {
     const char *text = reading->text;
     const size_t equals = gm_span_until(text, line->value, "="), end = line->value.end;
-    const struct gm_span step = gm_span_trimmed(text, (struct gm_span){line->value.begin, equals}),
-                         product = gm_span_trimmed(text, (struct gm_span){equals + (equals < end), end});
-    const size_t length = gm_name_length(text + product.begin, product.end - product.begin),
-                 times = product.begin + length;
-    const struct gm_entry *entry = gm_reading_entry(reading, text + product.begin, length, false, 0);
+    const struct gm_span step = gm_reading_between(reading, line->value.begin, equals),
+                         product = gm_reading_between(reading, equals + (equals < end), end);
+    const size_t times = product.begin + gm_name_length(text + product.begin, product.end - product.begin);
+    const struct gm_span key = {product.begin, times};
+    const struct gm_entry *entry = gm_reading_named(reading, key);
     if (!gm_span_is(text, step, "dt") || times >= product.end || text[times] != '*' || !entry ||
         entry->role != GM_ENTRY_PARAMETER) {
-        return gm_fail_first(&reading->fault, line->value.begin,
-                             "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
+        gm_system_refuse(reading->system, line->value.begin,
+                         "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
     }
-    struct gm_system_item *item =
-        add_item(reading, line, (struct gm_span){product.begin, product.begin + length});
-    if (item) {
-        item->variable = reading->system->parameters + entry->number;
-    }
-    return item && add_formula(reading, item, (struct gm_span){times + 1, product.end});
+    const size_t variable = reading->system->parameters + entry->number;
+    struct gm_system_item *item = add_item(reading, line, key);
+    item->variable = variable;
+    add_formula(reading, item, (struct gm_span){times + 1, product.end});
 }
 
 /* geomint: 1 */
-static bool read_version(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_version(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    double number;
-    return gm_reading_number(reading, line->value, &number) &&
-           (number == 1 || gm_fail_first(&reading->fault, line->value.begin,
-                                         "this program reads files of format 1, not %g", number));
-}
-
-static bool read_text(struct gm_reading *reading, const struct gm_system_line *line)
-{
-    return (reading->system->texts[line->word] = gm_reading_text(reading, line->value)) != NULL;
+    const double number = gm_reading_number(reading, line->value);
+    if (number != 1) {
+        gm_system_refuse(reading->system, line->value.begin, "this program reads files of format 1, not %g",
+                         number);
+    }
 }
 
 /* mesh: a triangulation of forms, or X = F of a field */
-static bool read_mesh(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_mesh(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    return gm_system_is_form(reading->system) ? read_generator(reading, line) : read_text(reading, line);
+    (gm_system_is_form(reading->system) ? read_generator : read_text)(reading, line);
 }
 
 /* Reads a text that may contain values. */
-static bool read_shown_text(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_shown_text(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item =
-        read_text(reading, line) ? add_item(reading, line, (struct gm_span){0, 0}) : NULL;
-    return item && gm_text_read(reading, item, line->value) &&
-           (line->word != GM_WORD_TITLE || item->count == 0 || gm_reading_line(reading, GM_WORD_NAME) ||
-            gm_fail_first(&reading->fault, line->place,
-                          "a title with values needs a line \"name\" for lists"));
+    read_text(reading, line);
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    gm_text_read(reading, item, line->value);
+    if (line->word == GM_WORD_TITLE && item->count > 0 && !gm_reading_line(reading, GM_WORD_NAME)) {
+        gm_system_refuse(reading->system, line->place, "a title with values needs a line \"name\" for lists");
+    }
 }
 
-static bool read_space(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_space(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    return read_choice(reading, line, "differences", "fourier");
+    read_choice(reading, line, "differences", "fourier");
 }
 
 /* boundary: PART NAME = formula, of forms */
-static bool read_held(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_held(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const char *text = reading->text;
-    const size_t end = line->value.begin + strcspn(text + line->value.begin, " \t\r\n");
+    const size_t end = line->value.begin + strcspn(reading->text + line->value.begin, " \t\r\n");
     const struct gm_span part = {line->value.begin, end < line->value.end ? end : line->value.end};
-    struct gm_target target;
-    if (!gm_reading_assignment(reading, gm_span_trimmed(text, (struct gm_span){part.end, line->value.end}),
-                               &target)) {
-        return false;
-    }
+    const struct gm_target target =
+        gm_reading_assignment(reading, gm_reading_between(reading, part.end, line->value.end));
     const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
-    struct gm_system_item *item = entry ? add_item(reading, line, part) : NULL;
-    if (!item || !add_formula(reading, item, target.value)) {
-        return false;
-    }
+    struct gm_system_item *item = add_item(reading, line, part);
+    add_formula(reading, item, target.value);
     item->variable = entry->number;
-    return entry->role == GM_ENTRY_COMPONENT ||
-           (entry->role == GM_ENTRY_NAMED
-                ? add_node(reading, item, entry->node)
-                : gm_fail_first(&reading->fault, target.name.begin,
-                                "a boundary is given for a form: a field, an unknown or a let"));
+    if (entry->role == GM_ENTRY_NAMED) {
+        gm_item_add(reading, item, entry->node);
+    } else if (entry->role != GM_ENTRY_COMPONENT) {
+        gm_system_refuse(reading->system, target.name.begin,
+                         "a boundary is given for a form: a field, an unknown or a let");
+    }
 }
 
-static bool read_boundary(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_boundary(struct gm_reading *reading, const struct gm_read_line *line)
 {
     if (gm_system_is_form(reading->system)) {
-        return read_held(reading, line);
+        read_held(reading, line);
+        return;
     }
     if (reading->system->texts[GM_WORD_BOUNDARY]) {
-        return gm_fail_first(&reading->fault, line->place, "boundary is given twice");
+        gm_system_refuse(reading->system, line->place, "boundary is given twice");
     }
-    return read_choice(reading, line, "ring", "walls");
+    read_choice(reading, line, "ring", "walls");
 }
 
-static bool read_jump(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_jump(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const bool jumps = reading->system->kind == GM_MATRICES;
-    return jumps ? read_assignments(reading, line) : read_ring(reading, line);
+    (reading->system->kind == GM_MATRICES ? read_assignments : read_ring)(reading, line);
 }
 
 /* Reads L, V or S. */
-static bool read_function(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_function(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    return gm_reading_formula(reading, line->value, &reading->system->energy);
+    reading->system->energy = gm_reading_formula(reading, line->value);
 }
 
-static bool read_formula(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_formula(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    return item && add_formula(reading, item, line->value);
+    add_formula(reading, add_item(reading, line, nameless), line->value);
 }
 
 /* The values at both ends, of the colours or of the line. */
-static bool read_pair(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_pair(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    const char *word = gm_system_words[line->word].word;
-    return item && add_formulas(reading, item, line->value) &&
-           (item->count == 2 || gm_fail_first(&reading->fault, line->value.begin,
-                                              "%s: are two values, as in %s: -1, 1", word, word));
-}
-
-/* The weight of the slope in the density of a moving mesh. */
-static bool read_weight(struct gm_reading *reading, const struct gm_system_line *line)
-{
-    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
-    struct gm_span rest = line->value, value;
-    gm_span_take(reading->text, &rest, ";", &value);
-    return item && add_formula(reading, item, value) && gm_options_read(reading, item, rest);
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    gm_item_add_formulas(reading, item, line->value);
+    if (item->count != 2) {
+        gm_system_refuse(reading->system, line->value.begin, "%s: are two values, as in %s: -1, 1",
+                         word_of(line), word_of(line));
+    }
 }
 
 /* Names were read before. */
-static bool read_declared(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_declared(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    return reading && line;
+    (void)reading;
+    (void)line;
 }
 
-static bool (*const readers[GM_WORDS])(struct gm_reading *reading, const struct gm_system_line *line) = {
+static void (*const readers[GM_WORDS])(struct gm_reading *reading, const struct gm_read_line *line) = {
 #define GM_WORD(constant, word, identity, kinds, reader) read_##reader,
 #include "core/model/words.def"
 #undef GM_WORD
 };
 
 /* Reads i = low .. high; line, for each i in turn. A line without a counter is read once. */
-static bool read_counted(struct gm_reading *reading, const struct gm_system_line *line)
+static void read_counted(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, head;
+    struct gm_span rest = line->value;
     const size_t name = gm_name_length(reading->text + rest.begin, rest.end - rest.begin);
+    const struct gm_span head = take_piece(reading, &rest);
     long low = 0, high = 0;
-    gm_span_take(reading->text, &rest, ";", &head);
     const size_t equals = gm_span_until(reading->text, head, "=");
-    const struct gm_span counter = gm_span_trimmed(reading->text, (struct gm_span){head.begin, equals}),
-                         bounds = gm_span_trimmed(reading->text, (struct gm_span){equals + 1, head.end});
+    const struct gm_span counter = gm_reading_between(reading, head.begin, equals),
+                         bounds = gm_reading_between(reading, equals + 1, head.end);
     if (gm_system_words[line->word].identity == GM_LINE_ONCE || head.end == line->value.end ||
         equals == head.end || name == 0 || counter.end != counter.begin + name ||
         gm_span_until(reading->text, bounds, "..") == bounds.end) {
-        return readers[line->word](reading, line);
+        readers[line->word](reading, line);
+        return;
     }
-    if (gm_reading_entry(reading, reading->text + counter.begin, name, false, 0)) {
-        return gm_fail_first(&reading->fault, counter.begin,
-                             "%.*s is a name of the system: an index is another one",
-                             (int)(name < 60 ? name : 60), reading->text + counter.begin);
+    if (gm_reading_named(reading, counter)) {
+        gm_system_refuse(reading->system, counter.begin,
+                         "%.*s is a name of the system: an index is another one", gm_brief_length(name),
+                         reading->text + counter.begin);
     }
-    if (!gm_reading_bounds(reading, bounds, "values of an index", &low, &high)) {
-        return gm_fail_first(&reading->fault, bounds.begin,
-                             "the bounds of an index were expected, as in i = 1 .. 3");
-    }
-    const struct gm_system_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
+    gm_reading_bounds(reading, bounds, "values of an index", &low, &high);
+    const struct gm_read_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
     reading->counter = counter;
-    for (reading->counted = low; reading->counted <= high && !reading->fault.failed; reading->counted++) {
+    for (reading->counted = low; reading->counted <= high; reading->counted++) {
         readers[line->word](reading, &one);
     }
-    reading->counter = (struct gm_span){0, 0};
-    return !reading->fault.failed;
+    reading->counter = nameless;
 }
 
 /* Gives the names of lets to nodes without a name. */
-static bool name_parts(struct gm_reading *reading)
+static void name_parts(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     system->part_count = system->graph.count;
     system->parts = gm_arena_take(system->arena, system->part_count + (size_t)1, sizeof *system->parts);
-    for (size_t i = 0; system->parts && i < reading->entry_count && !reading->fault.failed; i++) {
+    for (size_t i = 0; i < reading->entry_count; i++) {
         const struct gm_entry *entry = &reading->entries[i];
-        const struct gm_system_line line = {
-            .word = GM_WORD_LET, .place = entry->place, .value = entry->value};
         if (entry->role != GM_ENTRY_NAMED) {
             continue;
         }
+        const struct gm_read_line line = {GM_WORD_LET, entry->place, entry->value};
         struct gm_system_item *item =
             add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
-        if (item && entry->indexed) {
+        if (entry->indexed) {
             item->name = gm_arena_print(system->arena, "%s[%ld]", item->name, entry->index);
         }
-        if (item && !item->name) {
-            return gm_fail_memory(&reading->fault);
-        }
-        if (item && add_node(reading, item, entry->node) &&
-            system->graph.nodes[entry->node].operation > GM_VARIABLE) {
+        gm_item_add(reading, item, entry->node);
+        if (system->graph.nodes[entry->node].operation > GM_VARIABLE) {
             system->parts[entry->node] = item->name;
         }
     }
-    return (system->parts && !reading->fault.failed) || gm_fail_memory(&reading->fault);
 }
 
 enum { MOST_OF_BRACKET = 2000 }; /* limits the size of the matrix of nodes */
 
-static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t count)
-{
-    *nodes = gm_system_no_nodes(reading->system, count);
-    return *nodes || gm_fail_memory(&reading->fault);
-}
-
 /* A field without a start starts with its exact solution. */
-static bool start_exactly(struct gm_user_system *system)
+static void start_exactly(struct gm_user_system *system)
 {
     gm_node_id *values = gm_system_no_nodes(system, system->variable_count);
-    if (values) {
-        values[system->n] = gm_formula_constant(&system->graph, system->variables[system->n].value);
-    }
-    for (size_t i = 0; values && i < system->n; i++) {
+    values[system->n] = gm_formula_constant(&system->graph, system->variables[system->n].value);
+    for (size_t i = 0; i < system->n; i++) {
         const bool is_rate = system->kind == GM_FIELD && i == 1;
         gm_node_id node = system->variables[is_rate ? 0 : i].exact, *start = &system->variables[i].start;
         if (*start != GM_NO_NODE || node == GM_NO_NODE) {
             continue;
         }
         node = is_rate ? gm_system_derivative(system, node, system->n) : node;
-        if (system->graph.failed ||
-            !gm_formula_substitute(&system->graph, &node, 1, values, system->variable_count)) {
-            break;
-        }
+        gm_system_need_graph(system);
+        gm_formula_substitute(&system->graph, &node, 1, values, system->variable_count);
+        gm_system_need_graph(system);
         *start = node;
     }
-    return values && !system->graph.failed;
 }
 
 /* True if a tangent starts along a component: the first along the first coordinate, the next along its momentum. */
@@ -1044,9 +923,8 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
 }
 
 /* Moves the formulas of forms to their declarations. Fields have a rate and a start, unknowns an equation. */
-static bool are_complete_forms(struct gm_reading *reading)
+static void complete_forms(struct gm_user_system *system)
 {
-    struct gm_user_system *system = reading->system;
     for (size_t i = 0; i < system->n; i++) {
         struct gm_form_declared *form = &system->forms[i];
         struct gm_system_variable *variable = &system->variables[i];
@@ -1055,30 +933,26 @@ static bool are_complete_forms(struct gm_reading *reading)
         form->exact = variable->exact;
         variable->start = variable->exact = GM_NO_NODE;
         if (form->unknown ? lacks_equation || !lacks_rate : lacks_rate) {
-            return gm_fail_first(&reading->fault, form->place, "%s has no %s", variable->name,
-                                 !form->unknown   ? "rate"
-                                 : lacks_equation ? "equation"
-                                                  : "rate: it is an unknown");
+            gm_system_refuse(system, form->place, "%s has no %s", variable->name,
+                             !form->unknown   ? "rate"
+                             : lacks_equation ? "equation"
+                                              : "rate: it is an unknown");
         }
         if (!form->unknown && form->start == GM_NO_NODE) {
-            return gm_fail_first(&reading->fault, form->place, "%s has no value at the start",
-                                 variable->name);
+            gm_system_refuse(system, form->place, "%s has no value at the start", variable->name);
         }
     }
-    return true;
 }
 
-static bool is_complete(struct gm_reading *reading)
+/* Starts of tangents and of fields that have none, brackets that are 0; every rate and every start is given. */
+static void complete(struct gm_reading *reading)
 {
-    if (gm_system_is_form(reading->system)) {
-        return are_complete_forms(reading);
-    }
     struct gm_user_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
-    const struct gm_system_line *start = gm_reading_line(reading, GM_WORD_START);
-    if (gm_system_is_field(system) && !start_exactly(system)) {
-        return gm_fail_memory(&reading->fault);
+    const struct gm_read_line *start = gm_reading_line(reading, GM_WORD_START);
+    if (gm_system_is_field(system)) {
+        start_exactly(system);
     }
     for (size_t k = 1; k <= system->tangents; k++) {
         for (size_t c = 0; c < gm_system_motion(system); c++) {
@@ -1089,8 +963,8 @@ static bool is_complete(struct gm_reading *reading)
     }
     for (size_t i = 0; i < system->n && rates; i++) {
         if (system->rates[i] == GM_NO_NODE && !gm_system_is_tangent(system, i)) {
-            return gm_fail_first(&reading->fault, gm_reading_line(reading, GM_WORD_RATE)->value.begin,
-                                 "there is no rate of %s", system->variables[i].name);
+            gm_system_refuse(system, gm_reading_line(reading, GM_WORD_RATE)->value.begin,
+                             "there is no rate of %s", system->variables[i].name);
         }
     }
     for (size_t i = 0; i < system->n * system->n && system->kind == GM_POISSON; i++) {
@@ -1101,64 +975,65 @@ static bool is_complete(struct gm_reading *reading)
             system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
             system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
         if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
-            return gm_fail_first(&reading->fault, start ? start->value.begin : reading->length,
-                                 "%s has no value at the start", system->variables[i].name);
+            gm_system_refuse(system, start ? start->value.begin : reading->length,
+                             "%s has no value at the start", system->variables[i].name);
         }
         if (system->variables[i].start != GM_NO_NODE && by_velocity) {
-            return gm_fail_first(&reading->fault, start->value.begin,
-                                 "%s and its velocity are both given at the start",
-                                 system->variables[i].name);
+            gm_system_refuse(system, start->value.begin, "%s and its velocity are both given at the start",
+                             system->variables[i].name);
         }
     }
-    return true;
 }
 
-static bool read_system(struct gm_reading *reading)
+static void read_system(struct gm_arena *arena, void *data)
 {
+    struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
     if (reading->length > GM_LARGEST_SYSTEM) {
-        return gm_fail_first(&reading->fault, 0, "a system has at most 100 MB");
+        gm_system_refuse(system, 0, "a system has at most 100 MB");
     }
-    struct gm_fault fault;
-    if (!gm_lines_are_text(reading->text, reading->length, &fault)) {
-        return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
+    system->source = gm_arena_take(arena, reading->length + 1, 1); /* it ends with a zero */
+    system->length = reading->length;
+    reading->text = memcpy(system->source, reading->text, reading->length);
+    if (!gm_lines_are_text(reading->text, reading->length, system->fault)) {
+        gm_arena_leave(arena);
     }
-    if (!gm_reading_lines(reading) || !gm_declared_kind(reading) || !gm_declared_functions(reading) ||
-        !gm_declared_parameters(reading) || !gm_declared_state(reading) || !gm_declared_relations(reading) ||
-        !all_nodes(reading, &system->rates, system->n)) {
-        return false;
-    }
+    gm_reading_lines(reading);
+    gm_declared_kind(reading);
+    gm_declared_functions(reading);
+    gm_declared_parameters(reading);
+    gm_declared_state(reading);
+    gm_declared_relations(reading);
+    const size_t n = system->n;
+    system->rates = gm_system_no_nodes(system, n);
     if (system->kind == GM_POISSON) {
-        const struct gm_system_line *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
-        if (system->n > MOST_OF_BRACKET) {
-            return gm_fail_first(&reading->fault, components ? components->value.begin : 0,
-                                 "a system with a bracket has at most %d components", MOST_OF_BRACKET);
+        const struct gm_read_line *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
+        if (n > MOST_OF_BRACKET) {
+            gm_system_refuse(system, components ? components->value.begin : 0,
+                             "a system with a bracket has at most %d components", MOST_OF_BRACKET);
         }
-        if (!all_nodes(reading, &system->bracket, system->n * system->n)) {
-            return false;
-        }
+        system->bracket = gm_system_no_nodes(system, n * n);
     }
     if (system->kind == GM_MATRICES) {
-        system->matrix_places =
-            gm_arena_take(system->arena, 2 * system->n * system->n, sizeof *system->matrix_places);
-        if (!system->matrix_places || !all_nodes(reading, &system->matrices, 2 * system->n * system->n)) {
-            return gm_fail_memory(&reading->fault);
-        }
+        system->matrix_places = gm_arena_take(arena, 2 * n * n, sizeof *system->matrix_places);
+        system->matrices = gm_system_no_nodes(system, 2 * n * n);
     }
-    if (!gm_declared_lets(reading)) {
-        return false;
-    }
+    gm_declared_lets(reading);
     for (size_t i = 0; i < reading->line_count; i++) {
-        if (!read_counted(reading, &reading->lines[i])) {
-            return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
-        }
+        read_counted(reading, &reading->lines[i]);
     }
     for (size_t i = 0; i < reading->definition_count; i++) {
-        if (!reading->definitions[i].called && !gm_reading_check(reading, &reading->definitions[i])) {
-            return false;
+        if (!reading->definitions[i].called) {
+            gm_reading_check(reading, &reading->definitions[i]);
         }
     }
-    return check_space(reading) && is_complete(reading) && name_parts(reading);
+    check_space(reading);
+    if (gm_system_is_form(system)) {
+        complete_forms(system);
+    } else {
+        complete(reading);
+    }
+    name_parts(reading);
 }
 
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
@@ -1169,23 +1044,18 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
                                  .length = length,
                                  .values = values,
                                  .value_count = count,
-                                 .fault = {.fault = fault}};
+                                 .scratch = gm_arena_open()};
     for (size_t i = 0; i < count; i++) {
         reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
     }
-    *system = (struct gm_user_system){0};
     *fault = (struct gm_fault){0};
+    *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault};
     gm_formula_open(&system->graph);
-    system->arena = gm_arena_open();
-    if (system->arena && length <= GM_LARGEST_SYSTEM) {
-        system->source = gm_arena_take(system->arena, length + 1, 1);
+    const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
+    gm_arena_close(reading.scratch);
+    if (!good) { /* all else is closed */
+        *system = (struct gm_user_system){
+            .arena = system->arena, .graph = system->graph, .choices = system->choices};
     }
-    if (system->source) {
-        memcpy(system->source, text, length);
-        system->length = length;
-        reading.text = system->source; /* it ends with a zero */
-    }
-    const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
-    gm_reading_close(&reading);
     return good;
 }

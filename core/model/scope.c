@@ -3,6 +3,7 @@
 #include "core/model/scope.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,70 +37,46 @@ const struct gm_line_word gm_system_words[GM_WORDS] = {
 static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS,
                                            "; docs/systems.md names them"};
 
-void gm_reading_close(struct gm_reading *reading)
-{
-    for (size_t i = 0; i < reading->entry_count; i++) {
-        free(reading->entries[i].name);
-    }
-    free(reading->entries);
-    free(reading->table);
-}
-
-bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
+void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
 {
     if ((count & (count - 1)) == 0) {
-        void *more = gm_arena_resize(reading->system->arena, *array, count ? 2 * count : 1, size);
-        if (!more) {
-            return gm_fail_memory(&reading->fault);
-        }
-        *array = more;
+        *array = gm_arena_resize(reading->system->arena, *array, count ? 2 * count : 1, size);
     }
-    return true;
 }
 
-bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first)
+void gm_reading_refuse_second(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
-    if (!reading->fault.failed) {
-        gm_fail_first(&reading->fault, place, "%.60s is defined twice", first->name);
-        reading->fault.fault->earlier = first->place;
-    }
-    return false;
+    reading->system->fault->earlier = first->place;
+    gm_system_refuse(reading->system, place, "%.60s is defined twice", first->name);
 }
 
-bool gm_reading_lines(struct gm_reading *reading)
+void gm_reading_lines(struct gm_reading *reading)
 {
-    struct gm_written_choices *choices = &reading->system->choices;
+    struct gm_user_system *system = reading->system;
     struct gm_read_lines lines = {.words = &words,
-                                  .choices = choices,
+                                  .choices = &system->choices,
                                   .inside = ~0u,
                                   .text = reading->text,
                                   .span = {0, reading->length}};
-    struct gm_fault fault = {0};
-    bool good = gm_choices_read(choices, reading->text, reading->length, &fault);
+    bool good = gm_choices_read(&system->choices, reading->text, reading->length, system->fault);
     for (size_t i = 0; good && i < reading->value_count; i++) {
-        gm_choices_take(choices, reading->values[i].name, reading->values[i].text);
+        gm_choices_take(&system->choices, reading->values[i].name, reading->values[i].text);
     }
-    good = good && gm_lines_read(&lines, &fault);
-    reading->lines =
-        good ? gm_arena_take(reading->system->arena, lines.count + 1, sizeof *reading->lines) : NULL;
-    for (size_t i = 0; reading->lines && i < lines.count; i++) {
-        const struct gm_read_line *line = &lines.list[i];
-        reading->lines[reading->line_count++] =
-            (struct gm_system_line){(enum gm_system_word)line->word, line->place, line->value};
+    if (!good || !gm_lines_read(&lines, system->fault)) {
+        gm_arena_leave(system->arena);
     }
-    free(lines.list);
-    return reading->lines ||
-           (fault.sentence[0] ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
-                              : gm_fail_memory(&reading->fault));
+    reading->lines = gm_arena_keep(system->arena, lines.list, free);
+    reading->line_count = lines.count;
 }
 
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span)
 {
-    char *text = gm_arena_keep(reading->system->arena, gm_span_words(reading->text, span), free);
-    if (!text) {
-        gm_fail_memory(&reading->fault);
-    }
-    return text;
+    return gm_arena_keep(reading->system->arena, gm_span_words(reading->text, span), free);
+}
+
+struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin, size_t end)
+{
+    return gm_span_trimmed(reading->text, (struct gm_span){begin, end});
 }
 
 static uint32_t *slot_of(const struct gm_reading *reading, const char *name, size_t length, bool indexed,
@@ -126,6 +103,11 @@ struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *
     const uint32_t number =
         reading->slots ? *slot_of(reading, name, length, indexed, indexed ? index : 0) : 0;
     return number ? &reading->entries[number - 1] : NULL;
+}
+
+struct gm_entry *gm_reading_named(const struct gm_reading *reading, struct gm_span name)
+{
+    return gm_reading_entry(reading, reading->text + name.begin, name.end - name.begin, false, 0);
 }
 
 /* Finds an element of a list of that name, and the bounds of the list. */
@@ -182,11 +164,27 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
 
 static enum gm_form_operator operator_of(const char *name, size_t length);
 
-bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
+/* Doubles the capacity of entries and of their table. */
+static void grow(struct gm_reading *reading)
 {
-    const int brief = (int)(entry.length < 60 ? entry.length : 60);
+    const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;
+    struct gm_entry *entries = gm_arena_resize(reading->scratch, reading->entries, capacity, sizeof *entries);
+    uint32_t *table = gm_arena_take(reading->scratch, 4 * capacity, sizeof *table);
+    gm_arena_need(reading->system->arena, entries && table);
+    reading->entries = entries;
+    reading->table = table;
+    reading->entry_capacity = capacity;
+    reading->slots = 4 * capacity;
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        const struct gm_entry *entry = &entries[i];
+        *slot_of(reading, entry->name, entry->length, entry->indexed, entry->index) = (uint32_t)i + 1;
+    }
+}
+
+void gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
+{
     if (is_place(reading, &entry)) {
-        return gm_fail_first(&reading->fault, entry.place, "x is the place in a field: take another name");
+        gm_system_refuse(reading->system, entry.place, "x is the place in a field: take another name");
     }
     const size_t word = gm_line_word(&words, entry.name, (struct gm_span){0, entry.length});
     /* a choice between starts may be called so */
@@ -194,24 +192,11 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
     if (is_word || is_of_ring(reading, &entry) ||
         (gm_system_is_form(reading->system) && operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
         (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length))) {
-        return gm_fail_first(&reading->fault, entry.place, "the name %.*s" GM_RESERVED, brief, entry.name);
+        gm_system_refuse(reading->system, entry.place, "the name %.*s" GM_RESERVED,
+                         gm_brief_length(entry.length), entry.name);
     }
     if (reading->entry_count == reading->entry_capacity) {
-        const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;
-        struct gm_entry *more = realloc(reading->entries, capacity * sizeof *more);
-        reading->entries = more ? more : reading->entries;
-        uint32_t *table = calloc(4 * capacity, sizeof *table);
-        if (!more || !table) {
-            free(table);
-            return gm_fail_memory(&reading->fault);
-        }
-        free(reading->table);
-        reading->table = table;
-        reading->entry_capacity = capacity;
-        reading->slots = 4 * capacity;
-        for (size_t i = 0; i < reading->entry_count; i++) {
-            *slot_of(reading, more[i].name, more[i].length, more[i].indexed, more[i].index) = (uint32_t)i + 1;
-        }
+        grow(reading);
     }
     const struct gm_entry *other = gm_reading_entry(reading, entry.name, entry.length, !entry.indexed, 0);
     uint32_t *slot = slot_of(reading, entry.name, entry.length, entry.indexed, entry.index);
@@ -222,16 +207,12 @@ bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
         other = list_of(reading, entry.name, entry.length, &low, &high);
     }
     if (other) {
-        return gm_reading_fail_twice(reading, entry.place, other);
+        gm_reading_refuse_second(reading, entry.place, other);
     }
-    char *name = strndup(entry.name, entry.length);
-    if (!name) {
-        return gm_fail_memory(&reading->fault);
-    }
-    entry.name = name;
+    entry.name = gm_arena_print(reading->scratch, "%.*s", (int)entry.length, entry.name);
+    gm_arena_need(reading->system->arena, entry.name != NULL);
     reading->entries[reading->entry_count] = entry;
     *slot = (uint32_t)++reading->entry_count;
-    return true;
 }
 
 static const char *known(size_t i, const void *data)
@@ -240,54 +221,64 @@ static const char *known(size_t i, const void *data)
     return i < reading->entry_count ? reading->entries[i].name : NULL;
 }
 
+__attribute__((format(printf, 2, 3))) static enum gm_meaning refuse(char *sentence, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, GM_FAULT_SENTENCE, format, arguments);
+    va_end(arguments);
+    return GM_REFUSED;
+}
+
+/* A name without an entry: another index of a list, a list without an index, or no list. */
+static enum gm_meaning refuse_index(const struct gm_reading *reading, const struct gm_name *name,
+                                    char *sentence)
+{
+    const int brief = gm_brief_length(name->length);
+    const char *text = name->text;
+    long low = 0, high = 0;
+    const bool is_list = list_of(reading, text, name->length, &low, &high) != NULL;
+    if (name->indexed && is_list) {
+        return refuse(sentence, "%.*s[%ld] lies outside of %.*s[%ld] .. %.*s[%ld]", brief, text, name->index,
+                      brief, text, low, brief, text, high);
+    }
+    if (is_list) {
+        return refuse(sentence, "%.*s is a list: an index was expected, %.*s[%ld] .. %.*s[%ld]", brief, text,
+                      brief, text, low, brief, text, high);
+    }
+    return gm_reading_entry(reading, text, name->length, false, 0)
+               ? refuse(sentence, "%.*s is not a list", brief, text)
+               : GM_UNKNOWN;
+}
+
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
-    const int brief = (int)(name->length < 60 ? name->length : 60);
+    const int brief = gm_brief_length(name->length);
     const bool fixed = name->fixed || reading->fixed;
     struct gm_entry *entry = gm_reading_entry(reading, name->text, name->length, name->indexed, name->index);
     if (!entry) {
-        long low = 0, high = 0;
-        const bool is_scalar = gm_reading_entry(reading, name->text, name->length, false, 0) != NULL;
-        const bool is_list = list_of(reading, name->text, name->length, &low, &high) != NULL;
-        if (name->indexed && is_list) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s[%ld] lies outside of %.*s[%ld] .. %.*s[%ld]", brief,
-                     name->text, name->index, brief, name->text, low, brief, name->text, high);
-        } else if (is_list) {
-            snprintf(sentence, GM_FAULT_SENTENCE,
-                     "%.*s is a list: an index was expected, %.*s[%ld] .. %.*s[%ld]", brief, name->text,
-                     brief, name->text, low, brief, name->text, high);
-        } else if (is_scalar) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is not a list", brief, name->text);
-        } else {
-            return GM_UNKNOWN;
-        }
-        return GM_REFUSED;
+        return refuse_index(reading, name, sentence);
     }
     if (entry->role == GM_ENTRY_CHOICE) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a choice of words: write lines below \"when: %s = ...\"",
-                 entry->name, entry->name);
-        return GM_REFUSED;
+        return refuse(sentence, "%s is a choice of words: write lines below \"when: %s = ...\"", entry->name,
+                      entry->name);
     }
     if (entry->role == GM_ENTRY_FUNCTION) {
         const size_t count = gm_reading_definition(reading, name->text, name->length)->count;
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a function of %zu argument%s", brief, name->text,
-                 count, gm_plural((double)count));
-        return GM_REFUSED;
+        return refuse(sentence, "%.*s is a function of %zu argument%s", brief, name->text, count,
+                      gm_plural((double)count));
     }
     if (name->initial && entry->role == GM_ENTRY_COMPONENT && gm_system_is_field(system)) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is a field: its start is not a number", brief,
-                 name->text);
-        return GM_REFUSED;
+        return refuse(sentence, "%.*s is a field: its start is not a number", brief, name->text);
     }
     if ((fixed && entry->role != GM_ENTRY_PARAMETER) ||
         ((name->initial || name->exact) && entry->role != GM_ENTRY_COMPONENT)) {
         const char *lacks =
             name->exact ? "component: it has no exact solution" : "component: it has no value at the start";
-        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is not a %s", brief, name->text,
-                 fixed ? "parameter: its value is not known here" : lacks);
-        return GM_REFUSED;
+        return refuse(sentence, "%.*s is not a %s", brief, name->text,
+                      fixed ? "parameter: its value is not known here" : lacks);
     }
     if (!entry->read && (entry->role >= GM_ENTRY_NAMED || (entry->role == GM_ENTRY_PARAMETER && fixed))) {
         reading->wanted = (uint32_t)(entry - reading->entries);
@@ -370,15 +361,13 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
     const enum gm_form_operator operator= operator_of(name->text, name->length);
     size_t i = 0;
     if (count < form_operators[operator].least || count > form_operators[operator].most) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%s takes %s", form_operators[operator].name,
-                 operator== GM_FORM_FORM               ? "two or three formulas"
-                 : form_operators[operator].most == 2 ? "two forms"
-                                                       : "one form");
-        return GM_REFUSED;
+        return refuse(sentence, "%s takes %s", form_operators[operator].name,
+                      operator== GM_FORM_FORM               ? "two or three formulas"
+                      : form_operators[operator].most == 2 ? "two forms"
+                                                            : "one form");
     }
     if (!system->calls) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "a parameter holds no forms");
-        return GM_REFUSED;
+        return refuse(sentence, "a parameter holds no forms");
     }
     while (i < system->call_count &&
            (system->calls[i].operator!= operator|| system->calls[i].count != count ||
@@ -386,9 +375,7 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
         i++;
     }
     if (i == GM_MOST_FORM_CALLS) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "a system has at most %d operators of forms",
-                 GM_MOST_FORM_CALLS);
-        return GM_REFUSED;
+        return refuse(sentence, "a system has at most %d operators of forms", GM_MOST_FORM_CALLS);
     }
     if (i == system->call_count) {
         struct gm_form_call *made = &system->calls[system->call_count++];
@@ -411,222 +398,212 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .data = reading,
                              .lines = true,
                              .initial = !form,
-                             .exact = reading->exact,
-                             .is_condition = reading->is_condition};
+                             .exact = reading->exact};
 }
 
-/* Ends an attempt that failed; true if another name must be read first. */
-static bool is_postponed(struct gm_reading *reading, const struct gm_fault *fault)
+/* Refuses the text after an attempt that failed, unless another name must be read first. */
+static void need_postponed(const struct gm_reading *reading, const struct gm_fault *fault)
 {
-    if (reading->system->graph.failed) {
-        return gm_fail_memory(&reading->fault);
+    gm_system_need_graph(reading->system);
+    if (fault->sentence[0]) {
+        gm_system_refuse(reading->system, fault->offset, "%s", fault->sentence);
     }
-    return fault->sentence[0] == '\0' || gm_fail_first(&reading->fault, fault->offset, "%s", fault->sentence);
 }
 
-/* Makes one attempt; false without a fault if another name must be read first. */
-static bool attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                    long element, gm_node_id *node, bool *postponed)
+/* Makes one attempt; GM_NO_NODE if another name must be read first. */
+static gm_node_id attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                          long element, bool is_condition)
 {
     struct gm_scope scope = scope_of(reading);
-    if (bound && bound->begin < bound->end) {
-        scope.indices[scope.index_count++] =
-            (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
-    }
-    if (reading->counter.begin < reading->counter.end) {
-        scope.indices[scope.index_count++] =
-            (struct gm_index){reading->text + reading->counter.begin,
-                              reading->counter.end - reading->counter.begin, reading->counted};
+    const struct gm_span *const indices[] = {bound, &reading->counter};
+    const long values[] = {element, reading->counted};
+    scope.is_condition = is_condition;
+    for (int i = 0; i < 2; i++) {
+        const struct gm_span *name = indices[i];
+        if (name && name->begin < name->end) {
+            scope.indices[scope.index_count++] =
+                (struct gm_index){reading->text + name->begin, name->end - name->begin, values[i]};
+        }
     }
     struct gm_fault fault;
-    const bool good =
-        gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault);
-    *postponed = !good && is_postponed(reading, &fault);
-    return good;
+    gm_node_id node;
+    if (!gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, &node,
+                         &fault)) {
+        need_postponed(reading, &fault);
+        node = GM_NO_NODE;
+    }
+    return node;
 }
 
-bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definition)
+void gm_reading_check(struct gm_reading *reading, struct gm_definition *definition)
 {
     const struct gm_scope scope = scope_of(reading);
     struct gm_fault fault;
-    return gm_formula_check(&reading->system->graph, reading->text, definition, &scope, &fault) ||
-           is_postponed(reading, &fault);
+    if (!gm_formula_check(&reading->system->graph, reading->text, definition, &scope, &fault)) {
+        need_postponed(reading, &fault);
+    }
 }
 
-static bool is_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
+/* Refuses a name that waits for another one in the stack, and with it for itself. */
+static void refuse_circle(struct gm_reading *reading, const uint32_t *stack, size_t depth)
 {
     size_t first = 0, used = 0;
     while (first < depth && stack[first] != reading->wanted) {
         first++;
     }
     if (first == depth) {
-        return false;
+        return;
     }
     char names[200] = "";
     for (size_t i = first; i < depth && used + 70 < sizeof names; i++) {
-        const struct gm_entry *entry = &reading->entries[stack[i]];
-        used +=
-            (size_t)snprintf(names + used, sizeof names - used, "%s%.*s", i > first ? ", which needs " : "",
-                             (int)(entry->length < 50 ? entry->length : 50), entry->name);
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%.50s",
+                                 i > first ? ", which needs " : "", reading->entries[stack[i]].name);
     }
-    const struct gm_entry *entry = &reading->entries[stack[first]];
-    gm_fail_first(&reading->fault, entry->place,
-                  depth - first == 1 ? "%s needs itself" : "a circle: %s, which needs the first again",
-                  names);
-    return true;
+    gm_system_refuse(reading->system, reading->entries[stack[first]].place,
+                     depth - first == 1 ? "%s needs itself" : "a circle: %s, which needs the first again",
+                     names);
 }
 
-bool gm_reading_define(struct gm_reading *reading, uint32_t number)
+void gm_reading_define(struct gm_reading *reading, uint32_t number)
 {
     uint32_t *stack = NULL;
     size_t depth = 0;
-    if (!gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack)) {
-        return false;
-    }
+    gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
     stack[depth++] = number;
-    while (depth > 0 && !reading->fault.failed) {
+    while (depth > 0) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
         const bool was_fixed = reading->fixed, was_exact = reading->exact;
         const struct gm_span counter = reading->counter;
-        bool postponed = false;
-        gm_node_id node = 0;
         reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->exact = entry->role == GM_ENTRY_OBSERVED && !gm_system_is_field(reading->system) &&
-                         !gm_system_is_form(reading->system);
+        reading->exact = entry->role == GM_ENTRY_OBSERVED && gm_reading_has_solution(reading);
         reading->counter = (struct gm_span){0, 0};
-        const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
+        const gm_node_id node = attempt(reading, entry->value, &entry->bound, entry->element, false);
         reading->fixed = was_fixed;
         reading->exact = was_exact;
         reading->counter = counter;
-        if (good) {
+        if (node != GM_NO_NODE) {
             entry->node = node;
             entry->read = true;
             depth--;
-        } else if (postponed && !is_circle(reading, stack, depth) &&
-                   gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack)) {
+        } else {
+            refuse_circle(reading, stack, depth);
+            gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
             stack[depth++] = reading->wanted;
         }
     }
-    return !reading->fault.failed;
 }
 
-bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                      long element, gm_node_id *node)
-{
-    bool postponed = true;
-    while (!reading->fault.failed && postponed) {
-        if (attempt(reading, span, bound, element, node, &postponed)) {
-            return true;
-        }
-        if (postponed) {
-            gm_reading_define(reading, reading->wanted);
-        }
-    }
-    return false;
-}
-
-bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
-{
-    return gm_reading_bound(reading, span, NULL, 0, node);
-}
-
-bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node)
-{
-    bool postponed = true, good = false;
-    while (!reading->fault.failed && !good && postponed) {
-        reading->is_condition = true;
-        good = attempt(reading, span, NULL, 0, node, &postponed);
-        reading->is_condition = false;
-        if (postponed) {
-            gm_reading_define(reading, reading->wanted);
-        }
-    }
-    return good;
-}
-
-bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value)
+/* Reads a formula or a condition, after all names that it needs. */
+static gm_node_id read_after_names(struct gm_reading *reading, struct gm_span span,
+                                   const struct gm_span *bound, long element, bool is_condition)
 {
     gm_node_id node;
+    while ((node = attempt(reading, span, bound, element, is_condition)) == GM_NO_NODE) {
+        gm_reading_define(reading, reading->wanted);
+    }
+    return node;
+}
+
+gm_node_id gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                            long element)
+{
+    return read_after_names(reading, span, bound, element, false);
+}
+
+gm_node_id gm_reading_formula(struct gm_reading *reading, struct gm_span span)
+{
+    return read_after_names(reading, span, NULL, 0, false);
+}
+
+gm_node_id gm_reading_formula_of_exact(struct gm_reading *reading, struct gm_span span)
+{
+    reading->exact = true;
+    const gm_node_id node = gm_reading_formula(reading, span);
+    reading->exact = false;
+    return node;
+}
+
+gm_node_id gm_reading_condition(struct gm_reading *reading, struct gm_span span)
+{
+    return read_after_names(reading, span, NULL, 0, true);
+}
+
+double gm_reading_number(struct gm_reading *reading, struct gm_span span)
+{
     const bool was_fixed = reading->fixed;
     reading->fixed = true;
-    const bool good = gm_reading_formula(reading, span, &node);
+    const gm_node_id node = gm_reading_formula(reading, span);
     reading->fixed = was_fixed;
-    *value = good ? reading->system->graph.nodes[node].value : NAN;
-    return good;
+    return reading->system->graph.nodes[node].value;
 }
 
 /* Reads a whole number on which the graph depends. */
-static bool read_whole(struct gm_reading *reading, struct gm_span span, double *number)
+static double read_whole(struct gm_reading *reading, struct gm_span span)
 {
     reading->structural = true;
-    const bool good = gm_reading_number(reading, span, number);
+    const double number = gm_reading_number(reading, span);
     reading->structural = false;
-    return good &&
-           (*number == floor(*number) ||
-            gm_fail_first(&reading->fault, span.begin, "an index has to be a whole number, not %g", *number));
+    if (number != floor(number)) {
+        gm_system_refuse(reading->system, span.begin, "an index has to be a whole number, not %g", number);
+    }
+    return number;
 }
 
-bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *value)
+long gm_reading_whole(struct gm_reading *reading, struct gm_span span)
 {
-    double number;
-    if (!read_whole(reading, span, &number)) {
-        return false;
-    }
+    const double number = read_whole(reading, span);
     if (fabs(number) > GM_LARGEST_INDEX) {
-        return gm_fail_first(&reading->fault, span.begin, "an index lies between -%d and %d, and this is %g",
-                             GM_LARGEST_INDEX, GM_LARGEST_INDEX, number);
+        gm_system_refuse(reading->system, span.begin, "an index lies between -%d and %d, and this is %g",
+                         GM_LARGEST_INDEX, GM_LARGEST_INDEX, number);
     }
-    *value = (long)number;
-    return true;
+    return (long)number;
 }
 
-bool gm_reading_target(struct gm_reading *reading, struct gm_span *rest, struct gm_target *target)
+struct gm_target gm_reading_target(struct gm_reading *reading, struct gm_span *rest)
 {
     *rest = gm_span_trimmed(reading->text, *rest);
     const size_t length = gm_name_length(reading->text + rest->begin, rest->end - rest->begin);
-    *target = (struct gm_target){.name = {rest->begin, rest->begin + length}};
+    struct gm_target target = {.name = {rest->begin, rest->begin + length}};
     if (length == 0) {
         const char c = rest->begin < rest->end ? reading->text[rest->begin] : '\0';
-        return gm_fail_first(&reading->fault, rest->begin,
-                             c == '\'' || c == '/'
-                                 ? "the left side is a name alone: rate: x = -x gives x' = -x"
-                                 : "a name was expected");
+        gm_system_refuse(reading->system, rest->begin,
+                         c == '\'' || c == '/' ? "the left side is a name alone: rate: x = -x gives x' = -x"
+                                               : "a name was expected");
     }
-    rest->begin += length;
-    *rest = gm_span_trimmed(reading->text, *rest);
+    *rest = gm_reading_between(reading, rest->begin + length, rest->end);
     if (rest->begin < rest->end && reading->text[rest->begin] == '[') {
         const struct gm_span inside = {rest->begin + 1, rest->end};
         const size_t close = gm_span_until(reading->text, inside, "]");
         if (close == rest->end) {
-            return gm_fail_first(&reading->fault, rest->begin, "this bracket is not closed");
+            gm_system_refuse(reading->system, rest->begin, "this bracket is not closed");
         }
-        target->index = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, close});
+        target.index = gm_reading_between(reading, inside.begin, close);
         rest->begin = close + 1;
-        if (target->index.begin == target->index.end) {
-            return gm_fail_first(&reading->fault, close, "an index was expected");
+        if (target.index.begin == target.index.end) {
+            gm_system_refuse(reading->system, close, "an index was expected");
         }
     }
-    return true;
+    return target;
 }
 
-bool gm_reading_assignment(struct gm_reading *reading, struct gm_span span, struct gm_target *target)
+struct gm_target gm_reading_assignment(struct gm_reading *reading, struct gm_span span)
 {
-    if (!gm_reading_target(reading, &span, target)) {
-        return false;
-    }
+    struct gm_target target = gm_reading_target(reading, &span);
     span = gm_span_trimmed(reading->text, span);
     if (span.begin == span.end || reading->text[span.begin] != '=') {
-        return gm_fail_first(&reading->fault, span.begin, "= was expected");
+        gm_system_refuse(reading->system, span.begin, "= was expected");
     }
-    target->value = gm_span_trimmed(reading->text, (struct gm_span){span.begin + 1, span.end});
-    return target->value.begin < target->value.end ||
-           gm_fail_first(&reading->fault, span.begin + 1, "a formula was expected");
+    target.value = gm_reading_between(reading, span.begin + 1, span.end);
+    if (target.value.begin == target.value.end) {
+        gm_system_refuse(reading->system, span.begin + 1, "a formula was expected");
+    }
+    return target;
 }
 
 struct gm_entry gm_reading_entry_for(const struct gm_reading *reading, const struct gm_target *target,
                                      enum gm_entry_role role)
 {
-    return (struct gm_entry){.name = (char *)reading->text + target->name.begin,
+    return (struct gm_entry){.name = reading->text + target->name.begin,
                              .length = target->name.end - target->name.begin,
                              .place = target->name.begin,
                              .role = role,
@@ -637,22 +614,22 @@ bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const ch
                        long *high)
 {
     const size_t dots = gm_span_until(reading->text, span, "..");
-    const struct gm_span last = gm_span_trimmed(reading->text, (struct gm_span){dots + 2, span.end});
-    double first, end;
-    if (dots == span.end || !read_whole(reading, (struct gm_span){span.begin, dots}, &first) ||
-        !read_whole(reading, last, &end)) {
+    if (dots == span.end) {
         return false;
     }
-    if (end - first >= GM_MOST_COMPONENTS) {
-        return gm_fail_first(&reading->fault, span.begin, "%g .. %g are too many: there are at most %d %s",
-                             first, end, GM_MOST_COMPONENTS, what);
+    const struct gm_span first = {span.begin, dots}, last = gm_reading_between(reading, dots + 2, span.end);
+    const double lowest = read_whole(reading, first), highest = read_whole(reading, last);
+    if (highest - lowest >= GM_MOST_COMPONENTS) {
+        gm_system_refuse(reading->system, span.begin, "%g .. %g are too many: there are at most %d %s",
+                         lowest, highest, GM_MOST_COMPONENTS, what);
     }
-    if (end < first - 1) {
-        return gm_fail_first(&reading->fault, span.begin,
-                             "%g .. %g runs downwards: the lower end comes first", first, end);
+    if (highest < lowest - 1) {
+        gm_system_refuse(reading->system, span.begin, "%g .. %g runs downwards: the lower end comes first",
+                         lowest, highest);
     }
-    return gm_reading_whole(reading, (struct gm_span){span.begin, dots}, low) &&
-           gm_reading_whole(reading, last, high);
+    *low = gm_reading_whole(reading, first);
+    *high = gm_reading_whole(reading, last);
+    return true;
 }
 
 struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_target *target, long index)
@@ -668,14 +645,12 @@ struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_t
     gm_node_id node;
     char sentence[GM_FAULT_SENTENCE] = "", word[64];
     if (find(reading, &used, &node, sentence) == GM_REFUSED) {
-        gm_fail_first(&reading->fault, target->name.begin, "%s", sentence);
-        return NULL;
+        gm_system_refuse(reading->system, target->name.begin, "%s", sentence);
     }
-    snprintf(word, sizeof word, "%.*s", (int)(used.length < 60 ? used.length : 60), used.text);
+    snprintf(word, sizeof word, "%.*s", gm_brief_length(used.length), used.text);
     const char *near = gm_nearest(word, reading->entry_count, known, reading);
-    gm_fail_first(&reading->fault, target->name.begin, "there is no name %s%s%s", word,
-                  near ? "; did you mean " : "", near ? near : "");
-    return NULL;
+    gm_system_refuse(reading->system, target->name.begin, "there is no name %s%s%s", word,
+                     near ? "; did you mean " : "", near ? near : "");
 }
 
 static bool is_same(const struct gm_reading *reading, struct gm_span a, struct gm_span b)
@@ -684,46 +659,39 @@ static bool is_same(const struct gm_reading *reading, struct gm_span a, struct g
            memcmp(reading->text + a.begin, reading->text + b.begin, a.end - a.begin) == 0;
 }
 
-bool gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
-                         bool (*each)(struct gm_reading *reading, struct gm_entry *entry,
+void gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
+                         void (*each)(struct gm_reading *reading, struct gm_entry *entry,
                                       const struct gm_target *target, gm_node_id node, void *data),
                          void *data)
 {
     const char *name = reading->text + target->name.begin;
     const size_t length = target->name.end - target->name.begin;
-    const int brief = (int)(length < 60 ? length : 60);
-    const size_t letters =
-        gm_name_length(reading->text + target->index.begin, target->index.end - target->index.begin);
-    const bool all = letters > 0 && target->index.begin + letters == target->index.end &&
-                     !is_same(reading, target->index, reading->counter) &&
-                     !gm_reading_entry(reading, reading->text + target->index.begin, letters, false, 0);
-    const bool indexed = target->index.begin < target->index.end;
+    const struct gm_span index = target->index;
+    const size_t letters = gm_name_length(reading->text + index.begin, index.end - index.begin);
+    const bool all = letters > 0 && index.begin + letters == index.end &&
+                     !is_same(reading, index, reading->counter) && !gm_reading_named(reading, index);
+    const bool indexed = index.begin < index.end;
     long low = 0, high = 0;
-    gm_node_id node;
     if (all && !list_of(reading, name, length, &low, &high)) {
-        return gm_fail_first(&reading->fault, target->name.begin, "there is no list %.*s", brief, name);
+        gm_system_refuse(reading->system, target->name.begin, "there is no list %.*s",
+                         gm_brief_length(length), name);
     }
-    if (!all && indexed && !gm_reading_whole(reading, target->index, &low)) {
-        return false;
+    if (!all) {
+        low = high = indexed ? gm_reading_whole(reading, index) : 0;
     }
-    high = all ? high : low;
-    for (long i = low; i <= high && !reading->fault.failed; i++) {
-        struct gm_entry *entry = gm_reading_entry(reading, name, length, indexed, i);
+    for (long i = low; i <= high; i++) {
+        const struct gm_entry *entry = gm_reading_entry(reading, name, length, indexed, i);
         if (all && entry && entry->role == GM_ENTRY_NAMED) {
             continue; /* a wall, q[0] = 0 */
         }
-        if (!entry && !(entry = gm_reading_sought(reading, target, i))) {
-            return false;
-        }
+        entry = entry ? entry : gm_reading_sought(reading, target, i);
         const size_t number = (size_t)(entry - reading->entries);
-        if (gm_reading_bound(reading, target->value, all ? &target->index : NULL, i, &node)) {
-            each(reading, &reading->entries[number], target, node, data);
-        }
+        const gm_node_id node = gm_reading_bound(reading, target->value, all ? &index : NULL, i);
+        each(reading, &reading->entries[number], target, node, data);
     }
-    return !reading->fault.failed;
 }
 
-const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word)
+const struct gm_read_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word)
 {
     for (size_t i = 0; i < reading->line_count; i++) {
         if (reading->lines[i].word == word) {
@@ -733,26 +701,25 @@ const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, e
     return NULL;
 }
 
-bool gm_reading_range(struct gm_reading *reading, struct gm_span rest, struct gm_written_range *range)
+struct gm_written_range gm_reading_range(struct gm_reading *reading, struct gm_span rest)
 {
     struct gm_span ends = {0, 0};
-    *range = (struct gm_written_range){.low = NAN, .high = NAN};
+    struct gm_written_range range = {.low = NAN, .high = NAN};
     (void)(gm_span_take(reading->text, &rest, ";", &ends) &&
-           gm_span_take(reading->text, &rest, ";", &range->meaning) &&
-           gm_span_take(reading->text, &rest, ";", &range->unit));
+           gm_span_take(reading->text, &rest, ";", &range.meaning) &&
+           gm_span_take(reading->text, &rest, ";", &range.unit));
     const size_t dots = gm_span_until(reading->text, ends, "..");
     if (ends.begin == ends.end) {
-        return true;
+        return range;
     }
     if (dots == ends.end) {
-        return gm_fail_first(&reading->fault, ends.begin, "a range was expected, low .. high");
+        gm_system_refuse(reading->system, ends.begin, "a range was expected, low .. high");
     }
-    const struct gm_span low = {ends.begin, dots}, high = {dots + 2, ends.end};
-    if (!gm_reading_number(reading, gm_span_trimmed(reading->text, low), &range->low) ||
-        !gm_reading_number(reading, gm_span_trimmed(reading->text, high), &range->high)) {
-        return false;
+    range.low = gm_reading_number(reading, gm_reading_between(reading, ends.begin, dots));
+    range.high = gm_reading_number(reading, gm_reading_between(reading, dots + 2, ends.end));
+    if (!(range.low <= range.high)) {
+        gm_system_refuse(reading->system, ends.begin, "a range's lower end comes first, and %g is above %g",
+                         range.low, range.high);
     }
-    return range->low <= range->high ||
-           gm_fail_first(&reading->fault, ends.begin, "a range's lower end comes first, and %g is above %g",
-                         range->low, range->high);
+    return range;
 }

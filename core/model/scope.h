@@ -6,15 +6,10 @@
 #include "core/model/system.h"
 
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name
-   that needs another one first waits for it. A function that returns false has set reading->fault. */
+   that needs another one first waits for it. All functions are called inside a body of the system's arena, which they
+   leave with a fault (gm_system_refuse) or when out of memory. */
 
 extern const struct gm_line_word gm_system_words[GM_WORDS]; /* kinds: enum gm_system_kind */
-
-struct gm_system_line {
-    enum gm_system_word word;
-    size_t place;
-    struct gm_span value;
-};
 
 enum gm_entry_role {
     GM_ENTRY_COMPONENT,
@@ -29,7 +24,7 @@ enum gm_entry_role {
 
 /* A name of the system, or an element of a list. */
 struct gm_entry {
-    char *name;                   /* owned and NUL-terminated among the entries */
+    const char *name;             /* NUL-terminated among the entries */
     size_t length, place, number; /* number within its role */
     bool indexed;
     long index;
@@ -45,7 +40,8 @@ struct gm_reading {
     struct gm_user_system *system;
     const char *text;
     size_t length;
-    struct gm_system_line *lines;
+    struct gm_arena *scratch; /* until the text is read */
+    struct gm_read_line *lines;
     size_t line_count;
     struct gm_entry *entries;
     size_t entry_count, entry_capacity;
@@ -56,7 +52,6 @@ struct gm_reading {
     bool structural;        /* the graph depends on values of parameters */
     bool without_tangents;  /* the motion alone is read */
     bool exact;             /* exact(NAME) has a meaning */
-    bool is_condition;      /* the text is a condition */
     struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
     long counted;
     size_t component_count, velocity_count, parameter_count;
@@ -64,24 +59,29 @@ struct gm_reading {
     size_t definition_count;
     const struct gm_system_value *values; /* given by the caller */
     size_t value_count;
-    struct gm_first_fault fault;
 };
 
-/* Frees the reading, without its system. */
-void gm_reading_close(struct gm_reading *reading);
+/* True if exact(NAME) has a meaning for such a system. */
+static inline bool gm_reading_has_solution(const struct gm_reading *reading)
+{
+    return !gm_system_is_field(reading->system) && !gm_system_is_form(reading->system);
+}
 
 /* Reserves room, in the system's memory, for one more element of an array of `count`, which doubles when
    full. */
-bool gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
+void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
 
 /* Reads the lines that hold for the chosen words. */
-bool gm_reading_lines(struct gm_reading *reading);
+void gm_reading_lines(struct gm_reading *reading);
 /* The first line that has the word; NULL: none. */
-const struct gm_system_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);
-/* Reports a second definition of an entry. Returns false. */
-bool gm_reading_fail_twice(struct gm_reading *reading, size_t place, const struct gm_entry *first);
-/* Words with one blank between them, in the system's memory; NULL with a fault. */
+const struct gm_read_line *gm_reading_line(const struct gm_reading *reading, enum gm_system_word word);
+/* Refuses a second definition of an entry. */
+_Noreturn void gm_reading_refuse_second(struct gm_reading *reading, size_t place,
+                                        const struct gm_entry *first);
+/* Words with one blank between them, in the system's memory. */
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
+/* The text from one offset to another, without blanks and comments around it. */
+struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin, size_t end);
 
 /* True if a name is a key of command lines, a column of tables or a function. */
 #define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
@@ -89,28 +89,31 @@ bool gm_reading_reserves(const char *name, size_t length);
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,
                                   bool indexed, long index);
+/* The entry of a name in the text, without an index; NULL: none. */
+struct gm_entry *gm_reading_named(const struct gm_reading *reading, struct gm_span name);
 /* Adds a copy of the entry; its name may be a part of the text. */
-bool gm_reading_add(struct gm_reading *reading, struct gm_entry entry);
+void gm_reading_add(struct gm_reading *reading, struct gm_entry entry);
 /* The function of that name, or NULL. */
 struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name,
                                             size_t length);
 /* Reads the body of a function that no formula has called, for its faults. */
-bool gm_reading_check(struct gm_reading *reading, struct gm_definition *definition);
+void gm_reading_check(struct gm_reading *reading, struct gm_definition *definition);
 /* Reads a parameter or a let, after all names that it needs. */
-bool gm_reading_define(struct gm_reading *reading, uint32_t number);
+void gm_reading_define(struct gm_reading *reading, uint32_t number);
 
-bool gm_reading_formula(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
+gm_node_id gm_reading_formula(struct gm_reading *reading, struct gm_span span);
+/* Reads a formula that may hold exact(NAME). */
+gm_node_id gm_reading_formula_of_exact(struct gm_reading *reading, struct gm_span span);
 /* Reads a condition, as a node that is 1 or 0. */
-bool gm_reading_condition(struct gm_reading *reading, struct gm_span span, gm_node_id *node);
+gm_node_id gm_reading_condition(struct gm_reading *reading, struct gm_span span);
 /* Reads a formula with an index of the name `bound` and the value `element`; NULL: no index. */
-bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                      long element, gm_node_id *node);
+gm_node_id gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
+                            long element);
 /* Reads a number in parameters alone. */
-bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value);
+double gm_reading_number(struct gm_reading *reading, struct gm_span span);
 /* Reads a whole number on which the graph depends. */
-bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *value);
-/* Reads low .. high, at most GM_MOST_COMPONENTS of `what`; high = low - 1: none. False without a fault: the
-   span has no bounds. */
+long gm_reading_whole(struct gm_reading *reading, struct gm_span span);
+/* Reads low .. high, at most GM_MOST_COMPONENTS of `what`; high = low - 1: none. False: the span has no bounds. */
 bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const char *what, long *low,
                        long *high);
 
@@ -119,7 +122,7 @@ struct gm_written_range {
     double low, high;
     struct gm_span meaning, unit; /* empty: not given */
 };
-bool gm_reading_range(struct gm_reading *reading, struct gm_span rest, struct gm_written_range *range);
+struct gm_written_range gm_reading_range(struct gm_reading *reading, struct gm_span rest);
 
 /* NAME, NAME[low .. high], NAME[index] */
 struct gm_target {
@@ -127,17 +130,17 @@ struct gm_target {
     struct gm_span value;       /* text after the = */
 };
 /* Takes a target off the front of `rest`. */
-bool gm_reading_target(struct gm_reading *reading, struct gm_span *rest, struct gm_target *target);
-/* The entry of a target, with the index if it has one; NULL with a fault. */
+struct gm_target gm_reading_target(struct gm_reading *reading, struct gm_span *rest);
+/* The entry of a target, with the index if it has one. */
 struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_target *target, long index);
 /* Reads NAME = formula. */
-bool gm_reading_assignment(struct gm_reading *reading, struct gm_span span, struct gm_target *target);
+struct gm_target gm_reading_assignment(struct gm_reading *reading, struct gm_span span);
 struct gm_entry gm_reading_entry_for(const struct gm_reading *reading, const struct gm_target *target,
                                      enum gm_entry_role role);
 /* Calls `each`, with its formula, for the elements of a target: one, or all of a list if the index is a free
    name. */
-bool gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
-                         bool (*each)(struct gm_reading *reading, struct gm_entry *entry,
+void gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
+                         void (*each)(struct gm_reading *reading, struct gm_entry *entry,
                                       const struct gm_target *target, gm_node_id node, void *data),
                          void *data);
 

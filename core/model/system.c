@@ -2,6 +2,8 @@
 /* The contents of a system, found by their names. */
 #include "core/model/system.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +13,22 @@ void gm_system_close(struct gm_user_system *system)
     free(system->mass.entries);
     gm_formula_close(&system->graph);
     *system = (struct gm_user_system){0};
+}
+
+void gm_system_refuse(const struct gm_user_system *system, size_t place, const char *format, ...)
+{
+    gm_system_need_graph(system); /* what a graph that failed says is no fault of the text */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(system->fault->sentence, sizeof system->fault->sentence, format, arguments);
+    va_end(arguments);
+    system->fault->offset = place;
+    gm_arena_leave(system->arena);
+}
+
+void gm_system_need_graph(const struct gm_user_system *system)
+{
+    gm_arena_need(system->arena, !system->graph.failed);
 }
 
 static const char *variable_name(size_t number, const void *data)

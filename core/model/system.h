@@ -132,6 +132,7 @@ struct gm_system_item {
 
 struct gm_user_system {
     struct gm_arena *arena; /* all that is read, until the system is closed */
+    struct gm_fault *fault; /* where gm_system_refuse writes, while the text is read and checked */
     enum gm_system_kind kind;
     char *source; /* source text, closed by a NUL */
     size_t length;
@@ -174,6 +175,12 @@ struct gm_system_value {
 };
 
 void gm_system_close(struct gm_user_system *system);
+
+/* Leaves the body of the system's arena with a fault at this place of the text. */
+__attribute__((format(printf, 3, 4))) _Noreturn void gm_system_refuse(const struct gm_user_system *system,
+                                                                      size_t place, const char *format, ...);
+/* Leaves it for lack of memory if the graph has failed. */
+void gm_system_need_graph(const struct gm_user_system *system);
 
 /* True for a field on a line. */
 static inline bool gm_system_is_field(const struct gm_user_system *system)

@@ -50,9 +50,8 @@ struct gm_action {
        so that all follows from the field and the Jacobian of `free`. */
     void (*motion)(const struct gm_problem *problem, const double *at, const struct gm_motion *motion);
     const struct gm_loops *free; /* the loops without constraints; NULL: the problem's */
-    /* F = -rate p; NULL: F has another form */
-    double (*friction)(const struct gm_problem *problem);
-    size_t constraints; /* number of constraints g; 0: none */
+    const double *friction;      /* its rate: F = -rate p; NULL: F has another form */
+    size_t constraints;          /* number of constraints g; 0: none */
     /* writes g (constraints), G = dg/dq (constraints * half), and d(G' multipliers)/dq (half * half) */
     void (*constrain)(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
                       double *slopes, double *curvature);

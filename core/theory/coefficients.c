@@ -25,6 +25,18 @@ bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equation
     return good;
 }
 
+void gm_coefficients_write(struct gm_coefficients *coefficients, int side, const double *a, size_t stride,
+                           const double *b)
+{
+    const size_t s = (size_t)coefficients->stages;
+    for (size_t i = 0; i < s; i++) {
+        for (size_t j = 0; j < s; j++) {
+            coefficients->a[side][i * s + j] = gm_ball_written(a[i * stride + j]);
+        }
+        coefficients->b[side][i] = gm_ball_written(b[i]);
+    }
+}
+
 static bool copy_moved(struct gm_coefficients *copy, const struct gm_coefficients *coefficients)
 {
     const size_t count = (size_t)coefficients->moved_count;

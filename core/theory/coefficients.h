@@ -39,6 +39,9 @@ struct gm_coefficients {
 
 /* Opens coefficients that are all 0. Returns false when out of memory. */
 bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
+/* Writes the coefficients of a side from those of a table, a by rows of `stride` numbers. */
+void gm_coefficients_write(struct gm_coefficients *coefficients, int side, const double *a, size_t stride,
+                           const double *b);
 /* Opens a copy. Returns false when out of memory. */
 bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coefficients *coefficients);
 /* Opens the coefficients of a Nystrom method with a, b, bv and c, in the form above. Returns false when out of

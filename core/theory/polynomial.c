@@ -23,45 +23,35 @@ void gm_polynomial_set(struct gm_polynomial *p, struct gm_ball constant)
     p->at[0] = constant;
 }
 
-static bool reach(struct gm_polynomial *p, int degree)
+static void reach(struct gm_polynomial *p, int degree)
 {
-    if (degree > GM_POLYNOMIAL_DEGREE) {
-        return false;
-    }
     while (p->degree < degree) {
         p->at[++p->degree] = gm_ball_of(0);
     }
-    return true;
 }
 
-bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
+void gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
                        const struct gm_polynomial *q)
 {
-    if (!reach(p, q->degree + shift)) {
-        return false;
-    }
+    reach(p, q->degree + shift);
     for (int k = 0; k <= q->degree; k++) {
         p->at[k + shift] = gm_ball_add(p->at[k + shift], gm_ball_multiply(factor, q->at[k]));
     }
-    return true;
 }
 
-bool gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
+void gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
                                const struct gm_polynomial *r)
 {
     if (q->degree < 0 || r->degree < 0) {
-        return true;
+        return;
     }
-    if (!reach(p, q->degree + r->degree)) {
-        return false;
-    }
+    reach(p, q->degree + r->degree);
     for (int i = 0; i <= q->degree; i++) {
         const struct gm_ball scaled = gm_ball_multiply(factor, q->at[i]);
         for (int k = 0; k <= r->degree; k++) {
             p->at[i + k] = gm_ball_add(p->at[i + k], gm_ball_multiply(scaled, r->at[k]));
         }
     }
-    return true;
 }
 
 static struct gm_ball value_at(const struct gm_ball *at, int degree, double x)

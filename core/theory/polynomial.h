@@ -4,7 +4,7 @@
 
 #include "core/theory/ball.h"
 
-/* Polynomials, sum_k at[k] x^k. */
+/* Polynomials, sum_k at[k] x^k. No result may have a higher degree than GM_POLYNOMIAL_DEGREE. */
 
 enum { GM_POLYNOMIAL_DEGREE = 128 };
 
@@ -15,11 +15,11 @@ struct gm_polynomial {
 
 /* The constant. */
 void gm_polynomial_set(struct gm_polynomial *p, struct gm_ball constant);
-/* p := p + factor x^shift q. Returns false if the degree is too high. */
-bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
+/* p := p + factor x^shift q */
+void gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
                        const struct gm_polynomial *q);
 /* p := p + factor q r */
-bool gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
+void gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
                                const struct gm_polynomial *r);
 /* Sets coefficients that may vanish to 0, for polynomials whose structure implies it. */
 void gm_polynomial_settle(struct gm_polynomial *p);

@@ -23,12 +23,9 @@ static const struct gm_polynomial zero = {.degree = -1};
 /* p := p det(I - z M) of a square block of the matrix M, with
        det(I - z M) = 1 + c_1 z + ... + c_s z^s,   X_k = M X_(k-1) + c_(k-1) M,   c_k = -tr(X_k) / k
    m is the block's first entry in rows of `stride`; x and next are scratch. */
-static bool multiply_determinant(int s, const struct gm_ball *m, int stride, struct gm_ball *x,
+static void multiply_determinant(int s, const struct gm_ball *m, int stride, struct gm_ball *x,
                                  struct gm_ball *next, struct gm_polynomial *p)
 {
-    if (s > GM_POLYNOMIAL_DEGREE) {
-        return false;
-    }
     struct gm_polynomial block = {.degree = s, .at = {gm_ball_of(1)}}, product = zero;
     for (int i = 0; i < s * s; i++) {
         x[i] = gm_ball_of(0);
@@ -48,9 +45,8 @@ static bool multiply_determinant(int s, const struct gm_ball *m, int stride, str
         memcpy(x, next, (size_t)s * (size_t)s * sizeof *x);
         block.at[k] = gm_ball_multiply(trace, gm_ball_ratio(-1, k));
     }
-    const bool fits = gm_polynomial_add_product(&product, gm_ball_of(1), p, &block);
+    gm_polynomial_add_product(&product, gm_ball_of(1), p, &block);
     *p = product;
-    return fits;
 }
 
 /* Returns true if rows 0 .. last of a matrix are 0 in the columns after `last`. */
@@ -67,19 +63,17 @@ static bool is_closed(int s, const struct gm_ball *m, int last)
 }
 
 /* p := det(I - z M), block by block where M is a block triangle: a composition takes no longer than its
-   parts, and no digits are lost in the product. Returns false if the degree is too high. */
-static bool determinant(int s, const struct gm_ball *m, struct gm_ball *x, struct gm_ball *next,
+   parts, and no digits are lost in the product. */
+static void determinant(int s, const struct gm_ball *m, struct gm_ball *x, struct gm_ball *next,
                         struct gm_polynomial *p)
 {
-    bool fits = true;
     gm_polynomial_set(p, gm_ball_of(1));
-    for (int first = 0, last = 0; last < s && fits; last++) {
+    for (int first = 0, last = 0; last < s; last++) {
         if (is_closed(s, m, last)) {
-            fits = multiply_determinant(last + 1 - first, m + first * s + first, s, x, next, p);
+            multiply_determinant(last + 1 - first, m + first * s + first, s, x, next, p);
             first = last + 1;
         }
     }
-    return fits;
 }
 
 /* q(x) = p(-x) */
@@ -92,7 +86,7 @@ static void mirror(const struct gm_polynomial *p, struct gm_polynomial *q)
 }
 
 /* Adds factor |p(iy)|^2 to the polynomial in y^2: p(iy) = even(-y^2) + i y odd(-y^2). */
-static bool add_modulus(struct gm_polynomial *sum, double factor, const struct gm_polynomial *p)
+static void add_modulus(struct gm_polynomial *sum, double factor, const struct gm_polynomial *p)
 {
     struct gm_polynomial parts[2] = {zero, zero};
     for (int k = 0; k <= p->degree; k++) {
@@ -101,9 +95,9 @@ static bool add_modulus(struct gm_polynomial *sum, double factor, const struct g
         part->at[k / 2] = k / 2 % 2 == 0 ? p->at[k] : gm_ball_subtract(gm_ball_of(0), p->at[k]);
     }
     struct gm_polynomial odd = zero;
-    return gm_polynomial_add_product(sum, gm_ball_of(factor), &parts[0], &parts[0]) &&
-           gm_polynomial_add_product(&odd, gm_ball_of(factor), &parts[1], &parts[1]) &&
-           gm_polynomial_add(sum, gm_ball_of(1), 1, &odd);
+    gm_polynomial_add_product(sum, gm_ball_of(factor), &parts[0], &parts[0]);
+    gm_polynomial_add_product(&odd, gm_ball_of(factor), &parts[1], &parts[1]);
+    gm_polynomial_add(sum, gm_ball_of(1), 1, &odd);
 }
 
 /* R(z) = 1 + sum_k z^k b' A^(k-1) 1 where A has nothing on and above the diagonal: the determinants say the
@@ -126,46 +120,48 @@ static void of_explicit(const struct gm_coefficients *coefficients, struct gm_ba
     }
 }
 
-/* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). */
+/* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). Returns false when out of memory. */
 static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
                      struct gm_theory_stability *stability)
 {
     const int s = coefficients->stages;
     const size_t square = (size_t)s * (size_t)s;
-    struct gm_ball *room = malloc(3 * square * sizeof *room);
+    struct gm_ball *room = s <= GM_POLYNOMIAL_DEGREE ? malloc(3 * square * sizeof *room) : NULL;
     if (!room) {
-        return false;
+        return s > GM_POLYNOMIAL_DEGREE;
     }
     struct gm_ball *m = room, *x = room + square, *next = room + 2 * square;
     struct gm_polynomial p, q, left_p, left_q, on_real = zero, on_imaginary = zero;
-    bool fits = determinant(s, coefficients->a[0], x, next, &q), is_explicit = true;
+    bool is_explicit = true;
+    determinant(s, coefficients->a[0], x, next, &q);
     for (int i = 0; i < s; i++) {
         is_explicit = is_explicit && gm_ball_is_zero(&coefficients->a[0][i * s + i]) &&
                       is_closed(s, coefficients->a[0], i);
     }
-    if (is_explicit && s <= GM_POLYNOMIAL_DEGREE) {
+    if (is_explicit) {
         of_explicit(coefficients, x, next, &p);
-    } else if (fits && symmetric) {
+    } else if (symmetric) {
         mirror(&q, &p);
-    } else if (fits) {
+    } else {
         /* transposed: the stages of a composition know the weights of those before them, which vanish here */
         for (int i = 0; i < s * s; i++) {
             const struct gm_ball *a = &coefficients->a[0][i], *b = &coefficients->b[0][i % s];
             m[i % s * s + i / s] = gm_ball_is_same(a, b) ? gm_ball_of(0) : gm_ball_subtract(*a, *b);
         }
-        fits = determinant(s, m, x, next, &p);
+        determinant(s, m, x, next, &p);
     }
     free(room);
-    if (!fits) {
-        return true;
-    }
     gm_polynomial_settle(&p);
     gm_polynomial_settle(&q);
     mirror(&p, &left_p);
     mirror(&q, &left_q);
-    stability->known = gm_polynomial_add_product(&on_real, gm_ball_of(1), &left_q, &left_q) &&
-                       gm_polynomial_add_product(&on_real, gm_ball_of(-1), &left_p, &left_p) &&
-                       add_modulus(&on_imaginary, 1, &q) && add_modulus(&on_imaginary, -1, &p);
+    stability->known = 2 * p.degree <= GM_POLYNOMIAL_DEGREE && 2 * q.degree <= GM_POLYNOMIAL_DEGREE;
+    if (stability->known) {
+        gm_polynomial_add_product(&on_real, gm_ball_of(1), &left_q, &left_q);
+        gm_polynomial_add_product(&on_real, gm_ball_of(-1), &left_p, &left_p);
+        add_modulus(&on_imaginary, 1, &q);
+        add_modulus(&on_imaginary, -1, &p);
+    }
     gm_polynomial_settle(&on_real);
     gm_polynomial_settle(&on_imaginary);
     stability->real = gm_polynomial_first_negative(&on_real);
@@ -178,34 +174,32 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
     return true;
 }
 
-static bool of_splitting(const struct gm_coefficients *coefficients, struct gm_theory_stability *stability)
+static void of_splitting(const struct gm_coefficients *coefficients, struct gm_theory_stability *stability)
 {
-    struct gm_polynomial step[2][2], square = zero;
+    *stability = (struct gm_theory_stability){.oscillator = true, .real = NAN, .imaginary = INFINITY};
+    if (2 * coefficients->stages > GM_POLYNOMIAL_DEGREE) {
+        return;
+    }
+    struct gm_polynomial step[2][2], square = zero, bound;
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 2; j++) {
             step[i][j] = zero;
         }
         gm_polynomial_set(&step[i][i], gm_ball_of(1));
     }
-    bool fits = true;
     for (int i = 0; i < coefficients->stages; i++) {
         const struct gm_ball drift = coefficients->b[GM_SIDE_Q][i], kick = coefficients->b[GM_SIDE_P][i];
         for (int column = 0; column < 2; column++) {
-            fits = fits && gm_polynomial_add(&step[0][column], drift, 0, &step[1][column]) &&
-                   gm_polynomial_add(&step[1][column], gm_ball_multiply(gm_ball_of(-1), kick), 1,
-                                     &step[0][column]);
+            gm_polynomial_add(&step[0][column], drift, 0, &step[1][column]);
+            gm_polynomial_add(&step[1][column], gm_ball_multiply(gm_ball_of(-1), kick), 1, &step[0][column]);
         }
     }
-    fits = fits && gm_polynomial_add(&step[0][0], gm_ball_of(1), 0, &step[1][1]);
-    struct gm_polynomial bound;
+    gm_polynomial_add(&step[0][0], gm_ball_of(1), 0, &step[1][1]);
     gm_polynomial_set(&bound, gm_ball_of(4));
-    fits = fits && gm_polynomial_add_product(&square, gm_ball_of(-1), &step[0][0], &step[0][0]) &&
-           gm_polynomial_add(&bound, gm_ball_of(1), 0, &square);
-    stability->known = fits;
-    stability->oscillator = true;
-    stability->real = NAN;
+    gm_polynomial_add_product(&square, gm_ball_of(-1), &step[0][0], &step[0][0]);
+    gm_polynomial_add(&bound, gm_ball_of(1), 0, &square);
+    stability->known = true;
     stability->imaginary = sqrt(gm_polynomial_first_negative(&bound));
-    return true;
 }
 
 /* Returns true if each stage is a drift or a kick after those before it. */
@@ -227,14 +221,11 @@ bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool sym
                             struct gm_theory_stability *stability)
 {
     *stability = (struct gm_theory_stability){.real = NAN, .imaginary = NAN};
-    switch (coefficients->equations) {
-    case GM_EQUATIONS_PLAIN:
+    if (coefficients->equations == GM_EQUATIONS_PLAIN) {
         return of_plain(coefficients, symmetric, stability);
-    case GM_EQUATIONS_SEPARABLE:
-    case GM_EQUATIONS_NYSTROM:
-        return !is_splitting(coefficients) || of_splitting(coefficients, stability);
-    case GM_EQUATIONS_PARTITIONED:
-        break;
+    }
+    if (coefficients->equations != GM_EQUATIONS_PARTITIONED && is_splitting(coefficients)) {
+        of_splitting(coefficients, stability);
     }
     return true;
 }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* PNG files: written whole or not at all; their texts can be read again. */
 
@@ -96,9 +97,9 @@ struct gm_sixel;
 struct gm_sixel *gm_sixel_open(void);
 void gm_sixel_close(struct gm_sixel *sixel);
 
-/* Encodes width x height pixels of 3 bytes each, `stride` bytes from row to row. *bytes belongs to the
-   encoder until the next call. Returns false when out of memory. */
+/* Encodes width x height pixels of 3 bytes each, `stride` bytes from row to row. Returns false when out of memory,
+   which `out` may report, too. */
 bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
-                     const char **bytes, size_t *size);
+                     FILE *out);
 
 #endif

@@ -6,12 +6,9 @@
 #include "render/files/images.h"
 
 #include <libdeflate.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/grow.h"
 
 enum {
     SIXEL = 6,
@@ -33,8 +30,9 @@ struct gm_inline {
     struct libdeflate_compressor *compressor;
     unsigned char *raw, *packed; /* a tile, raw and compressed */
     size_t packed_size;
-    char *out;
-    size_t length, capacity;
+    FILE *out; /* open while a picture is encoded, into `bytes` */
+    char *bytes;
+    size_t length;
     bool failed;
 };
 
@@ -46,27 +44,6 @@ struct patch {
 static int least(int a, int b)
 {
     return a < b ? a : b;
-}
-
-/* ---- bytes ---- */
-
-static void put(struct gm_inline *image, const char *bytes, size_t size)
-{
-    image->failed = image->failed || !gm_grow(&image->out, &image->capacity, image->length + size, 1);
-    if (!image->failed) {
-        memcpy(image->out + image->length, bytes, size);
-        image->length += size;
-    }
-}
-
-__attribute__((format(printf, 2, 3))) static void put_format(struct gm_inline *image, const char *format, ...)
-{
-    char text[128];
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    put(image, text, (size_t)length);
 }
 
 /* ---- sizes ---- */
@@ -138,7 +115,7 @@ void gm_inline_close(struct gm_inline *image)
     free(image->before);
     free(image->raw);
     free(image->packed);
-    free(image->out);
+    free(image->bytes);
     free(image);
 }
 
@@ -196,8 +173,8 @@ static struct patch changed_part(const struct gm_inline *image, const unsigned c
 /* Moves the cursor to the patch's first cell. */
 static void put_place(struct gm_inline *image, const struct patch *patch)
 {
-    put_format(image, "\033[%d;%dH", image->place.row + patch->row + 1,
-               image->place.column + patch->column + 1);
+    fprintf(image->out, "\033[%d;%dH", image->place.row + patch->row + 1,
+            image->place.column + patch->column + 1);
 }
 
 /* ---- sixels ---- */
@@ -210,14 +187,9 @@ static void put_sixel(struct gm_inline *image, const unsigned char *rgb, const s
         return;
     }
     const unsigned char *from = rgb + ((size_t)y * (size_t)image->width + (size_t)x) * 3;
-    const char *bytes;
-    size_t size;
-    if (!gm_sixel_encode(image->sixel, from, (size_t)image->width * 3, width, height, &bytes, &size)) {
-        image->failed = true;
-        return;
-    }
     put_place(image, patch);
-    put(image, bytes, size);
+    image->failed |=
+        !gm_sixel_encode(image->sixel, from, (size_t)image->width * 3, width, height, image->out);
 }
 
 /* Sends a patch in pieces that the terminal takes at once. */
@@ -238,14 +210,6 @@ static void put_sixels(struct gm_inline *image, const unsigned char *rgb, const 
 
 /* ---- Kitty ---- */
 
-/* Writes at most CHUNK characters of base64. */
-static void put_base64(struct gm_inline *image, const unsigned char *bytes, size_t size)
-{
-    char text[CHUNK];
-    gm_base64(bytes, size, text);
-    put(image, text, gm_base64_size(size));
-}
-
 /* A tile replaces the previous one with its number. q=2: the terminal answers nothing; C=1: the cursor stays.
    The tile is not below the text (z < 0): Kitty 0.26 with llvmpipe then leaves old letters in all of its
    window, on a wrong ground. */
@@ -265,13 +229,16 @@ static void put_tile(struct gm_inline *image, const unsigned char *rgb, const st
     for (size_t at = 0; at < packed; at += step) {
         bool more = at + step < packed;
         if (at == 0) {
-            put_format(image, "\033_Ga=T,q=2,f=24,o=z,i=%d,p=1,s=%d,v=%d,c=%d,r=%d,C=1,m=%d;",
-                       FIRST_NUMBER + number, width, height, patch->columns, patch->rows, more);
+            fprintf(image->out, "\033_Ga=T,q=2,f=24,o=z,i=%d,p=1,s=%d,v=%d,c=%d,r=%d,C=1,m=%d;",
+                    FIRST_NUMBER + number, width, height, patch->columns, patch->rows, more);
         } else {
-            put_format(image, "\033_Gq=2,m=%d;", more);
+            fprintf(image->out, "\033_Gq=2,m=%d;", more);
         }
-        put_base64(image, image->packed + at, more ? step : packed - at);
-        put(image, "\033\\", 2);
+        char text[CHUNK];
+        const size_t size = more ? step : packed - at;
+        gm_base64(image->packed + at, size, text);
+        fwrite(text, 1, gm_base64_size(size), image->out);
+        fputs("\033\\", image->out);
     }
 }
 
@@ -294,23 +261,25 @@ bool gm_inline_encode(struct gm_inline *image, const unsigned char *rgb, bool wh
                       size_t *size)
 {
     whole = whole || !image->sent;
-    image->length = 0;
-    if (image->kind == GM_INLINE_KITTY) {
+    free(image->bytes);
+    image->bytes = NULL;
+    image->out = open_memstream(&image->bytes, &image->length);
+    image->failed = !image->out;
+    if (image->out && image->kind == GM_INLINE_KITTY) {
         put_tiles(image, rgb, whole);
-    } else {
+    } else if (image->out) {
         struct patch part =
             whole ? (struct patch){0, 0, image->place.columns, image->place.rows} : changed_part(image, rgb);
         if (part.columns > 0) {
             put_sixels(image, rgb, &part);
         }
     }
+    image->failed |= image->out && (ferror(image->out) | fclose(image->out)) != 0;
     memcpy(image->before, rgb, (size_t)image->width * (size_t)image->height * 3);
     image->sent = !image->failed;
-    *bytes = image->out;
+    *bytes = image->bytes;
     *size = image->length;
-    bool good = !image->failed;
-    image->failed = false;
-    return good;
+    return !image->failed;
 }
 
 const char *gm_inline_removal(enum gm_inline_kind kind)

@@ -31,43 +31,29 @@ struct part {
 };
 
 struct gm_sixel {
-    struct cell *cells;
-    uint32_t *used; /* the numbers of the cells that are not empty */
+    struct cell cells[CELLS];
+    uint32_t used[CELLS]; /* the numbers of the cells that are not empty */
     size_t used_count;
     struct part parts[COLOURS];
     uint8_t palette[COLOURS][3];
     /* the picture in numbers of the palette, and for each of them a band's sixels */
     uint8_t *pixels, *bands;
-    size_t pixel_room, band_room;
-    char *out;
-    size_t length, capacity;
+    char *text; /* of a band */
+    size_t pixel_room, band_room, text_room;
 };
 
 struct gm_sixel *gm_sixel_open(void)
 {
-    struct gm_sixel *sixel = calloc(1, sizeof *sixel);
-    if (!sixel) {
-        return NULL;
-    }
-    sixel->cells = calloc(CELLS, sizeof *sixel->cells);
-    sixel->used = malloc(CELLS * sizeof *sixel->used);
-    if (!sixel->cells || !sixel->used) {
-        gm_sixel_close(sixel);
-        return NULL;
-    }
-    return sixel;
+    return calloc(1, sizeof(struct gm_sixel));
 }
 
 void gm_sixel_close(struct gm_sixel *sixel)
 {
-    if (!sixel) {
-        return;
+    if (sixel) {
+        free(sixel->pixels);
+        free(sixel->bands);
+        free(sixel->text);
     }
-    free(sixel->cells);
-    free(sixel->used);
-    free(sixel->pixels);
-    free(sixel->bands);
-    free(sixel->out);
     free(sixel);
 }
 
@@ -219,57 +205,42 @@ static void map_pixels(struct gm_sixel *sixel, const unsigned char *rgb, size_t 
 
 /* ---- bytes ---- */
 
-/* Makes room for `more` bytes; false when out of memory. */
-static bool make_room(struct gm_sixel *sixel, size_t more)
+/* Returns the end of a number that is written at `to`; so do the next two. */
+static char *put_number(char *to, unsigned number)
 {
-    return gm_grow(&sixel->out, &sixel->capacity, sixel->length + more, 1);
+    to = number > 9 ? put_number(to, number / 10) : to;
+    *to = (char)('0' + number % 10);
+    return to + 1;
 }
 
-static void put_number(struct gm_sixel *sixel, unsigned number)
+static char *put_run(char *to, uint8_t bits, int count)
 {
-    char digits[12];
-    size_t count = 0;
-    do {
-        digits[count++] = (char)('0' + number % 10);
-        number /= 10;
-    } while (number);
-    while (count) {
-        sixel->out[sixel->length++] = digits[--count];
-    }
-}
-
-static void put_run(struct gm_sixel *sixel, uint8_t bits, int count)
-{
-    char letter = (char)('?' + bits);
     if (count > 3) {
-        sixel->out[sixel->length++] = '!';
-        put_number(sixel, (unsigned)count);
+        *to++ = '!';
+        to = put_number(to, (unsigned)count);
         count = 1;
     }
-    while (count-- > 0) {
-        sixel->out[sixel->length++] = letter;
-    }
+    memset(to, '?' + bits, (size_t)count);
+    return to + count;
 }
 
 /* Writes one colour of a band, from the first to the last column that has it. */
-static void put_line(struct gm_sixel *sixel, unsigned colour, const uint8_t *bits, int first, int last)
+static char *put_line(char *to, unsigned colour, const uint8_t *bits, int first, int last)
 {
-    sixel->out[sixel->length++] = '#';
-    put_number(sixel, colour);
-    if (first > 0) {
-        put_run(sixel, 0, first);
-    }
+    *to++ = '#';
+    to = put_run(put_number(to, colour), 0, first);
     for (int x = first; x <= last;) {
         int end = x + 1;
         while (end <= last && bits[end] == bits[x]) {
             end++;
         }
-        put_run(sixel, bits[x], end - x);
+        to = put_run(to, bits[x], end - x);
         x = end;
     }
+    return to;
 }
 
-static bool put_band(struct gm_sixel *sixel, const uint8_t *pixels, int width, int rows)
+static bool put_band(struct gm_sixel *sixel, const uint8_t *pixels, int width, int rows, FILE *out)
 {
     int first[COLOURS], last[COLOURS];
     uint8_t present[COLOURS];
@@ -289,51 +260,43 @@ static bool put_band(struct gm_sixel *sixel, const uint8_t *pixels, int width, i
             bits[x] |= (uint8_t)(1 << y);
         }
     }
-    if (!make_room(sixel, (size_t)count * ((size_t)width + 16) + 1)) {
+    if (!gm_grow(&sixel->text, &sixel->text_room, (size_t)count * ((size_t)width + 16), 1)) {
         return false;
     }
+    char *to = sixel->text;
     for (int i = 0; i < count; i++) {
-        unsigned colour = present[i];
+        const unsigned colour = present[i];
         if (i > 0) {
-            sixel->out[sixel->length++] = '$';
+            *to++ = '$';
         }
-        put_line(sixel, colour, sixel->bands + (size_t)colour * (size_t)width, first[colour], last[colour]);
+        to = put_line(to, colour, sixel->bands + (size_t)colour * (size_t)width, first[colour], last[colour]);
     }
-    sixel->out[sixel->length++] = '-';
+    fwrite(sixel->text, 1, (size_t)(to - sixel->text), out);
     return true;
 }
 
 bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
-                     const char **bytes, size_t *size)
+                     FILE *out)
 {
-    enum { HEAD = 64 + COLOURS * 24, TAIL = 2 };
-    sixel->length = 0;
     if (!gm_grow(&sixel->pixels, &sixel->pixel_room, (size_t)width * (size_t)height, 1) ||
-        !gm_grow(&sixel->bands, &sixel->band_room, (size_t)width, COLOURS) || !make_room(sixel, HEAD)) {
+        !gm_grow(&sixel->bands, &sixel->band_room, (size_t)width, COLOURS)) {
         return false;
     }
     count_colours(sixel, rgb, stride, width, height);
-    int colours = choose_colours(sixel);
+    const int colours = choose_colours(sixel);
     map_pixels(sixel, rgb, stride, width, height);
     /* square pixels; pixels that are not drawn stay as they were */
-    sixel->length = (size_t)sprintf(sixel->out, "\033P0;1;0q\"1;1;%d;%d", width, height);
+    fprintf(out, "\033P0;1;0q\"1;1;%d;%d", width, height);
     for (int i = 0; i < colours; i++) {
-        sixel->length += (size_t)sprintf(sixel->out + sixel->length, "#%d;2;%d;%d;%d", i,
-                                         sixel->palette[i][0], sixel->palette[i][1], sixel->palette[i][2]);
+        fprintf(out, "#%d;2;%d;%d;%d", i, sixel->palette[i][0], sixel->palette[i][1], sixel->palette[i][2]);
     }
     for (int y = 0; y < height; y += BAND) {
-        int rows = height - y < BAND ? height - y : BAND;
-        if (!put_band(sixel, sixel->pixels + (size_t)y * (size_t)width, width, rows)) {
+        const int rows = height - y < BAND ? height - y : BAND;
+        fputs(y > 0 ? "-" : "", out); /* no new line after the last: it could make the screen scroll */
+        if (!put_band(sixel, sixel->pixels + (size_t)y * (size_t)width, width, rows, out)) {
             return false;
         }
     }
-    if (!make_room(sixel, TAIL)) {
-        return false;
-    }
-    sixel->length--; /* no new line after the last: it could make the screen scroll */
-    memcpy(sixel->out + sixel->length, "\033\\", TAIL);
-    sixel->length += TAIL;
-    *bytes = sixel->out;
-    *size = sixel->length;
+    fputs("\033\\", out);
     return true;
 }

@@ -37,12 +37,15 @@ bool gm_context_load(enum gm_context_kind kind, char *message, size_t size)
     return load(kind, message, size) != NULL;
 }
 
-bool gm_context_open(struct gm_context *context, enum gm_context_kind kind, char *message, size_t size)
+const struct gm_backend *gm_context_open(enum gm_context_kind kind, char *message, size_t size)
 {
     void *library = load(kind, message, size);
-    *context = (struct gm_context){.backend = backends[kind],
-                                   .self = library ? backends[kind]->open(library, message, size) : NULL};
-    return context->self != NULL;
+    const char *reason = library ? backends[kind]->open(library) : NULL;
+    if (reason) {
+        snprintf(message, size, "%s", reason);
+        backends[kind]->close();
+    }
+    return library && !reason ? backends[kind] : NULL;
 }
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};

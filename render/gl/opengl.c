@@ -16,7 +16,7 @@ enum { MAP_STEPS = 16 * 255 + 1 /* as in the rasteriser */, MAP_ROWS = 2 };
 
 /* The state that all pictures of a kind share: setting it up takes longer than drawing one. */
 struct engine {
-    struct gm_context context;
+    const struct gm_backend *backend; /* NULL: it has no context */
     struct gm_gl gl;
     struct gm_stream stream;
     char name[GM_MESSAGE];
@@ -103,14 +103,13 @@ static void textures_open(struct gm_opengl *opengl)
 
 static bool use(const struct engine *engine)
 {
-    return engine->context.self && engine->context.backend->use(engine->context.self);
+    return engine->backend && engine->backend->use();
 }
 
 static bool complete(struct engine *engine, char *message)
 {
-    const struct gm_context *context = &engine->context;
 #define FIND(name)                                                                                           \
-    engine->gl.name = (__typeof__(engine->gl.name))context->backend->find(context->self, "gl" #name);        \
+    engine->gl.name = (__typeof__(engine->gl.name))engine->backend->find("gl" #name);                        \
     if (!engine->gl.name) {                                                                                  \
         return gm_refuse(message, "This OpenGL lacks the function gl%s.", #name);                            \
     }
@@ -127,15 +126,15 @@ static bool complete(struct engine *engine, char *message)
 static bool engine_open(struct engine *engine, char *message)
 {
     char reason[GM_MESSAGE / 2];
-    struct gm_context *context = &engine->context;
-    if (!gm_context_open(context, (enum gm_context_kind)(engine - engines), reason, sizeof reason)) {
+    engine->backend = gm_context_open((enum gm_context_kind)(engine - engines), reason, sizeof reason);
+    if (!engine->backend) {
         return gm_refuse(message, "No OpenGL context could be opened: %s.", reason);
     }
     if (!complete(engine, message)) {
-        context->backend->close(context->self);
-        context->self = NULL;
+        engine->backend->close();
+        engine->backend = NULL;
     }
-    return context->self;
+    return engine->backend != NULL;
 }
 
 static void close_alone(struct gm_opengl *opengl)
@@ -213,8 +212,8 @@ static void take_turn(void)
 
 static void end_turn(const struct engine *engine)
 {
-    if (engine->context.self) {
-        engine->context.backend->release(engine->context.self);
+    if (engine->backend) {
+        engine->backend->release();
     }
     gm_context_unguard();
     pthread_mutex_unlock(&turn);
@@ -234,7 +233,7 @@ static bool is_here(char *message)
 /* Makes the engine current; the first call opens it. */
 static bool use_alone(struct engine *engine, char *message)
 {
-    return is_here(message) && (engine->context.self ? use(engine) : engine_open(engine, message));
+    return is_here(message) && (engine->backend ? use(engine) : engine_open(engine, message));
 }
 
 bool gm_opengl_load(enum gm_context_kind kind, char *message, size_t size)

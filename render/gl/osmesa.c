@@ -7,11 +7,11 @@
 #include <GL/gl.h>
 #include <GL/osmesa.h>
 
-#include "render/gl/backend.h"
+#include "render/gl/context.h"
 
 enum { SIDE = 16 }; /* side in pixels of the buffer that a context must have; nothing is drawn there */
 
-struct osmesa {
+static struct {
     OSMesaContext context;
     OSMesaContext (*create)(const int *attributes, OSMesaContext shared);
     void (*destroy)(OSMesaContext context);
@@ -19,32 +19,36 @@ struct osmesa {
                               GLsizei height);
     OSMESAproc (*get_proc_address)(const char *name);
     unsigned char buffer[SIDE * SIDE * 4];
+} osmesa;
+
+static const struct gm_library_symbol symbols[] = {
+    {"OSMesaCreateContextAttribs", &osmesa.create},
+    {"OSMesaDestroyContext", &osmesa.destroy},
+    {"OSMesaMakeCurrent", &osmesa.make_current},
+    {"OSMesaGetProcAddress", &osmesa.get_proc_address},
 };
 
-static bool osmesa_use(void *self)
+static bool use(void)
 {
-    struct osmesa *osmesa = self;
-    return osmesa->make_current(osmesa->context, osmesa->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
+    return osmesa.make_current(osmesa.context, osmesa.buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
 }
 
-static void osmesa_release(void *self)
+static void release(void)
 {
-    struct osmesa *osmesa = self;
-    osmesa->make_current(NULL, NULL, 0, 0, 0);
+    osmesa.make_current(NULL, NULL, 0, 0, 0);
 }
 
-static void osmesa_close(void *self)
+static void close_context(void)
 {
-    struct osmesa *osmesa = self;
-    if (osmesa->context) {
-        osmesa_release(self);
-        osmesa->destroy(osmesa->context);
+    if (osmesa.context) {
+        release();
+        osmesa.destroy(osmesa.context);
+        osmesa.context = NULL;
     }
-    free(osmesa);
 }
 
 /* OSMesa crashes with a driver that it does not know, such as one for a graphics card. */
-static void *osmesa_load(char *message, size_t size)
+static void *load(char *message, size_t size)
 {
     static const char *const libraries[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
     const char *driver = getenv("GALLIUM_DRIVER");
@@ -55,24 +59,8 @@ static void *osmesa_load(char *message, size_t size)
     return gm_library_open(libraries, message, size);
 }
 
-static void *osmesa_open(void *library, char *message, size_t size)
+static const char *open_context(void *library)
 {
-    struct osmesa *osmesa = calloc(1, sizeof *osmesa);
-    if (!osmesa) {
-        snprintf(message, size, "there is not enough memory for OSMesa");
-        return NULL;
-    }
-    const struct gm_library_symbol symbols[] = {
-        {"OSMesaCreateContextAttribs", &osmesa->create},
-        {"OSMesaDestroyContext", &osmesa->destroy},
-        {"OSMesaMakeCurrent", &osmesa->make_current},
-        {"OSMesaGetProcAddress", &osmesa->get_proc_address},
-    };
-    if (!gm_library_find(library, symbols, sizeof symbols / sizeof *symbols)) {
-        snprintf(message, size, "libOSMesa is too old");
-        osmesa_close(osmesa);
-        return NULL;
-    }
     static const int attributes[] = {OSMESA_FORMAT,
                                      OSMESA_RGBA,
                                      OSMESA_PROFILE,
@@ -82,26 +70,16 @@ static void *osmesa_open(void *library, char *message, size_t size)
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      3,
                                      0};
-    osmesa->context = osmesa->create(attributes, NULL);
-    if (!osmesa->context || !osmesa_use(osmesa)) {
-        snprintf(message, size, "OSMesa gives no OpenGL 3.3 context");
-        osmesa_close(osmesa);
-        return NULL;
+    if (!gm_library_find(library, symbols, sizeof symbols / sizeof *symbols)) {
+        return "libOSMesa is too old";
     }
-    return osmesa;
+    osmesa.context = osmesa.create(attributes, NULL);
+    return osmesa.context && use() ? NULL : "OSMesa gives no OpenGL 3.3 context";
 }
 
-static gm_library_function osmesa_find(void *self, const char *name)
+static gm_library_function find(const char *name)
 {
-    struct osmesa *osmesa = self;
-    return (gm_library_function)osmesa->get_proc_address(name);
+    return (gm_library_function)osmesa.get_proc_address(name);
 }
 
-const struct gm_backend gm_backend_osmesa = {
-    .load = osmesa_load,
-    .open = osmesa_open,
-    .close = osmesa_close,
-    .use = osmesa_use,
-    .release = osmesa_release,
-    .find = osmesa_find,
-};
+const struct gm_backend gm_backend_osmesa = {load, open_context, close_context, use, release, find};

@@ -2,7 +2,8 @@
 #ifndef GM_RENDER_GL_STREAM_H
 #define GM_RENDER_GL_STREAM_H
 
-#include "render/gl/shaders.h"
+#include "render/gl/gl.h"
+#include "render/triangles/triangles.h"
 
 /* A batch through OpenGL: its vertices in one buffer, its calls one by one, its images as textures. */
 struct gm_stream {

@@ -143,11 +143,11 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
 {
     const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
     for (size_t i = 0; i < count; i++) {
-        struct gm_label label = {.text = ticks[i].label,
-                                 .size = GM_TEXT_TICK,
-                                 .role = GM_SECONDARY,
-                                 .x = across ? ticks[i].position : at,
-                                 .y = across ? at : ticks[i].position - half,
+        struct gm_label label = {ticks[i].label,
+                                 GM_TEXT_TICK,
+                                 GM_SECONDARY,
+                                 across ? ticks[i].position : at,
+                                 across ? at : ticks[i].position - half,
                                  .anchor = anchor};
         if (!gm_labels_add(list, label) && across && i == 0) { /* the other axis has a label in the corner */
             label.anchor = GM_ANCHOR_LEFT;
@@ -170,15 +170,21 @@ static const char *key_text(const struct gm_label_list *list, const struct gm_ke
     return gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name);
 }
 
-/* Returns the distance of keys in a line: half of it if all of them then fit into the line. */
-static double key_gap(const struct gm_label_list *list, const struct gm_panel *panel, double width)
+/* Returns the width of the keys in one line, with that distance. */
+static double keys_width(const struct gm_label_list *list, const struct gm_panel *panel, double gap)
 {
-    const double gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
     double all = -gap;
     for (const struct gm_key *key = panel->first_key; key; key = key->next) {
         all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
     }
-    return all > width ? 0.5 * gap : gap;
+    return all;
+}
+
+/* Returns the distance of keys in a line: half of it if all of them then fit into the line. */
+static double key_gap(const struct gm_label_list *list, const struct gm_panel *panel, double width)
+{
+    const double gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
+    return keys_width(list, panel, gap) > width ? 0.5 * gap : gap;
 }
 
 /* Returns a key that is wider than a line without " at t = 3", and, if still too wide, without ", blow-up" or
@@ -246,11 +252,8 @@ static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *
         for (size_t i = 0; i < count; i++) {
             row += i > 0;
             if (out) {
-                gm_labels_add(out, (struct gm_label){.text = lines[i],
-                                                     .size = GM_TEXT_LABEL,
-                                                     .role = key->style.role,
-                                                     .x = x + at,
-                                                     .y = y + (double)row * line});
+                gm_labels_add(out, (struct gm_label){lines[i], GM_TEXT_LABEL, key->style.role, x + at,
+                                                     y + (double)row * line, .anchor = GM_ANCHOR_LEFT});
             }
         }
         at += wide + gap;
@@ -261,17 +264,6 @@ static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *
 size_t gm_key_lines(const struct gm_label_list *list, const struct gm_panel *panel, double width)
 {
     return set_keys(list, panel, 0.0, 0.0, width, NULL);
-}
-
-/* Returns the width of the keys in one line, or of the line that they fill. */
-static double keys_width(const struct gm_label_list *list, const struct gm_panel *panel, double width)
-{
-    const double gap = key_gap(list, panel, width);
-    double all = -gap;
-    for (const struct gm_key *key = panel->first_key; key; key = key->next) {
-        all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
-    }
-    return fmin(all, width);
 }
 
 static void label_panel(struct gm_label_list *list, const struct gm_panel *panel, const struct gm_fill *fill)
@@ -301,19 +293,18 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
         y -= (double)fill->note_lines * metrics->line[GM_TEXT_LABEL];
     }
     if (fill->detail < GM_DETAIL_NO_NOTE && has(panel->note)) {
-        gm_labels_add(list, (struct gm_label){
-                                .text = note, .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = x, .y = y});
+        gm_labels_add(list,
+                      (struct gm_label){note, GM_TEXT_LABEL, GM_SECONDARY, x, y, .anchor = GM_ANCHOR_LEFT});
     } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key) {
         const double width = fill->title_width;
-        set_keys(list, panel, title_start(fill, keys_width(list, panel, width)), y, width, list);
+        set_keys(list, panel,
+                 title_start(fill, fmin(keys_width(list, panel, key_gap(list, panel, width)), width)), y,
+                 width, list);
     }
     for (size_t i = 0; fill->detail < GM_DETAIL_DATA && i < count; i++) {
-        gm_labels_add(list, (struct gm_label){.text = lines[i],
-                                              .size = size,
-                                              .role = state ? panel->title_role : GM_INK,
-                                              .bold = state && !fill->small_title,
-                                              .x = x,
-                                              .y = y - (double)(most - i) * metrics->line[size]});
+        gm_labels_add(list, (struct gm_label){lines[i], size, state ? panel->title_role : GM_INK, x,
+                                              y - (double)(most - i) * metrics->line[size],
+                                              .bold = state && !fill->small_title});
     }
 }
 
@@ -331,22 +322,14 @@ static void label_axes(struct gm_label_list *list, struct gm_axes *axes, enum gm
         return;
     }
     if (x_label) {
-        gm_labels_add(
-            list, (struct gm_label){.text = gm_labels_whole(list, GM_TEXT_LABEL, panel->x.label, box.width),
-                                    .size = GM_TEXT_LABEL,
-                                    .role = GM_INK,
-                                    .x = box.x + 0.5 * box.width,
-                                    .y = below + metrics->line[GM_TEXT_TICK] + label_gap * scale,
-                                    .anchor = GM_ANCHOR_CENTRE});
+        gm_labels_add(list, (struct gm_label){gm_labels_whole(list, GM_TEXT_LABEL, panel->x.label, box.width),
+                                              GM_TEXT_LABEL, GM_INK, box.x + 0.5 * box.width,
+                                              below + metrics->line[GM_TEXT_TICK] + label_gap * scale,
+                                              .anchor = GM_ANCHOR_CENTRE});
     }
-    gm_labels_add(list,
-                  (struct gm_label){.text = gm_labels_whole(list, GM_TEXT_LABEL, panel->y.label, box.height),
-                                    .size = GM_TEXT_LABEL,
-                                    .role = GM_INK,
-                                    .x = box.x - left,
-                                    .y = box.y + 0.5 * box.height,
-                                    .anchor = GM_ANCHOR_CENTRE,
-                                    .vertical = true});
+    gm_labels_add(list, (struct gm_label){gm_labels_whole(list, GM_TEXT_LABEL, panel->y.label, box.height),
+                                          GM_TEXT_LABEL, GM_INK, box.x - left, box.y + 0.5 * box.height,
+                                          .anchor = GM_ANCHOR_CENTRE, .vertical = true});
 }
 
 /* Checks if values lie beyond the ends of the bar, in any panel with its colours: one bar may serve all. */
@@ -382,14 +365,11 @@ static void place_colour_bar(struct gm_label_list *list, struct gm_axes *axes, c
         place_ticks(list, &axis, bar->y + bar->height - factor * axis.low, factor, false, axes->bar_ticks);
     const double right = axes->colour_bar.x + axes->colour_bar.width + tick_gap * scale;
     label_ticks(list, axes->bar_ticks, axes->bar_tick_count, false, right, GM_ANCHOR_LEFT);
-    gm_labels_add(list, (struct gm_label){
-                            .text = gm_labels_whole(list, GM_TEXT_LABEL, panel->colour_bar_label, box.height),
-                            .size = GM_TEXT_LABEL,
-                            .role = GM_INK,
-                            .x = right + widest_tick(list, &axis, false) + label_gap * scale,
-                            .y = box.y + 0.5 * box.height,
-                            .anchor = GM_ANCHOR_CENTRE,
-                            .vertical = true});
+    gm_labels_add(list,
+                  (struct gm_label){gm_labels_whole(list, GM_TEXT_LABEL, panel->colour_bar_label, box.height),
+                                    GM_TEXT_LABEL, GM_INK,
+                                    right + widest_tick(list, &axis, false) + label_gap * scale,
+                                    box.y + 0.5 * box.height, .anchor = GM_ANCHOR_CENTRE, .vertical = true});
 }
 
 void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct gm_panel *panel,
@@ -405,8 +385,6 @@ void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct
     /* The middle of the range is the middle of the box, even if equal axes show more than the range. */
     if (panel->equal) {
         axes->x_factor = fmin(axes->x_factor, -axes->y_factor);
-    }
-    if (panel->equal) {
         axes->y_factor = -axes->x_factor;
     }
     axes->x_origin = box.x + 0.5 * box.width - axes->x_factor * 0.5 * (x_low + x_high);
@@ -466,11 +444,7 @@ static bool add_line(const struct surroundings *around, const char *text, double
     const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
                                fmax(0.0, fmin(y, metrics->height - line)), width, line};
     return is_free(around->axes, around->count, around->own, &box, air) &&
-           gm_labels_add(list, (struct gm_label){.text = text,
-                                                 .size = GM_TEXT_TICK,
-                                                 .role = mark->style.role,
-                                                 .x = box.x,
-                                                 .y = box.y,
+           gm_labels_add(list, (struct gm_label){text, GM_TEXT_TICK, mark->style.role, box.x, box.y,
                                                  .among_marks = true});
 }
 

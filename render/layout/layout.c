@@ -331,13 +331,8 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
     double y = top_margin * scale, left = width;
     bool header = false;
     if (gm_labels_width(list, GM_TEXT_TITLE, picture->clock) < 0.6 * width &&
-        gm_labels_add(list, (struct gm_label){.text = picture->clock,
-                                              .size = GM_TEXT_TITLE,
-                                              .role = GM_INK,
-                                              .mono = true,
-                                              .x = metrics->width - margin,
-                                              .y = y,
-                                              .anchor = GM_ANCHOR_RIGHT})) {
+        gm_labels_add(list, (struct gm_label){picture->clock, GM_TEXT_TITLE, GM_INK, metrics->width - margin,
+                                              y, .anchor = GM_ANCHOR_RIGHT, .mono = true})) {
         left -= gm_labels_width(list, GM_TEXT_TITLE, picture->clock) + column_gap * scale;
         header = true;
     }
@@ -346,23 +341,17 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
     const size_t count = gm_labels_wrap(list, GM_TEXT_TITLE, picture->title, left,
                                         capacity < GM_TITLE_LINES ? capacity : GM_TITLE_LINES, lines);
     for (size_t i = 0; i < count; i++) {
-        header |= gm_labels_add(list, (struct gm_label){.text = lines[i],
-                                                        .size = GM_TEXT_TITLE,
-                                                        .role = GM_INK,
-                                                        .bold = true,
-                                                        .x = margin,
-                                                        .y = y + (double)i * metrics->line[GM_TEXT_TITLE]});
+        header |= gm_labels_add(list, (struct gm_label){lines[i], GM_TEXT_TITLE, GM_INK, margin,
+                                                        y + (double)i * metrics->line[GM_TEXT_TITLE],
+                                                        .bold = true});
     }
     if (header) {
         y += (double)(count > 1 ? count : 1) * metrics->line[GM_TEXT_TITLE];
     }
     if (!metrics->terse &&
-        gm_labels_add(
-            list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, picture->subtitle, width),
-                                    .size = GM_TEXT_LABEL,
-                                    .role = GM_SECONDARY,
-                                    .x = margin,
-                                    .y = y})) {
+        gm_labels_add(list,
+                      (struct gm_label){gm_labels_shorten(list, GM_TEXT_LABEL, picture->subtitle, width),
+                                        GM_TEXT_LABEL, GM_SECONDARY, margin, y, .anchor = GM_ANCHOR_LEFT})) {
         y += metrics->line[GM_TEXT_LABEL];
     }
     return y + (header ? header_gap * scale : 0.0);
@@ -386,10 +375,8 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
     for (size_t i = count; i-- > 0;) {
         bottom -= metrics->line[GM_TEXT_LABEL];
-        gm_labels_add(
-            list,
-            (struct gm_label){
-                .text = lines[i], .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = margin, .y = bottom});
+        gm_labels_add(list, (struct gm_label){lines[i], GM_TEXT_LABEL, GM_SECONDARY, margin, bottom,
+                                              .anchor = GM_ANCHOR_LEFT});
     }
     return bottom - 0.7 * header_gap * metrics->scale;
 }
@@ -417,12 +404,8 @@ static double place_told(struct gm_label_list *list, const struct gm_picture *pi
     const double top =
         metrics->height - bottom_margin * metrics->scale - (double)(count > kept ? count : kept) * line;
     for (size_t i = 0; i < count; i++) {
-        gm_labels_add(list, (struct gm_label){.text = lines[i],
-                                              .size = GM_TEXT_PANEL,
-                                              .role = owners[i]->role,
-                                              .bold = owners[i]->bold,
-                                              .x = margin,
-                                              .y = top + (double)i * line});
+        gm_labels_add(list, (struct gm_label){lines[i], GM_TEXT_PANEL, owners[i]->role, margin,
+                                              top + (double)i * line, .bold = owners[i]->bold});
     }
     return top - header_gap * metrics->scale;
 }

@@ -50,9 +50,9 @@ struct gm_label { /* a text placed on the surface */
     const char *text;
     enum gm_text_size size;
     enum gm_role role;
-    bool bold, mono;
     double x, y; /* place of the anchor; y is the top of the line */
     enum gm_anchor anchor;
+    bool bold, mono;
     bool vertical;    /* reads upwards; x is then the left edge, y the middle of the height */
     bool among_marks; /* a text of a panel's data, to be legible on all marks */
 };

@@ -53,26 +53,13 @@ static size_t fill_multiples(double low, double high, double mantissa, int expon
     return (size_t)count;
 }
 
-/* Gives one or two ticks, if no step gives three. */
-static size_t few_ticks(double low, double high, int exponent, size_t max, double *values)
+/* Takes the first of the familiar steps that gives at least that many ticks; returns 0 if none does. */
+static size_t first_step(double low, double high, int exponent, size_t least, size_t max, double *values)
 {
-    static const double steps[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
-    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-        const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
-        if (count > 0) {
-            return count;
-        }
-    }
-    return 0;
-}
-
-/* Takes the first of the steps that gives at least three ticks; returns 0 if none does. */
-static size_t first_step(double low, double high, const double *steps, size_t step_count, int exponent,
-                         size_t max, double *values)
-{
-    for (size_t i = 0; i < step_count; i++) {
-        const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
-        if (count >= 3) {
+    static const double familiar[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
+    for (size_t i = 0; i < sizeof familiar / sizeof *familiar; i++) {
+        const size_t count = fill_multiples(low, high, familiar[i], exponent, max, values);
+        if (count >= least) {
             return count;
         }
     }
@@ -87,22 +74,19 @@ static bool spans(double low, double high, const double *values, size_t count)
 
 static size_t ticks_linear(double low, double high, size_t max, double *values)
 {
-    static const double familiar[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
     static const double further[] = {1.5, 2.5, 3.0, 4.0, 6.0, 8.0, 15.0, 25.0, 30.0, 40.0};
-    const size_t familiar_count = sizeof familiar / sizeof *familiar;
-    const size_t further_count = sizeof further / sizeof *further;
     const double span = high - low;
     if (span < 64.0 * DBL_EPSILON * fmax(fabs(low), fabs(high)) || !isfinite(span)) {
         return 0; /* the labels of such values would be equal */
     }
     const int exponent = (int)floor(log10(span / (double)max));
-    size_t count = first_step(low, high, familiar, familiar_count, exponent, max, values);
+    size_t count = first_step(low, high, exponent, 3, max, values);
     if (count > 3 || max < 3 || spans(low, high, values, count)) {
-        return count > 0 ? count : few_ticks(low, high, exponent, max, values);
+        return count > 0 ? count : first_step(low, high, exponent, 1, max, values);
     }
 
     /* Less familiar steps, if the others give too few ticks, or if both ends of the axis then have one. */
-    for (size_t i = 0; i < further_count; i++) {
+    for (size_t i = 0; i < sizeof further / sizeof *further; i++) {
         double others[GM_TICK_MAX];
         const size_t other = fill_multiples(low, high, further[i], exponent, max, others);
         if (other >= 3 && (count == 0 || spans(low, high, others, other))) {
@@ -110,7 +94,7 @@ static size_t ticks_linear(double low, double high, size_t max, double *values)
             return other;
         }
     }
-    return count > 0 ? count : few_ticks(low, high, exponent, max, values);
+    return count > 0 ? count : first_step(low, high, exponent, 1, max, values);
 }
 
 static size_t ticks_pi(double low, double high, size_t max, double *values)

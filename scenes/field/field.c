@@ -5,44 +5,11 @@
 
 #include <math.h>
 
-#include "core/field/multisymplectic.h"
-
 enum { DRAWN = 1600 /* most points of a profile */ };
 
 double gm_field_u(const struct gm_view *view, size_t node)
 {
     return view->state[node];
-}
-
-double gm_field_form_residual(const struct gm_view *view)
-{
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
-}
-
-static size_t columns_of(const struct gm_problem *problem)
-{
-    const size_t seen = gm_grid1_seen(&problem->line);
-    return seen < GM_SURFACE_COLUMNS ? seen : GM_SURFACE_COLUMNS;
-}
-
-size_t gm_surface_width(const struct gm_view *view)
-{
-    return columns_of(view->problem);
-}
-
-double gm_surface_interval(const void *parameters)
-{
-    const struct gm_timing *timing = parameters;
-    return fmax(timing->until / 200, fabs(timing->dt));
-}
-
-void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
-                       double *entry)
-{
-    const size_t seen = gm_grid1_seen(&view->problem->line), columns = columns_of(view->problem);
-    for (size_t k = 0; k < columns; k++) {
-        entry[k] = value(view, k * seen / columns);
-    }
 }
 
 static double end_of(const struct gm_grid1 *grid)

@@ -7,12 +7,6 @@
 /* The common part of all scenes of fields on a line: the current profile, and the field so far over space and
    time. */
 
-/* The size of the surface: columns of the field, and rows, one every two hundredth of the run. */
-enum { GM_SURFACE_COLUMNS = 240, GM_SURFACE_ROWS = 256 };
-
-/* Why there is no residual of a law. */
-#define GM_NO_LAW "the scheme has no such law, or the step from here is not solved"
-
 /* The choice drawn over space and time: the field, or a law, number GM_SHOW_FIELD + 1 + enum gm_local_law. */
 enum { GM_SHOW_FIELD };
 
@@ -24,29 +18,12 @@ struct gm_field_look {
     double low, high;                                      /* the least range of values that is shown */
     enum gm_colour_map map;
     double reach;        /* half of the line's part that is drawn, of profiles at rest */
-    int show;            /* the content of the surfaces: scenes/field/observed.h */
+    int show;            /* the content of the surfaces: scenes/field/kind.h */
     const char *content; /* the name of the third law: "mass" */
 };
 
 /* Returns the component u at a node, which most scenes show. */
 double gm_field_u(const struct gm_view *view, size_t node);
-
-/* Returns the residual of the discrete multisymplectic law of a scheme (core/field/multisymplectic.h). */
-double gm_field_form_residual(const struct gm_view *view);
-#define GM_FORM_RESIDUAL                                                                                     \
-    GM_LOG_OBSERVABLE("multisymplectic_residual", gm_field_form_residual,                                    \
-                      "residual of the multisymplectic law", .missing = GM_NO_LAW)
-
-/* The track of the surface; `record` fills a row with gm_surface_record. */
-#define GM_SURFACE_TRACK(record_)                                                                            \
-    {                                                                                                        \
-        .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
-        .bound = GM_SURFACE_ROWS, .record = record_,                                                         \
-    }
-size_t gm_surface_width(const struct gm_view *view);
-double gm_surface_interval(const void *parameters);
-void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
-                       double *entry);
 
 /* Draws the whole picture but its titles: the clock, the surfaces from track 0, the profiles and
    `graph_count` graphs over time; if a law is shown, its residual replaces the second graph. */

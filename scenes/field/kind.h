@@ -34,8 +34,7 @@ struct gm_field_kind {
     bool (*admits)(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence);
     void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
-    int frame_shown; /* the choice that shows the moving frame, and its picture; NULL: the kind has none */
-    void (*draw_frame)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    int frame_shown; /* the choice that shows the moving frame; 0: the kind has none */
     bool by_matrices, complex_valued;
     double (*shift)(const struct gm_view *view); /* how far the nodes have moved; NULL: not at all */
     /* Draws the field; NULL: as a surface over space and time, and profiles. With it the line has two ends. */
@@ -108,6 +107,43 @@ struct gm_grid1 gm_field_grid(const struct gm_system_lane *lane);
 #define GM_FIELD_ERRORS(list) .errors = list, .error_count = GM_COUNT(list)
 
 /* Observables (observables.c). */
+
+/* Why there is no residual of a law. */
+#define GM_NO_LAW "the scheme has no such law, or the step from here is not solved"
+
+/* The largest residuals of the local laws over the grid (enum gm_local_law), and that of the discrete multisymplectic law
+   (core/field/multisymplectic.h). */
+double gm_view_energy_residual(const struct gm_view *view);
+double gm_view_momentum_residual(const struct gm_view *view);
+double gm_view_content_residual(const struct gm_view *view);
+double gm_field_form_residual(const struct gm_view *view);
+/* clang-format off */
+#define GM_LOCAL_LAWS                                                                                        \
+    GM_LOG_OBSERVABLE("local_energy_residual", gm_view_energy_residual, "residual of the local energy law",  \
+                      .missing = GM_NO_LAW),                                                                 \
+    GM_LOG_OBSERVABLE("local_momentum_residual", gm_view_momentum_residual,                                  \
+                      "residual of the local momentum law", .missing = GM_NO_LAW)
+#define GM_FORM_RESIDUAL                                                                                     \
+    GM_LOG_OBSERVABLE("multisymplectic_residual", gm_field_form_residual,                                    \
+                      "residual of the multisymplectic law", .missing = GM_NO_LAW)
+/* clang-format on */
+/* The row that chooses between the field and a law; `list` has "field", "energy-law", "momentum-law" and possibly the law
+   of mass or charge. */
+#define GM_LAW_ROW(list)                                                                                     \
+    GM_CHOICE_ROW(GM_FIELD_LANE, grid.show, "show", "field", list,                                           \
+                  "what is drawn over space and time: the field, or what each step leaves of a local law")
+/* The surface over space and time. */
+extern const struct gm_track gm_surface_track;
+
+/* Returns the part of a ring's integral that is seen: between walls its other half is the mirror image. */
+static inline double gm_field_seen(const struct gm_view *view, double of_ring)
+{
+    return view->problem->line.walls ? of_ring / 2 : of_ring;
+}
+/* Returns the energy that belongs to a scheme for waves in a potential. */
+double gm_view_own_energy(const struct gm_view *view);
+/* Returns the largest |u|. */
+double gm_view_amplitude(const struct gm_view *view);
 
 /* Returns true if the exact solution holds at the view's time by the file's line exact-while. */
 bool gm_field_holds(const struct gm_view *view);

@@ -1,30 +1,104 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of a moving frame (frames.h). */
+/* Invariant schemes in their moving frames: how far these travel, what a symmetry leaves of a step, and a picture. */
 #include "scenes/field/frames.h"
 
 #include <math.h>
 
-enum { MIDDLE = GM_STENCIL / 2 };
+enum { STENCIL = 5 /* nodes, the one that is stepped in the middle */, MIDDLE = STENCIL / 2 };
 
 /* Events relative to the node in the middle, which the frame's translations carry to t = x = 0: the nodes at
    the current level, then at the next one, where only their positions count. */
 struct stencil {
     bool known; /* there is a frame */
-    struct gm_event seen[2 * GM_STENCIL], carried[2 * GM_STENCIL];
+    struct gm_event seen[2 * STENCIL], carried[2 * STENCIL];
 };
+
+/* Texts and properties of one equation. */
+struct look {
+    unsigned equation;
+    const char *title, *note; /* the picture's title, and the end of its subtitle */
+    const char *value;        /* the name of u, "u" */
+    const char *carried;      /* the name of the carried u, "û" */
+    /* the cross-sections that define frames of the usual kind, some special ones among them, and special ones alone
+       (gm_frames.are_special); without `some` the first lane decides */
+    const char *usual, *some, *special;
+    bool scaled;      /* a scaling makes the carried nodes of all lanes equally far apart */
+    bool logarithmic; /* values are logarithms, relative to the one in the middle */
+};
+static const struct look looks[] = {
+    {
+        .equation = GM_NEEDS_KDV,
+        .title = "The moving frame at a node of the Korteweg-de Vries equation",
+        .note = ",  and ĥ = h",
+        .value = "u",
+        .carried = "û",
+        .usual = "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0",
+        .some = "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0, or û + v̂ⱼ = 0 where it arrives",
+        .special = "û + v̂ⱼ = 0 where the node arrives",
+        .scaled = true,
+    },
+    {
+        .equation = GM_NEEDS_HEAT,
+        .title = "The moving frame at a node of the heat equation",
+        .note = "",
+        .value = "ln u/uⱼ",
+        .carried = "ln û/ûⱼ",
+        .usual = "ûⱼ₋₁ = ûⱼ₊₁",
+        .some = "ûⱼ₋₁ = ûⱼ₊₁, by projections = ûⱼ",
+        .special = "ûⱼ₋₁ = ûⱼ = ûⱼ₊₁",
+        .logarithmic = true,
+    },
+    {
+        .equation = GM_NEEDS_BURGERS,
+        .title = "The moving frame at a node of Burgers' equation",
+        .note = "",
+        .value = "u",
+        .carried = "û",
+        .usual = "ûⱼ = 0,  D₀û = 0",
+        .special = "a ûⱼ₊₁ + (1 + a) ûⱼ₋₁ = (1 + 2a) ûⱼ,  ûⱼ = d h² D₂û",
+    },
+};
+
+static const char *section_of(const struct look *look, const struct gm_lane *const *lanes, size_t count)
+{
+    size_t special = 0;
+    for (size_t i = 0; i < count; i++) {
+        special += gm_moving_frames_of(&lanes[i]->problem)->are_special(lanes[i]->scheme);
+    }
+    if (special == 0 || special == count) {
+        return special ? look->special : look->usual;
+    }
+    return look->some ? look->some : section_of(look, lanes, 1);
+}
 
 /* The units of x and t, and what is drawn. */
 struct drawn {
-    const struct gm_axes_style *look;
+    const struct look *look;
     const struct stencil *stencils;
+    const char *section;
     double h, k;
 };
 
-double gm_exact_at_node(const struct gm_view *view, size_t node)
+/* Returns the defect of a step under a symmetry. */
+static double defect(const struct gm_view *view, struct gm_point_symmetry symmetry)
 {
-    const struct gm_framed *framed = gm_framed_of(view->problem);
-    return gm_frame_exact(framed, gm_frame_rests(framed, view->scheme) ? 0 : framed->lambda,
-                          gm_grid1_node(&view->problem->line, node), view->t);
+    return gm_moving_frames_of(view->problem)
+        ->defect(view->problem, view->scheme, view->dt, &symmetry, view->state);
+}
+
+double gm_boost_defect(const struct gm_view *view)
+{
+    return defect(view, (struct gm_point_symmetry){.boost = 0.5, .scale = 1});
+}
+
+double gm_projection_defect(const struct gm_view *view)
+{
+    return defect(view, (struct gm_point_symmetry){.projection = 0.5, .scale = 1});
+}
+
+double gm_scaling_defect(const struct gm_view *view)
+{
+    return defect(view, (struct gm_point_symmetry){.scale = 1.3});
 }
 
 double gm_frame_travel(const struct gm_view *view)
@@ -52,23 +126,34 @@ static size_t middle_node(const struct gm_lane *lane, const struct gm_view *view
     return (size_t)fmax(MIDDLE, fmin(last, nearest));
 }
 
-static struct stencil stencil_of(const struct gm_lane *lane, const struct gm_axes_style *look, double h)
+static struct stencil stencil_of(const struct gm_lane *lane, const struct look *look, double h)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_framed *framed = gm_framed_of(view.problem);
     const double sigma = gm_frame_rests(framed, view.scheme) ? 0 : framed->lambda * view.dt;
     const size_t j = middle_node(lane, &view);
     struct stencil made;
-    for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
-        const size_t i = j + e % GM_STENCIL - MIDDLE;
-        const bool next = e >= GM_STENCIL;
+    for (size_t e = 0; e < 2 * STENCIL; e++) {
+        const size_t i = j + e % STENCIL - MIDDLE;
+        const bool next = e >= STENCIL;
         made.seen[e] = (struct gm_event){
             .t = next ? view.dt : 0,
             .x = ((double)i - (double)j) * view.problem->line.dx + (next ? sigma : 0),
             .u = view.state[i],
         };
     }
-    made.known = look->carry(&view, j, h, made.seen, made.carried);
+    const struct gm_moving_frames *frames = gm_moving_frames_of(view.problem);
+    struct gm_point_symmetry frame;
+    made.known = frames->find(view.problem, view.scheme, view.dt, view.state, j, &frame);
+    frame.scale = look->scaled ? h / view.problem->line.dx : frame.scale;
+    for (size_t e = 0; e < 2 * STENCIL; e++) {
+        made.seen[e].u /= look->logarithmic ? view.state[j] : 1;
+        made.carried[e] = frames->carry(framed, &frame, made.seen[e]);
+        if (look->logarithmic) {
+            made.carried[e].u = log(made.carried[e].u);
+            made.seen[e].u = log(made.seen[e].u);
+        }
+    }
     return made;
 }
 
@@ -106,7 +191,7 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
                 : add(picture, "a node and its neighbours, from each frame", "(x − xⱼ) / h", "(t − tⁿ) / k");
     for (size_t i = 0; i < count; i++) {
         const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
-        for (size_t e = 0; stencils[i].known && e < 2 * GM_STENCIL; e++) {
+        for (size_t e = 0; stencils[i].known && e < 2 * STENCIL; e++) {
             gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
             gm_range_add(&panel->y.low, &panel->y.high, events[e].t / drawn->k);
         }
@@ -123,23 +208,23 @@ static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *
         if (!stencils[i].known) {
             continue;
         }
-        double points[2 * 2 * GM_STENCIL];
-        for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
+        double points[2 * 2 * STENCIL];
+        for (size_t e = 0; e < 2 * STENCIL; e++) {
             points[2 * e] = events[e].x / drawn->h;
             points[2 * e + 1] = events[e].t / drawn->k;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
-        gm_mark_line(picture, panel, style, points, GM_STENCIL, false);
-        gm_mark_line(picture, panel, style, points + 2 * GM_STENCIL, GM_STENCIL, false);
-        for (size_t e = 0; e < GM_STENCIL; e++) {
-            const double *lower = &points[2 * e], *upper = &points[2 * (GM_STENCIL + e)];
+        gm_mark_line(picture, panel, style, points, STENCIL, false);
+        gm_mark_line(picture, panel, style, points + 2 * STENCIL, STENCIL, false);
+        for (size_t e = 0; e < STENCIL; e++) {
+            const double *lower = &points[2 * e], *upper = &points[2 * (STENCIL + e)];
             const double world[] = {lower[0], lower[1], upper[0], upper[1]};
             gm_mark_line(picture, panel, style, world, 2, false);
         }
         struct gm_style dots = style;
         dots.width = 7 + style.width;
         gm_mark_points(picture, panel, dots, points + 2 * (MIDDLE - 1), 3);
-        gm_mark_points(picture, panel, dots, points + 2 * (GM_STENCIL + MIDDLE), 1);
+        gm_mark_points(picture, panel, dots, points + 2 * (STENCIL + MIDDLE), 1);
     }
 }
 
@@ -148,7 +233,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
                         const struct drawn *drawn, bool carried)
 {
     const struct stencil *stencils = drawn->stencils;
-    const struct gm_axes_style *look = drawn->look;
+    const struct look *look = drawn->look;
     struct gm_panel *panel =
         carried ? add(picture, "the same values, carried", "x̂ / h", look->carried)
                 : add(picture, "the values there, from each frame", "(x − xⱼ) / h", look->value);
@@ -156,7 +241,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     gm_range_add(&panel->x.low, &panel->x.high, MIDDLE);
     for (size_t i = 0; i < count; i++) {
         const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
-        for (size_t e = 0; stencils[i].known && e < GM_STENCIL; e++) {
+        for (size_t e = 0; stencils[i].known && e < STENCIL; e++) {
             gm_range_add(&panel->x.low, &panel->x.high, events[e].x / drawn->h);
             gm_range_add(&panel->y.low, &panel->y.high, events[e].u);
         }
@@ -167,7 +252,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     }
     finish(&panel->y, 0.15);
     if (carried) {
-        panel->note = gm_picture_text(picture, "cross-section  %s", look->section);
+        panel->note = gm_picture_text(picture, "cross-section  %s", drawn->section);
         const double section[] = {panel->x.low, 0, panel->x.high, 0};
         gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.5, GM_LONG_DASH}, section, 2, false);
     }
@@ -176,13 +261,13 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
         if (!stencils[i].known) {
             continue;
         }
-        double points[2 * GM_STENCIL];
-        for (size_t e = 0; e < GM_STENCIL; e++) {
+        double points[2 * STENCIL];
+        for (size_t e = 0; e < STENCIL; e++) {
             points[2 * e] = events[e].x / drawn->h;
             points[2 * e + 1] = events[e].u;
         }
         const struct gm_style style = line_style(lanes[i], i, count);
-        gm_mark_line(picture, panel, style, points, GM_STENCIL, false);
+        gm_mark_line(picture, panel, style, points, STENCIL, false);
         struct gm_style dots = style;
         dots.width = 7 + style.width;
         gm_mark_points(picture, panel, dots, points + 2 * (MIDDLE - 1), 3);
@@ -197,16 +282,23 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                          const struct gm_axes_style *look)
+void gm_draw_moving_frame(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
+    const struct look *look = looks;
+    while (look->equation != gm_field_of(&lanes[0]->problem)->equation) {
+        look++;
+    }
     struct stencil *stencils = gm_picture_memory(picture, count * sizeof *stencils);
-    const struct drawn drawn = {look, stencils, lanes[0]->problem.line.dx, lanes[0]->run->dt};
+    const struct drawn drawn = {look, stencils, section_of(look, lanes, count), lanes[0]->problem.line.dx,
+                                lanes[0]->run->dt};
+    const double viscosity = gm_framed_of(&lanes[0]->problem)->viscosity;
+    const char *constant =
+        look->equation == GM_NEEDS_KDV ? "" : gm_picture_text(picture, ",  ν = %g", viscosity);
     gm_draw_clock(picture, lanes, count);
     picture->title = look->title;
     picture->subtitle =
         gm_picture_text(picture, "the node nearest to x = %g%s,  h = %.3g,  k = %s%s", place_of(lanes[0]),
-                        look->constant, drawn.h, gm_step_text(picture, drawn.k), look->note);
+                        constant, drawn.h, gm_step_text(picture, drawn.k), look->note);
     for (size_t i = 0; stencils && i < count; i++) {
         stencils[i] = stencil_of(lanes[i], look, drawn.h);
     }

@@ -1,15 +1,122 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors against a file's exact solution, and integrals of its densities. */
+/* Local laws, the largest residual and over space and time; errors against a file's exact solution; integrals of its
+   densities. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/families/dispersive/box.h"
+#include "core/field/families/families.h"
+#include "core/field/families/laws/form.h"
+#include "core/field/families/laws/wave.h"
 #include "core/tape.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
+
+static bool residuals(const struct gm_view *view, enum gm_local_law law, double *residual)
+{
+    if (gm_field_of(view->problem)->wave) {
+        return gm_wave_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    }
+    if (gm_field_of(view->problem)->form->hessians) {
+        return gm_form_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    }
+    return view->scheme->family == &gm_family_preissmann &&
+           gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+}
+
+static double largest(const struct gm_view *view, enum gm_local_law law)
+{
+    const size_t points = view->problem->line.points;
+    double *residual = malloc(points * sizeof *residual), most = NAN;
+    if (residual && residuals(view, law, residual)) {
+        most = 0;
+        for (size_t i = 0; i < points; i++) {
+            most = fmax(most, fabs(residual[i]));
+        }
+    }
+    free(residual);
+    return most;
+}
+
+double gm_view_energy_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_ENERGY);
+}
+
+double gm_view_momentum_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_MOMENTUM);
+}
+
+double gm_view_content_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_CONTENT);
+}
+
+/* The size of the surface: columns of the field, and rows, one every two hundredth of the run. */
+enum { COLUMNS = 240, ROWS = 256 };
+
+static size_t surface_width(const struct gm_view *view)
+{
+    const size_t seen = gm_grid1_seen(&view->problem->line);
+    return seen < COLUMNS ? seen : COLUMNS;
+}
+
+static double surface_interval(const void *parameters)
+{
+    const struct gm_timing *timing = parameters;
+    return fmax(timing->until / 200, fabs(timing->dt));
+}
+
+/* The field, or the residual of the law that is shown, NaN if the scheme has no such law. */
+static void record_surface(const struct gm_view *view, double *entry)
+{
+    const struct gm_field_kind *kind = gm_viewed_field(view)->kind;
+    const int show = ((const struct gm_system_lane *)view->parameters)->grid.show;
+    const bool law = show != GM_SHOW_FIELD && !(kind->frame_shown && show == kind->frame_shown);
+    const size_t seen = gm_grid1_seen(&view->problem->line), columns = surface_width(view);
+    double *residual = law ? malloc(view->problem->line.points * sizeof *residual) : NULL;
+    const bool known = residual && residuals(view, (enum gm_local_law)(show - 1), residual);
+    for (size_t k = 0; k < columns; k++) {
+        const size_t i = k * seen / columns;
+        if (law) {
+            entry[k] = known ? residual[i] : NAN;
+        } else {
+            entry[k] = kind->value(view, i);
+        }
+    }
+    free(residual);
+}
+
+const struct gm_track gm_surface_track = {
+    .key = "surface",
+    .width = surface_width,
+    .interval = surface_interval,
+    .bound = ROWS,
+    .record = record_surface,
+};
+
+double gm_field_form_residual(const struct gm_view *view)
+{
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+}
+
+double gm_view_own_energy(const struct gm_view *view)
+{
+    return gm_field_seen(view, gm_wave_own_energy(view->problem, view->scheme, view->state, view->memory));
+}
+
+double gm_view_amplitude(const struct gm_view *view)
+{
+    double largest = 0;
+    for (size_t i = 0; i < view->problem->line.points; i++) {
+        largest = fmax(largest, fabs(view->state[i]));
+    }
+    return largest;
+}
 
 double gm_field_constant(const struct gm_view *view, size_t component)
 {

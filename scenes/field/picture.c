@@ -3,10 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/field/problems/moving_frames.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/common/system/texts.h"
-#include "scenes/field/kind.h"
+#include "scenes/field/frames.h"
 #include "scenes/mesh/picture.h"
 
 /* Widens a range to values, except those far beyond `most`. */
@@ -87,8 +86,8 @@ void gm_field_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     const struct gm_system_scene *of_file = &field->of_file;
     const struct gm_view first = gm_lane_view(lanes[0]);
     double ends[2] = {field->low, field->high};
-    if (field->kind->draw_frame && lane->grid.show == field->kind->frame_shown) {
-        field->kind->draw_frame(lanes, count, picture);
+    if (field->kind->frame_shown && lane->grid.show == field->kind->frame_shown) {
+        gm_draw_moving_frame(lanes, count, picture);
         return;
     }
     const bool colours = colours_of(field, &first, ends);
@@ -110,7 +109,7 @@ void gm_field_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     bool boosted = false;
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
-        boosted |= field->kind->draw_frame && gm_framed_of(view.problem)->lambda != 0;
+        boosted |= field->kind->frame_shown && gm_framed_of(view.problem)->lambda != 0;
         if (lanes[i]->problem.line.walls && lane->grid.show == GM_SHOW_FIELD) {
             const struct gm_entries *rows = &lanes[i]->entries[0];
             /* a kink that comes back from a wall leads to other values than it came from */

@@ -29,7 +29,6 @@
 #include "scenes/common/system/texts.h"
 #include "scenes/common/written.h"
 #include "scenes/field/kind.h"
-#include "scenes/field/observed.h"
 #include "scenes/mesh/observed.h"
 
 enum { DT, UNTIL };
@@ -41,14 +40,6 @@ static struct gm_system_scene *open_other(struct gm_user_system *system, const s
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
     return gm_system_settle(parameters, keys, count, open_other, sentence);
-}
-
-static void record_shown(const struct gm_view *view, double *entry)
-{
-    const struct gm_field_kind *kind = gm_viewed_field(view)->kind;
-    const int show = ((const struct gm_system_lane *)view->parameters)->grid.show;
-    const bool of_frame = kind->draw_frame && show == kind->frame_shown;
-    gm_surface_record_shown(view, of_frame ? GM_SHOW_FIELD : show, kind->value, entry);
 }
 
 struct making {
@@ -390,8 +381,6 @@ static void make(struct gm_arena *arena, void *data)
     struct gm_user_field *field = making->field = gm_system_scene_take(arena, making->system, sizeof *field);
     struct gm_system_scene *of_file = &field->of_file;
     struct gm_user_system *system = &of_file->system;
-    static const struct gm_track surface[] = {GM_SURFACE_TRACK(record_shown)},
-                                 paths[] = {GM_MESH_PATHS_TRACK};
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
     char sentence[GM_MESSAGE];
     gm_arena_keep(arena, &field->evolution, close_evolution);
@@ -437,7 +426,7 @@ static void make(struct gm_arena *arena, void *data)
         .mark = making->words ? gm_written_mark(arena, making->name, system->source) : NULL,
         .parameters = of_file->rows,
         .parameter_count = of_file->row_count + of_file->common_count,
-        .tracks = moves ? paths : surface,
+        .tracks = moves ? &gm_mesh_paths_track : &gm_surface_track,
         .track_count = !kind->paint,
         .work = &of_file->work,
         .asked = law,

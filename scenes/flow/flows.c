@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flows from parameters: meshes are made or read, boundaries named, faults explained in a sentence. */
-#include "scenes/flow/flows.h"
+/* The meshes of rooms from parameters: they are made or read, and faults explained in a sentence. */
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -11,78 +11,68 @@
 #include "core/files/files.h"
 #include "render/files/regular_file.h"
 
-#define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
-const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[] = {SHOWS, "temperature",
-                                                                                    NULL};
-
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
-/* The faults of a mesh. Each message is the mesh's name, its line if `where` is set, `before`, the thing,
-   `after`. */
-static const struct {
-    bool where;
-    const char *before;
-    enum { NOTHING, TEXT, NODE, EDGE, TRIANGLE } thing;
-    const char *after;
-} wrong[] = {
-    [GM_TRIANGULATION_NOT_GMSH] = {false, " is not a Gmsh file: it does not begin with $MeshFormat", NOTHING,
-                                   ""},
+/* The faults of a mesh, after its name: @ is the line, %s the fault's text, %n a node, %e the nodes of an edge,
+   %t a triangle. */
+static const char *const wrong[] = {
+    [GM_TRIANGULATION_NOT_GMSH] = " is not a Gmsh file: it does not begin with $MeshFormat",
     [GM_TRIANGULATION_VERSION] =
-        {false, " is of version ", TEXT,
-         "; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)"},
-    [GM_TRIANGULATION_BYTES] = {false, " is binary, in the byte order of another machine", NOTHING,
-                                "; save it as ASCII (Mesh.Binary = 0)"},
-    [GM_TRIANGULATION_SYNTAX] = {true, ": expected ", TEXT, ""},
-    [GM_TRIANGULATION_TRUNCATED] = {true, ": the file ends within its section ", TEXT, ""},
-    [GM_TRIANGULATION_HUGE] = {true, ": ", TEXT, " is more than 5000000"},
-    [GM_TRIANGULATION_REPEATED_NODE] = {true, ": node ", NODE, " is there twice"},
-    [GM_TRIANGULATION_UNKNOWN_NODE] = {true, ": there is no node ", NODE, ""},
+        " is of version %s; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
+    [GM_TRIANGULATION_BYTES] =
+        " is binary, in the byte order of another machine; save it as ASCII (Mesh.Binary = 0)",
+    [GM_TRIANGULATION_SYNTAX] = "@: expected %s",
+    [GM_TRIANGULATION_TRUNCATED] = "@: the file ends within its section %s",
+    [GM_TRIANGULATION_HUGE] = "@: %s is more than 5000000",
+    [GM_TRIANGULATION_REPEATED_NODE] = "@: node %n is there twice",
+    [GM_TRIANGULATION_UNKNOWN_NODE] = "@: there is no node %n",
     [GM_TRIANGULATION_ELEMENT] =
-        {true, ": elements of type ", NODE,
-         "; only triangles of three or six nodes (types 2 and 9) and their sides are read"},
-    [GM_TRIANGULATION_THREE_D] = {true, ": node ", NODE,
-                                  " lies off the plane of the others; the mesh must be flat"},
-    [GM_TRIANGULATION_EMPTY] = {false, " has no triangle", NOTHING, ""},
-    [GM_TRIANGULATION_DEGENERATE] = {true, ": ", TRIANGLE, " has no area"},
-    [GM_TRIANGULATION_OVERLAP] = {true, ": ", TRIANGLE, " overlaps its neighbour"},
-    [GM_TRIANGULATION_EDGE_OF_THREE] = {false, ": the edge between nodes ", EDGE,
-                                        " belongs to three triangles"},
-    [GM_TRIANGULATION_PINCHED] = {false, ": at node ", NODE, " the mesh hangs together by a point"},
-    [GM_TRIANGULATION_PIECES] = {true, " is in several pieces: ", TRIANGLE, " is not joined to triangle 1"},
-    [GM_TRIANGULATION_ONE_SIDED] = {false,
-                                    " cannot be oriented: its triangles disagree along the edge of nodes ",
-                                    EDGE, ""},
+        "@: elements of type %n; only triangles of three or six nodes (types 2 and 9) and their sides are read",
+    [GM_TRIANGULATION_THREE_D] = "@: node %n lies off the plane of the others; the mesh must be flat",
+    [GM_TRIANGULATION_EMPTY] = " has no triangle",
+    [GM_TRIANGULATION_DEGENERATE] = "@: %t has no area",
+    [GM_TRIANGULATION_OVERLAP] = "@: %t overlaps its neighbour",
+    [GM_TRIANGULATION_EDGE_OF_THREE] = ": the edge between nodes %e belongs to three triangles",
+    [GM_TRIANGULATION_PINCHED] = ": at node %n the mesh hangs together by a point",
+    [GM_TRIANGULATION_PIECES] = "@ is in several pieces: %t is not joined to triangle 1",
+    [GM_TRIANGULATION_ONE_SIDED] = " cannot be oriented: its triangles disagree along the edge of nodes %e",
     [GM_TRIANGULATION_NOT_DELAUNAY] =
-        {true, ": ", TRIANGLE,
-         " and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric"},
-    [GM_TRIANGULATION_DUAL_CELL] = {false, ": the dual cell of node ", NODE, " has no positive area"},
+        "@: %t and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric",
+    [GM_TRIANGULATION_DUAL_CELL] = ": the dual cell of node %n has no positive area",
 };
 
 /* Writes why a mesh was refused; `name` is "the mesh" or the file's. */
 static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
     const long *n = fault->nodes;
-    char line[48] = "", angle[48] = "", triangle[160], node[32], edge[64];
+    char line[48] = "", angle[48] = "", thing[192] = "";
     if (fault->kind <= GM_TRIANGULATION_MEMORY) {
         gm_refuse(sentence, "not enough memory");
         return;
     }
-    if (wrong[fault->kind].where && fault->line > 0) {
+    const bool where = wrong[fault->kind][0] == '@';
+    const char *before = wrong[fault->kind] + where, *sign = strchr(before, '%');
+    const char kind = sign ? sign[1] : '\0';
+    if (where && fault->line > 0) {
         snprintf(line, sizeof line, ", line %ld", fault->line);
     }
     if (fault->kind == GM_TRIANGULATION_NOT_DELAUNAY) {
         snprintf(angle, sizeof angle, " has an angle of %.1f degrees", fault->value);
     }
-    snprintf(node, sizeof node, "%ld", n[0]);
-    snprintf(edge, sizeof edge, "%ld and %ld", n[0], n[1]);
-    snprintf(triangle, sizeof triangle, "triangle %ld (nodes %ld %ld %ld)%s", fault->triangle, n[0], n[1],
-             n[2], angle);
-    const char *const things[] = {"", fault->text, node, edge, triangle};
-    gm_refuse(sentence, "%.100s%s%s%s%s", name, line, wrong[fault->kind].before,
-              things[wrong[fault->kind].thing], wrong[fault->kind].after);
+    if (kind == 't') {
+        snprintf(thing, sizeof thing, "triangle %ld (nodes %ld %ld %ld)%s", fault->triangle, n[0], n[1], n[2],
+                 angle);
+    } else if (kind == 'e') {
+        snprintf(thing, sizeof thing, "%ld and %ld", n[0], n[1]);
+    } else if (kind == 'n') {
+        snprintf(thing, sizeof thing, "%ld", n[0]);
+    }
+    gm_refuse(sentence, "%.100s%s%.*s%s%s", name, line, (int)strcspn(before, "%"), before,
+              kind == 's' ? fault->text : thing, sign ? sign + 2 : "");
 }
 
-struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
+/* Returns the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence on failure. */
+static struct gm_complex *lay_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     enum { MOST = 10000000 };
     const long best =
@@ -113,8 +103,9 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
     return complex;
 }
 
-bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
-                   struct gm_triangulation *mesh, char *sentence)
+/* Reads the mesh of a file, or a built-in one if `inside` is not NULL. */
+static bool read_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                      struct gm_triangulation *mesh, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
     size_t size = 0;
@@ -133,110 +124,51 @@ bool gm_flows_file(const char *path, const struct gm_built_in *inside, enum gm_s
     return good;
 }
 
-bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
-                     char *sentence)
+/* Cuts each edge of the mesh of a file into `parts`, a power of two. */
+static bool refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                   char *sentence)
 {
     enum { MOST_TRIANGLES = 5000000 };
     struct gm_triangulation_fault fault;
-    bool good = true;
     if ((parts & (parts - 1)) != 0) {
-        good = gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
-    } else if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
-        good = gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
+        return gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
+    }
+    if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
+        return gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
                          MOST_TRIANGLES, mesh->complex->triangles, path);
     }
-    for (; good && parts > 1; parts /= 2) {
-        good = gm_triangulation_halve(mesh, star, &fault);
-        if (!good) {
+    for (; parts > 1; parts /= 2) {
+        if (!gm_triangulation_halve(mesh, star, &fault)) {
             explain(path, &fault, sentence);
+            return false;
         }
     }
+    return true;
+}
+
+bool gm_flows_has_rectangle(const struct gm_flows *flows)
+{
+    return flows->room->room.rectangular && strcmp(flows->mesh, "none") == 0;
+}
+
+bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
+                   char *sentence)
+{
+    const struct gm_user_room *user_room = flows->room;
+    const enum gm_star star = (enum gm_star)flows->star;
+    *mesh = (struct gm_triangulation){0};
+    if (room && gm_flows_has_rectangle(flows)) {
+        struct gm_rectangle rectangle = room->rectangle;
+        mesh->complex = lay_rectangle(&rectangle, sentence);
+        return mesh->complex != NULL;
+    }
+    const char *path = user_room->room.rectangular ? flows->mesh : user_room->mesh;
+    if (!read_file(path, user_room->inside, star, mesh, sentence)) {
+        return false;
+    }
+    const bool good = !room || flows->refine < 2 || refine(path, star, flows->refine, mesh, sentence);
     if (!good) {
         gm_triangulation_close(mesh);
     }
     return good;
-}
-
-void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
-{
-    struct gm_flows *flows = parameters;
-    const bool square = strcmp(flows->mesh, "none") == 0;
-    flows->star = square ? flows->star : (int)gm_flow_of(problem)->complex->star;
-}
-
-void gm_flows_note(const struct gm_problem *problem, const void *parameters, char *sentence)
-{
-    (void)parameters;
-    const struct gm_complex_origin *origin = &gm_flow_of(problem)->complex->origin;
-    const double *x = origin->axes[0], *y = origin->axes[1];
-    size_t used = 0;
-    for (int k = 0; k < 3 && used == 0; k++) {
-        if (x[k] != 0) {
-            used = (size_t)snprintf(
-                sentence, GM_MESSAGE,
-                "the mesh lies in a plane of its own: x is its direction (%.3g, %.3g, %.3g), y is (%.3g, %.3g, %.3g)",
-                x[0] + 0., x[1] + 0., x[2] + 0., y[0] + 0., y[1] + 0., y[2] + 0.);
-        }
-    }
-    if (origin->repeated > 0) {
-        snprintf(sentence + used, GM_MESSAGE - used, "%striangles that the mesh has twice count once: %zu",
-                 used > 0 ? "; " : "", origin->repeated);
-    }
-}
-
-const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
-
-bool gm_flows_outlet(const char *text, enum gm_vertex_kind *kind, char *group, char *sentence)
-{
-    static const enum gm_vertex_kind kinds[] = {GM_VERTEX_SOFT, GM_VERTEX_FIXED, GM_VERTEX_OPEN};
-    const char *colon = strrchr(text, ':'), *name = colon ? colon + 1 : text;
-    snprintf(group, GM_TEXT_SIZE, "%s", "outlet");
-    for (size_t i = 0; gm_flows_outlets[i]; i++) {
-        if (strcmp(name, gm_flows_outlets[i]) == 0) {
-            *kind = kinds[i];
-            if (colon) {
-                snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon - text), text);
-            }
-            return true;
-        }
-    }
-    if (colon) {
-        return gm_refuse(sentence, "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free",
-                         text);
-    }
-    snprintf(group, GM_TEXT_SIZE, "%s", text);
-    return true;
-}
-
-bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
-{
-    static const char *const sentences[] = {
-        [GM_BOUNDARY_MEMORY] = "not enough memory",
-        [GM_BOUNDARY_NO_INLET] = "the mesh has an outlet but no inlet",
-        [GM_BOUNDARY_NO_OUTLET] = "the mesh has an inlet but no outlet",
-        [GM_BOUNDARY_SHORT] =
-            "a piece of an inlet or an outlet is a single edge; it needs two at least (refine=2 halves edges)",
-        [GM_BOUNDARY_WHOLE] = "the whole boundary is inlet or outlet",
-        [GM_BOUNDARY_IN_HOLE] =
-            "an inlet or an outlet is on the wall of a hole; they must be in the outer wall",
-        [GM_BOUNDARY_UNBALANCED] = "all flows are given, and what enters does not leave",
-        [GM_BOUNDARY_PROFILE] = "no more enters by the profile of an inlet than leaves by it",
-        [GM_BOUNDARY_BACKWARDS] = "the outlets with a given flow take more than enters",
-        [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
-    };
-    return fault == GM_BOUNDARY_OK || gm_refuse(sentence, "%s", sentences[fault]);
-}
-
-const char *gm_flows_idle(const void *parameters, const char *key)
-{
-    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {
-                                                                                  "inlet", "lid", "star",
-                                                                                  "refine", NULL};
-    const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
-    for (const char *const *name = from_file ? made : named; *name; name++) {
-        if (strcmp(key, *name) == 0) {
-            return from_file ? "the mesh comes from a file" : "it is for a mesh=FILE";
-        }
-    }
-    return NULL;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
-#include "scenes/flow/marks.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,27 +26,21 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
     const struct gm_style turning = {over ? GM_OVER : GM_INK, over ? 0.38 : 0.5, 1.0, GM_SOLID};
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
-    double levels[MOST_LEVELS], low = INFINITY, high = -INFINITY, through = 0;
+    double levels[MOST_LEVELS], low = INFINITY, high = -INFINITY, through = 0, base = 0;
     size_t count = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         low = fmin(low, gm_run_state(lane->run)[v]);
         high = fmax(high, gm_run_state(lane->run)[v]);
     }
-    double base = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
         through = fmax(through, flow->psi[complex->boundary_vertex[b]]);
         base = fmin(base, flow->psi[complex->boundary_vertex[b]]);
     }
     through -= base;
-    if (look->levels) {
-        gm_mark_level_lines(picture, panel, turning, sheet->points, sheet->psi, sheet->vertices,
-                            sheet->triangles, sheet->count, look->levels, look->level_count);
-        return;
+    for (int i = 1; i < 10 && through > 0 && !look->levels; i++) {
+        levels[count++] = base + through * i / 10;
     }
-    if (through > 0) {
-        for (int i = 1; i < 10; i++) {
-            levels[count++] = base + through * i / 10;
-        }
+    if (count > 0) {
         gm_mark_level_lines(picture, panel, passing, sheet->points, sheet->psi, sheet->vertices,
                             sheet->triangles, sheet->count, levels, count);
         count = 0;
@@ -63,7 +57,8 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
         }
     }
     gm_mark_level_lines(picture, panel, turning, sheet->points, sheet->psi, sheet->vertices, sheet->triangles,
-                        sheet->count, levels, count);
+                        sheet->count, look->levels ? look->levels : levels,
+                        look->levels ? look->level_count : count);
 }
 
 /* Draws edges along the boundary in one go: walls bold, openings not at all. */
@@ -180,18 +175,19 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
         taken[place] = true;
         const double dx = velocities[2 * v] / speed * cell * 0.9,
                      dz = velocities[2 * v + 1] / speed * cell * 0.9;
-        const double arrow[14] = {x - dx / 2,
+        const double tip[2] = {x + dx / 2, z + dz / 2}, back[2] = {tip[0] - 0.3 * dx, tip[1] - 0.3 * dz},
+                     arrow[14] = {x - dx / 2,
                                   z - dz / 2,
-                                  x + dx / 2,
-                                  z + dz / 2,
+                                  tip[0],
+                                  tip[1],
                                   NAN,
                                   NAN,
-                                  x + dx / 2 - 0.3 * dx + 0.15 * dz,
-                                  z + dz / 2 - 0.3 * dz - 0.15 * dx,
-                                  x + dx / 2,
-                                  z + dz / 2,
-                                  x + dx / 2 - 0.3 * dx - 0.15 * dz,
-                                  z + dz / 2 - 0.3 * dz + 0.15 * dx,
+                                  back[0] + 0.15 * dz,
+                                  back[1] - 0.15 * dx,
+                                  tip[0],
+                                  tip[1],
+                                  back[0] - 0.15 * dz,
+                                  back[1] + 0.15 * dx,
                                   NAN,
                                   NAN};
         memcpy(lines + 2 * count, arrow, sizeof arrow);
@@ -201,8 +197,8 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
                  false);
 }
 
-size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening,
-                               double outward[2])
+void gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening, double outward[2],
+                             double middle[2])
 {
     const struct gm_complex *complex = flow->complex;
     size_t e = opening->first;
@@ -214,7 +210,8 @@ size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_openi
                  *b = complex->point + 2 * complex->boundary_vertex[e];
     outward[0] = b[1] - a[1];
     outward[1] = a[0] - b[0];
-    return e;
+    middle[0] = (a[0] + b[0]) / 2;
+    middle[1] = (a[1] + b[1]) / 2;
 }
 
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
@@ -223,22 +220,18 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
     const struct gm_style style = {.role = GM_INK, .alpha = 1, .width = 1};
     for (size_t i = 0; i < flow->openings; i++) {
         const struct gm_opening *opening = &flow->opening[i];
-        const struct gm_complex *complex = flow->complex;
-        double outward[2];
-        const size_t e = gm_flow_opening_outward(flow, opening, outward);
-        const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
-                     *b = complex->point + 2 * complex->boundary_vertex[e];
+        double outward[2], middle[2];
+        gm_flow_opening_outward(flow, opening, outward, middle);
         const double x = outward[0], z = outward[1];
         const bool upright = fabs(x) >= fabs(z);
         const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
-        struct gm_mark *name =
-            gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
-                         upright && x < 0 ? GM_ANCHOR_RIGHT
-                         : upright        ? GM_ANCHOR_LEFT
-                                          : GM_ANCHOR_CENTRE,
-                         names            ? names[opening->side]
-                         : opening->inlet ? "inlet"
-                                          : "outlet");
+        struct gm_mark *name = gm_mark_text(picture, panel, style, middle[0] + away * x, middle[1] + away * z,
+                                            upright && x < 0 ? GM_ANCHOR_RIGHT
+                                            : upright        ? GM_ANCHOR_LEFT
+                                                             : GM_ANCHOR_CENTRE,
+                                            names            ? names[opening->side]
+                                            : opening->inlet ? "inlet"
+                                                             : "outlet");
         if (name) {
             name->fixed = true; /* a name without space outside must not cover the field */
         }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Observables of flows: measures of their states, and errors against the exact solution that a room's file
    gives (NAN without one). */
-#include "scenes/flow/observables.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,22 +12,7 @@ static const struct gm_flow *flow_of(const struct gm_view *view)
     return gm_flow_of(view->problem);
 }
 
-/* Returns a measure of the state of a flow, by the observable's key. */
-static double measured(const struct gm_view *view)
-{
-    static const struct {
-        const char *key;
-        double (*measure)(const struct gm_flow *flow, const double *y);
-    } rows[] = {{"kinetic_energy", gm_flow_kinetic_energy}, {"enstrophy", gm_flow_enstrophy},
-                {"enstrophy_error", gm_flow_enstrophy},     {"speed_max", gm_flow_largest_speed},
-                {"divergence", gm_flow_divergence},         {"circulation_error", gm_flow_circulation_error},
-                {"scalar_total", gm_flow_scalar_total},     {"temperature_mean", gm_flow_temperature_mean}};
-    size_t i = 0;
-    while (strcmp(rows[i].key, view->observable->key) != 0) {
-        i++;
-    }
-    return rows[i].measure(flow_of(view), view->state);
-}
+static double measured(const struct gm_view *view);
 
 static double scalar_outflow(const struct gm_view *view)
 {
@@ -227,8 +212,8 @@ static double profile_error(const struct gm_view *view)
     const char quantity = view->observable->key[0] == 'u' ? 'u' : 's';
     const double margin = 0.02;
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    const struct gm_profile *line =
-        &user_room->profiles[user_room->subjects[view->observable - user_room->observables].number].line;
+    const struct gm_room_profile *line =
+        &user_room->profiles[user_room->subjects[view->observable - user_room->observables].number];
     double sum = 0;
     for (size_t i = 0; i < PLACES; i++) {
         const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),
@@ -245,41 +230,71 @@ static const struct gm_observable errors_along[] = {
     GM_LOG_OBSERVABLE("u_error", profile_error, "mean error of u"),
     GM_LOG_OBSERVABLE("theta_error", profile_error, "mean error of θ"),
 };
-static const struct gm_observable observables[] = {
-    GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ"),
-    GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ"),
-    GM_LOG_OBSERVABLE("theta_error", scalar_error, "relative error of θ"),
-    GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux"),
-    GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity"),
-    GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure"),
-    GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
-                      "relative error of the total pressure away from the walls"),
-    GM_OBSERVABLE("psi_min", psi_low, "least stream function"),
-    GM_OBSERVABLE("mean_edge", of_mesh, "mean edge"),
-    GM_LOG_OBSERVABLE("enstrophy_error", measured, "enstrophy error", .error = true, .symbol = "Z"),
-    GM_LOG_OBSERVABLE("circulation_error", measured, "circulation error"),
-    GM_OBSERVABLE("scalar_total", measured, "pollutant in the room"),
-    GM_OBSERVABLE("scalar_outflow", scalar_outflow, "outflow of pollutant"),
-    GM_LOG_OBSERVABLE("budget_defect", budget_defect, "defect of the pollutant's budget"),
-    GM_LOG_OBSERVABLE("divergence", measured, "divergence  max |d₁ d₀ ψ|"),
-    GM_OBSERVABLE("kinetic_energy", measured, "kinetic energy"),
-    GM_OBSERVABLE("enstrophy", measured, "enstrophy"),
-    GM_OBSERVABLE("speed_max", measured, "largest speed, of a triangle or of the boundary"),
-    GM_LOG_OBSERVABLE("change", change, "change of ψ in a step"),
-    GM_OBSERVABLE("triangles", of_mesh, "triangles"),
-    GM_OBSERVABLE("obtuse_share", of_mesh, "share of obtuse triangles"),
-    GM_OBSERVABLE("star_least", of_mesh, "least entry of the circumcentric star"),
-    GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration"),
-    GM_OBSERVABLE("temperature_mean", measured, "mean temperature"),
+#define GM_MEASURE(measure_, key, ...)                                                                       \
+    .observable = GM_OBSERVABLE(key, measured, __VA_ARGS__), .measure = measure_
+
+/* Observables of flows; those of all rooms come last. */
+static const struct gm_room_row rows[] = {
+    {.observable = GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ")},
+    {.observable = GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ")},
+    {.observable = GM_LOG_OBSERVABLE("theta_error", scalar_error, "relative error of θ")},
+    {.observable = GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux")},
+    {.observable = GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity")},
+    {.observable =
+         GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure")},
+    {.observable = GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
+                                     "relative error of the total pressure away from the walls")},
+    {.observable = GM_OBSERVABLE("psi_min", psi_low, "least stream function")},
+    {.observable = GM_OBSERVABLE("mean_edge", of_mesh, "mean edge")},
+    {GM_MEASURE(gm_flow_enstrophy, "enstrophy_error", "enstrophy error", .error = true, .symbol = "Z",
+                .logarithmic = true)},
+    {GM_MEASURE(gm_flow_circulation_error, "circulation_error", "circulation error", .logarithmic = true)},
+    {GM_MEASURE(gm_flow_scalar_total, "scalar_total", "pollutant in the room"), .of_scalar = "integral of"},
+    {.observable = GM_OBSERVABLE("scalar_outflow", scalar_outflow, "outflow of pollutant"),
+     .of_scalar = "outflow of"},
+    {.observable = GM_LOG_OBSERVABLE("budget_defect", budget_defect, "defect of the pollutant's budget"),
+     .of_scalar = "defect of the budget of"},
+    {GM_MEASURE(gm_flow_divergence, "divergence", "divergence  max |d₁ d₀ ψ|", .logarithmic = true)},
+    {GM_MEASURE(gm_flow_kinetic_energy, "kinetic_energy", "kinetic energy"), .powers = {{4, -2, 0}}},
+    {GM_MEASURE(gm_flow_enstrophy, "enstrophy", "enstrophy"), .powers = {{2, -2, 0}}},
+    {GM_MEASURE(gm_flow_largest_speed, "speed_max", "largest speed, of a triangle or of the boundary"),
+     .powers = {{1, -1, 0}}},
+    {.observable = GM_LOG_OBSERVABLE("change", change, "change of ψ in a step")},
+    {.observable = GM_OBSERVABLE("triangles", of_mesh, "triangles")},
+    {.observable = GM_OBSERVABLE("obtuse_share", of_mesh, "share of obtuse triangles")},
+    {.observable = GM_OBSERVABLE("star_least", of_mesh, "least entry of the circumcentric star")},
+    {.observable = GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration"), .of_scalar = "mean"},
+    {GM_MEASURE(gm_flow_temperature_mean, "temperature_mean", "mean temperature"), .powers = {{0, 0, 1}}},
 };
+enum { FIRST_COMMON = 11 };
+
+static const struct gm_room_row *find_row(const char *key)
+{
+    size_t i = 0;
+    while (i < GM_COUNT(rows) && strcmp(rows[i].observable.key, key) != 0) {
+        i++;
+    }
+    return i < GM_COUNT(rows) ? &rows[i] : NULL;
+}
+
+static double measured(const struct gm_view *view)
+{
+    return find_row(view->observable->key)->measure(flow_of(view), view->state);
+}
+
+const struct gm_room_row *gm_room_common_rows(size_t *count)
+{
+    *count = GM_COUNT(rows) - FIRST_COMMON;
+    return rows + FIRST_COMMON;
+}
 
 const struct gm_observable *gm_room_observable(const char *key, bool along)
 {
-    const struct gm_observable *table = along ? errors_along : observables;
-    const size_t rows = along ? GM_COUNT(errors_along) : GM_COUNT(observables);
-    size_t i = 0;
-    while (i < rows && strcmp(table[i].key, key) != 0) {
-        i++;
+    const struct gm_room_row *row = find_row(key);
+    for (size_t i = 0; along && i < GM_COUNT(errors_along); i++) {
+        if (strcmp(errors_along[i].key, key) == 0) {
+            return &errors_along[i];
+        }
     }
-    return i < rows ? &table[i] : NULL;
+    return row && !along ? &row->observable : NULL;
 }

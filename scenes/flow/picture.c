@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/flow/marks.h"
+#include "scenes/flow/picture.h"
 
 enum { SMOOTH = 4000 /* triangles */, MOST_BESIDE_GRAPHS = 4 };
 
@@ -89,12 +89,6 @@ static void colour_range(struct gm_picture *picture, const struct gm_lane *const
     }
 }
 
-static const char *const bar_labels[GM_SHOW_TEMPERATURE + 1] = {
-    [GM_SHOW_SCALAR] = "concentration θ",  [GM_SHOW_VORTICITY] = "vorticity ω",
-    [GM_SHOW_SPEED] = "speed |u|",         [GM_SHOW_PRESSURE] = "total pressure",
-    [GM_SHOW_TEMPERATURE] = "temperature",
-};
-
 static const char *title_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const char *colour = lane->shown.colour_name, *panel = gm_lane_title(lane);
@@ -129,8 +123,8 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     double aside[2] = {beside, beside};
     bool stands[2] = {false, false};
     for (size_t i = 0; named && i < flow->openings; i++) {
-        double outward[2];
-        gm_flow_opening_outward(flow, &flow->opening[i], outward);
+        double outward[2], middle[2];
+        gm_flow_opening_outward(flow, &flow->opening[i], outward, middle);
         if (fabs(outward[0]) < fabs(outward[1])) {
             stands[outward[1] > 0] = true;
         } else if (look->sides) {
@@ -165,8 +159,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                      plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
                      plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
-        panel->colour_bar_label =
-            look->names[flows->show] ? look->names[flows->show] : bar_labels[flows->show];
+        panel->colour_bar_label = look->names[flows->show];
     }
     if (flows->grid) {
         gm_flow_draw_grid(picture, panel, complex, over);
@@ -259,20 +252,26 @@ static bool is_steady(const struct gm_lane *const *lanes, size_t count)
 }
 
 /* Draws errors against the mean edge length, a point for each lane. */
-static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                             const struct gm_look *look)
+static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
+    static const struct {
+        const char *observable, *name;
+    } errors[] = {{"psi_error", "ψ"},
+                  {"theta_error", "θ"},
+                  {"flux_error", "flux"},
+                  {"velocity_error", "velocity"},
+                  {"pressure_error", "total pressure"}};
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
     panel->axes = true;
     panel->x = (struct gm_axis){.label = "mean edge length", .scale = GM_LOG, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "relative error", .scale = GM_LOG, .low = 1, .high = 0};
     double *points = gm_picture_memory(picture, 2 * (count + 1) * sizeof *points);
     for (int drawn = 0; points && drawn < 2; drawn++) {
-        for (size_t k = 0; look->errors[k].observable; k++) {
-            if (gm_scene_observable(lanes[0]->scene, look->errors[k].observable) < 0) {
+        for (size_t k = 0; k < GM_COUNT(errors); k++) {
+            if (gm_scene_observable(lanes[0]->scene, errors[k].observable) < 0) {
                 continue;
             }
-            const int series = gm_asked_series(picture, lanes[0]->scene, look->errors[k].observable);
+            const int series = gm_asked_series(picture, lanes[0]->scene, errors[k].observable);
             size_t made = 0;
             for (size_t i = 0; series >= 0 && i < count; i++) {
                 const double x = gm_flow_of(&lanes[i]->problem)->complex->mean_edge,
@@ -296,9 +295,8 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
                            points, made);
             const double *first = points, *last = points + 2 * (made - 1);
             const double slope = made > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
-            const char *name = made > 1
-                                   ? gm_picture_text(picture, "%s, order %.2f", look->errors[k].name, slope)
-                                   : look->errors[k].name;
+            const char *name =
+                made > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
             gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
                          first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
         }
@@ -353,16 +351,16 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
                    const struct gm_look *look)
 {
     const struct gm_flows *flows = lanes[0]->parameters;
-    picture->title = look->title;
+    picture->title = lanes[0]->scene->title;
     picture->subtitle = subtitle(picture, lanes, count, look);
     picture->graphs_below = true;
     draw_clock(picture, lanes, count, look);
-    if (flows->show == GM_SHOW_CONVERGENCE && look->errors) {
-        draw_convergence(picture, lanes, count, look);
+    if (flows->show == GM_SHOW_CONVERGENCE && gm_room_line(gm_room_of(&lanes[0]->problem), GM_ROOM_EXACT)) {
+        draw_convergence(picture, lanes, count);
         return;
     }
     if (flows->show == GM_SHOW_PROFILES && look->profiles) {
-        look->profiles(lanes, count, picture, GM_PLACE_STATE);
+        gm_room_draw_profiles(lanes, count, picture, GM_PLACE_STATE);
         return;
     }
     if (flows->show == GM_SHOW_DIVERGENCE) {
@@ -385,6 +383,6 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     if (graphs && look->graphs[0]) {
         draw_graphs(picture, lanes, count, look);
     } else if (graphs && look->profiles_below) {
-        look->profiles(lanes, count, picture, GM_PLACE_GRAPH);
+        gm_room_draw_profiles(lanes, count, picture, GM_PLACE_GRAPH);
     }
 }

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts through a room: drawn with exact and published values, and written as rows of numbers. */
-#include "scenes/flow/profiles.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/flow/observables.h"
 
 /* Returns true if published points hold for a lane's parameters. */
 static bool holds(const struct gm_room_table *table, const struct gm_flows *flows)
@@ -16,9 +15,9 @@ static bool holds(const struct gm_room_table *table, const struct gm_flows *flow
 }
 
 /* Returns the coordinate that runs along a profile: 0, or 1 if it is steeper. */
-static int along(const struct gm_profile *line)
+static int along(const struct gm_room_profile *profile)
 {
-    return fabs(line->b[1] - line->a[1]) >= fabs(line->b[0] - line->a[0]);
+    return fabs(profile->b[1] - profile->a[1]) >= fabs(profile->b[0] - profile->a[0]);
 }
 
 static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
@@ -26,8 +25,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 {
     enum { POINTS = 97 };
     const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
-    const struct gm_profile *line = &profile->line;
-    const int up = along(line);
+    const int up = along(profile);
     double at[2 * POINTS], (*points)[2 * POINTS] = gm_picture_memory(picture, (count + 2) * sizeof *points);
     size_t *made = gm_picture_memory(picture, count * sizeof *made);
     if (!points || !made) {
@@ -42,7 +40,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                             .high = 0};
     for (size_t i = 0; i < POINTS; i++) {
         for (size_t c = 0; c < 2; c++) {
-            at[2 * i + c] = line->a[c] + (line->b[c] - line->a[c]) * (double)i / (POINTS - 1);
+            at[2 * i + c] = profile->a[c] + (profile->b[c] - profile->a[c]) * (double)i / (POINTS - 1);
         }
     }
     const struct gm_view view = gm_lane_view(lanes[0]);
@@ -76,7 +74,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
         value.low = profile->range.least;
         value.high = profile->range.most;
     }
-    const struct gm_axis axis = {.label = up ? "y" : "x", .low = line->a[up], .high = line->b[up]};
+    const struct gm_axis axis = {.label = up ? "y" : "x", .low = profile->a[up], .high = profile->b[up]};
     panel->axes = true;
     panel->x = up ? value : axis;
     panel->y = up ? axis : value;
@@ -134,32 +132,27 @@ static void write_sample(const struct gm_view *view, const char *front, const ch
     fputc('\n', stream);
 }
 
-static void write_profile(const struct gm_view *view, const char *front, const struct gm_profile *profile,
-                          char quantity, FILE *stream)
-{
-    for (size_t i = 0; i < profile->count; i++) {
-        const double s = (double)i / (double)(profile->count - 1),
-                     at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
-                              profile->a[1] + s * (profile->b[1] - profile->a[1])};
-        write_sample(view, front, profile->name, at[0], at[1],
-                     quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
-    }
-}
-
 void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     for (size_t i = 0; i < user_room->table_count; i++) {
         const struct gm_room_table *table = &user_room->tables[i];
-        const struct gm_profile *line = &table->profile->line;
+        const struct gm_room_profile *profile = table->profile;
         for (size_t k = 0; holds(table, view->parameters) && k < table->count; k++) {
-            double at[2] = {line->a[0], line->a[1]};
-            at[along(line)] = table->points[2 * k];
+            double at[2] = {profile->a[0], profile->a[1]};
+            at[along(profile)] = table->points[2 * k];
             write_sample(view, front, table->name, at[0], at[1], table->points[2 * k + 1], stream);
         }
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
         const struct gm_room_profile *profile = &user_room->profiles[i];
-        write_profile(view, front, &profile->line, profile->quantities[0], stream);
+        const char quantity = profile->quantities[0];
+        for (size_t k = 0; k < profile->count; k++) {
+            const double s = (double)k / (double)(profile->count - 1),
+                         at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
+                                  profile->a[1] + s * (profile->b[1] - profile->a[1])};
+            write_sample(view, front, profile->name, at[0], at[1],
+                         quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
+        }
     }
 }

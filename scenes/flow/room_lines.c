@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
    scene's arena; its body calls this. */
-#include "scenes/flow/room_lines.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,69 +10,66 @@
 #include "core/flow/flow.h"
 #include "core/model/scope.h"
 #include "core/schemes.h"
-#include "scenes/flow/observables.h"
-#include "scenes/flow/profiles.h"
+#include "scenes/common/written.h"
 
 /* Returns the text of the only line that begins so; NULL without such a line. */
-static const char *said(struct gm_user_room *user_room, const char *word)
+static const char *said(const struct gm_room *room, const char *word)
 {
     struct gm_span value;
-    return gm_room_said(&user_room->room, word, 0, &value) ? gm_room_keep(&user_room->room, value) : NULL;
+    return gm_room_said(room, word, 0, &value) ? gm_room_keep(room, value) : NULL;
 }
 
 /* Returns the text of an option; NULL if it is not given. */
-static const char *option(struct gm_user_room *user_room, struct gm_span pieces, const char *word)
+static const char *option(const struct gm_room *room, struct gm_span pieces, const char *word)
 {
     struct gm_span value;
-    return gm_room_option(&user_room->room, pieces, word, &value) ? gm_room_keep(&user_room->room, value)
-                                                                  : NULL;
+    return gm_room_option(room, pieces, word, &value) ? gm_room_keep(room, value) : NULL;
 }
 
-static const char *take(struct gm_user_room *user_room, struct gm_span *rest, const char *separator)
+static const char *take(const struct gm_room *room, struct gm_span *rest, const char *separator)
 {
     struct gm_span piece;
-    gm_span_take(user_room->room.text, rest, separator, &piece);
-    return gm_room_keep(&user_room->room, piece);
+    gm_span_take(room->text, rest, separator, &piece);
+    return gm_room_keep(room, piece);
 }
 
-static double number(struct gm_user_room *user_room, struct gm_span span)
+static double number(const struct gm_room *room, struct gm_span span)
 {
-    const struct gm_room *room = &user_room->room;
     double value;
     gm_room_need(room, gm_room_number(room, span, &value, room->fault));
     return value;
 }
 
 /* Returns numbers separated by commas: the numbers of an option, or all if `word` is NULL. */
-static double *numbers(struct gm_user_room *user_room, struct gm_span pieces, const char *word, size_t *count)
+static double *numbers(const struct gm_room *room, struct gm_span pieces, const char *word, size_t *count)
 {
     struct gm_span rest = pieces, piece;
     double *list = NULL;
     *count = 0;
-    while ((!word || *count > 0 || gm_room_option(&user_room->room, pieces, word, &rest)) &&
-           gm_span_take(user_room->room.text, &rest, ",", &piece)) {
-        list = gm_arena_resize(user_room->arena, list, *count + 1, sizeof *list);
-        list[(*count)++] = number(user_room, piece);
+    while ((!word || *count > 0 || gm_room_option(room, pieces, word, &rest)) &&
+           gm_span_take(room->text, &rest, ",", &piece)) {
+        list = gm_arena_resize(room->arena, list, *count + 1, sizeof *list);
+        list[(*count)++] = number(room, piece);
     }
     return list;
 }
 
-static double option_number(struct gm_user_room *user_room, struct gm_span pieces, const char *word,
+static double option_number(const struct gm_room *room, struct gm_span pieces, const char *word,
                             double otherwise)
 {
     size_t count;
-    const double *list = numbers(user_room, pieces, word, &count);
+    const double *list = numbers(room, pieces, word, &count);
     return count > 0 ? list[0] : otherwise;
 }
 
 /* Returns words separated by blanks or commas, NULL-terminated; NULL for an empty text. */
-static const char *const *list_words(struct gm_user_room *user_room, const char *text)
+static const char *const *list_words(const struct gm_room *room, const char *text)
 {
     size_t count = 0;
     const char **list = NULL;
     for (const char *at = text; at && *(at += strspn(at, ", ")); at += strcspn(at, ", ")) {
-        char *word = gm_arena_print(user_room->arena, "%.*s", (int)(strcspn(at, ", ")), at);
-        list = gm_arena_resize(user_room->arena, list, count + 2, sizeof *list);
+        char *word = gm_arena_print(room->arena, "%.*s", (int)(strcspn(at, ", ")), at);
+        list = gm_arena_resize(room->arena, list, count + 2, sizeof *list);
         list[count++] = word;
         list[count] = NULL;
     }
@@ -80,13 +77,13 @@ static const char *const *list_words(struct gm_user_room *user_room, const char 
 }
 
 /* Returns the schemes of a list, which must be schemes for flows. */
-static const char *const *list_schemes(struct gm_user_room *user_room, struct gm_span text)
+static const char *const *list_schemes(const struct gm_room *room, struct gm_span text)
 {
-    const char *const *names = list_words(user_room, gm_room_keep(&user_room->room, text));
+    const char *const *names = list_words(room, gm_room_keep(room, text));
     for (size_t i = 0; names && names[i]; i++) {
         const struct gm_scheme *scheme = gm_scheme_find(names[i]);
         if (!scheme || scheme->family->kind != &gm_kind_flow) {
-            gm_room_refuse(&user_room->room, text.begin, "%s is not a scheme of rooms", names[i]);
+            gm_room_refuse(room, text.begin, "%s is not a scheme of rooms", names[i]);
         }
     }
     return names;
@@ -95,14 +92,14 @@ static const char *const *list_schemes(struct gm_user_room *user_room, struct gm
 /* Takes words key=value, each with one of the scene's keys, or a word that all scenes have. */
 static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
 {
-    const size_t place = gm_span_trimmed(user_room->room.text, *rest).begin;
-    const char *text = take(user_room, rest, ";");
+    const struct gm_room *room = &user_room->room;
+    const size_t place = gm_span_trimmed(room->text, *rest).begin;
+    const char *text = take(room, rest, ";");
     for (const char *word = text; *word; word += strcspn(word, " "), word += *word == ' ') {
         const char *key = gm_arena_print(user_room->arena, "%.*s", (int)strcspn(word, "= "), word);
         if (word[strlen(key)] != '=' ||
             !(gm_scene_parameter(&user_room->scene, key) || gm_reading_reserves(key, strlen(key)))) {
-            gm_room_refuse(&user_room->room, place,
-                           "words key=value were expected, with keys of the room: until=5");
+            gm_room_refuse(room, place, "words key=value were expected, with keys of the room: until=5");
         }
     }
     return text;
@@ -110,12 +107,16 @@ static const char *take_arguments(struct gm_user_room *user_room, struct gm_span
 
 static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
 {
-    const char *key = gm_room_keep(&user_room->room, span);
+    const struct gm_room *room = &user_room->room;
+    const char *key = gm_room_keep(room, span);
     if (gm_scene_observable(&user_room->scene, key) < 0) {
-        gm_room_refuse(&user_room->room, span.begin, "this is not an observable of the room");
+        gm_room_refuse(room, span.begin, "this is not an observable of the room");
     }
     return key;
 }
+
+#define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
+static const char *const shows[] = {SHOWS, NULL}, *const warm_shows[] = {SHOWS, "temperature", NULL};
 
 /* The rows that a file may name; others are its own numbers. */
 static const struct gm_parameter known[] = {
@@ -145,8 +146,7 @@ static const struct gm_parameter known[] = {
                    "particles that the flow carries along", .logarithmic = true),
     GM_BOOLEAN_ROW(struct gm_flows, smoke, "smoke", "no",
                    "tracers come in at inlets and sources, and do not fill the room at the start"),
-    GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", gm_flows_shows, "what the picture shows",
-                  .live = true),
+    GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", shows, "what the picture shows", .live = true),
     GM_BOOLEAN_ROW(struct gm_flows, streamlines, "streamlines", "yes",
                    "streamlines, as level lines of the stream function", .live = true),
     GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),
@@ -169,26 +169,21 @@ static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct
     return &user_room->rows[scene->parameter_count++];
 }
 
-static char *format(struct gm_user_room *user_room, double value)
-{
-    char text[40];
-    return gm_arena_print(user_room->arena, "%s", gm_number_format(value, text, sizeof text));
-}
-
 /* Checks that the usual value of a row is one of its values. */
 static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
 {
+    const struct gm_room *room = &user_room->room;
     struct gm_flows scratch;
     if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
-        gm_room_refuse(&user_room->room, place,
-                       "the usual value lies outside of the range, or is none of the words");
+        gm_room_refuse(room, place, "the usual value lies outside of the range, or is none of the words");
     }
 }
 
 /* Adds choices that come before a place of the file. */
 static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
 {
-    const struct gm_written_choices *choices = &user_room->room.choices;
+    const struct gm_room *room = &user_room->room;
+    const struct gm_written_choices *choices = &room->choices;
     for (; *count < choices->count && choices->list[*count].place < place; ++*count) {
         const struct gm_written_choice *choice = &choices->list[*count];
         const char **words = gm_arena_take(user_room->arena, choice->count + 1, sizeof *words);
@@ -196,7 +191,7 @@ static void add_choices(struct gm_user_room *user_room, size_t place, size_t *co
             words[i] = choice->words[i];
         }
         if (find_row(choice->name)) {
-            gm_room_refuse(&user_room->room, choice->place, "this name is reserved");
+            gm_room_refuse(room, choice->place, "this name is reserved");
         }
         const char *meaning =
             gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
@@ -212,19 +207,21 @@ static void add_choices(struct gm_user_room *user_room, size_t place, size_t *co
 static void make_rows(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
-    const struct gm_parameter timing[] = {GM_DT(format(user_room, isnan(room->dt) ? 0.01 : room->dt),
-                                                room->dt_range.least, room->dt_range.most),
-                                          GM_UNTIL(format(user_room, isnan(room->until) ? 10 : room->until))};
+    const struct gm_parameter timing[] = {
+        GM_DT(gm_written_number(room->arena, isnan(room->dt) ? 0.01 : room->dt, NULL), room->dt_range.least,
+              room->dt_range.most),
+        GM_UNTIL(gm_written_number(room->arena, isnan(room->until) ? 10 : room->until, NULL))};
     size_t own = 0, choices = 0;
     struct gm_span dt;
     gm_room_said(room, "dt", 0, &dt);
     check_row(user_room, add_row(user_room, &timing[0]), dt.begin);
     add_row(user_room, &timing[1]);
     if (!gm_room_parameter(room, "viscosity") && !gm_room_parameter(room, "reynolds")) {
-        add_row(user_room, find_row("viscosity"))->standard = format(user_room, room->viscosity);
+        add_row(user_room, find_row("viscosity"))->standard =
+            gm_written_number(room->arena, room->viscosity, NULL);
         if (!gm_room_parameter(room, "schmidt")) {
             add_row(user_room, find_row("schmidt"))->standard =
-                format(user_room, room->viscosity / room->diffusivity);
+                gm_written_number(room->arena, room->viscosity / room->diffusivity, NULL);
         }
     }
     for (size_t i = 0; i < room->parameter_count; i++) {
@@ -233,7 +230,7 @@ static void make_rows(struct gm_user_room *user_room)
         const struct gm_parameter plain =
             GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
         if (!template && own == GM_FLOWS_OWN) {
-            gm_room_refuse(&user_room->room, parameter->place, "a room has at most 8 parameters of its own");
+            gm_room_refuse(room, parameter->place, "a room has at most 8 parameters of its own");
         }
         add_choices(user_room, parameter->place, &choices);
         struct gm_parameter *row = add_row(user_room, template ? template : &plain);
@@ -257,7 +254,7 @@ static void make_rows(struct gm_user_room *user_room)
         if (!gm_room_parameter(room, known[i].key) && !(of_file && room->rectangular)) {
             struct gm_parameter *row = add_row(user_room, &known[i]);
             if (!isnan(room->buoyancy) && strcmp(row->key, "show") == 0) {
-                row->choices = gm_flows_warm_shows;
+                row->choices = warm_shows;
                 row->standard = "temperature";
             }
         }
@@ -267,12 +264,13 @@ static void make_rows(struct gm_user_room *user_room)
 /* Checks that all pieces after the first begin with one of `words`, NULL-terminated. */
 static void check_options(struct gm_user_room *user_room, struct gm_span rest, const char *const *words)
 {
+    const struct gm_room *room = &user_room->room;
     struct gm_span piece, word;
-    gm_span_take(user_room->room.text, &rest, ";", &piece);
-    while (gm_span_take(user_room->room.text, &rest, ";", &piece)) {
-        gm_span_take(user_room->room.text, &piece, " ", &word);
-        if (!words[gm_span_among(user_room->room.text, word, words)]) {
-            gm_room_refuse(&user_room->room, word.begin, "this line has no such option");
+    gm_span_take(room->text, &rest, ";", &piece);
+    while (gm_span_take(room->text, &rest, ";", &piece)) {
+        gm_span_take(room->text, &piece, " ", &word);
+        if (!words[gm_span_among(room->text, word, words)]) {
+            gm_room_refuse(room, word.begin, "this line has no such option");
         }
     }
 }
@@ -280,15 +278,16 @@ static void check_options(struct gm_user_room *user_room, struct gm_span rest, c
 /* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
 static void observe(struct gm_user_room *user_room, struct gm_span rest)
 {
+    const struct gm_room *room = &user_room->room;
     static const char *const options[] = {"along", "title", "missing", NULL};
     const struct gm_span line = rest;
     check_options(user_room, line, options);
-    const char *key = take(user_room, &rest, ";"), *along = option(user_room, rest, "along"),
-               *title = option(user_room, rest, "title"), *missing = option(user_room, rest, "missing");
+    const char *key = take(room, &rest, ";"), *along = option(room, rest, "along"),
+               *title = option(room, rest, "title"), *missing = option(room, rest, "missing");
     const struct gm_observable *row = gm_room_observable(key, along);
     size_t profile = 0, i = 0;
     while (along && profile < user_room->profile_count &&
-           strcmp(user_room->profiles[profile].line.name, along) != 0) {
+           strcmp(user_room->profiles[profile].name, along) != 0) {
         profile++;
     }
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, key) != 0) {
@@ -297,7 +296,7 @@ static void observe(struct gm_user_room *user_room, struct gm_span rest)
     struct gm_observable *observable = &user_room->observables[i];
     if (i == user_room->observable_count) {
         if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
-            gm_room_refuse(&user_room->room, line.begin,
+            gm_room_refuse(room, line.begin,
                            "this is nothing that is observed of a room, or of a profile that it has");
         }
         *observable = *row;
@@ -310,71 +309,72 @@ static void observe(struct gm_user_room *user_room, struct gm_span rest)
 /* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
 static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
 {
+    const struct gm_room *room = &user_room->room;
     user_room->profiles = gm_arena_resize(user_room->arena, user_room->profiles, user_room->profile_count + 1,
                                           sizeof *user_room->profiles);
     struct gm_room_profile *profile = &user_room->profiles[user_room->profile_count++];
     struct gm_span head, piece;
     const struct gm_span line = rest;
-    gm_span_take(user_room->room.text, &rest, ";", &head);
-    const char *const *words = list_words(user_room, gm_room_keep(&user_room->room, head));
-    *profile = (struct gm_room_profile){.line = {.name = words ? words[0] : ""}, .range = {NAN, NAN}};
+    gm_span_take(room->text, &rest, ";", &head);
+    const char *const *words = list_words(room, gm_room_keep(room, head));
+    *profile = (struct gm_room_profile){.name = words ? words[0] : "", .range = {NAN, NAN}};
     char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
     profile->quantities = quantities;
     for (size_t i = 1; words && words[i]; i++) {
         if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
-            gm_room_refuse(&user_room->room, line.begin, "a profile shows u, v or scalar");
+            gm_room_refuse(room, line.begin, "a profile shows u, v or scalar");
         }
         quantities[i - 1] = words[i][0];
     }
-    double *const ends[2] = {profile->line.a, profile->line.b};
+    double *const ends[2] = {profile->a, profile->b};
     for (int end = 0; end < 2; end++) {
         size_t count;
-        gm_span_take(user_room->room.text, &rest, ";", &piece);
-        const double *place = numbers(user_room, piece, NULL, &count);
+        gm_span_take(room->text, &rest, ";", &piece);
+        const double *place = numbers(room, piece, NULL, &count);
         if (count != 2) {
-            gm_room_refuse(&user_room->room, line.begin,
+            gm_room_refuse(room, line.begin,
                            "a profile has a name and quantities, two places and a number of points");
         }
         memcpy(ends[end], place, 2 * sizeof *place);
     }
-    gm_span_take(user_room->room.text, &rest, ";", &piece);
-    profile->line.count = (size_t)fmin(fmax(number(user_room, piece), 2), 1e6);
-    const struct gm_room *room = &user_room->room;
+    gm_span_take(room->text, &rest, ";", &piece);
+    profile->count = (size_t)fmin(fmax(number(room, piece), 2), 1e6);
     if (gm_span_take(room->text, &rest, ";", &piece)) {
         gm_room_need(room, gm_room_range_of(room, piece, &profile->range, room->fault));
     }
-    profile->label = rest.begin < rest.end ? gm_room_keep(&user_room->room, rest) : NULL;
+    profile->label = rest.begin < rest.end ? gm_room_keep(room, rest) : NULL;
 }
 
 /* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
 static void add_table(struct gm_user_room *user_room, struct gm_span rest)
 {
+    const struct gm_room *room = &user_room->room;
     user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
                                         sizeof *user_room->tables);
     struct gm_room_table *table = &user_room->tables[user_room->table_count++];
     struct gm_span line = rest, condition, piece;
-    const char *const *words = list_words(user_room, take(user_room, &rest, ";"));
-    gm_span_take(user_room->room.text, &rest, ";", &condition);
-    const char *key = take(user_room, &condition, "=");
+    const char *const *words = list_words(room, take(room, &rest, ";"));
+    gm_span_take(room->text, &rest, ";", &condition);
+    const char *key = take(room, &condition, "=");
     *table = (struct gm_room_table){.name = words ? words[0] : "",
                                     .row = gm_scene_parameter(&user_room->scene, key)};
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        if (words && words[1] && strcmp(user_room->profiles[i].line.name, words[1]) == 0) {
+        if (words && words[1] && strcmp(user_room->profiles[i].name, words[1]) == 0) {
             table->profile = &user_room->profiles[i];
         }
     }
     if (!table->profile || !table->row) {
-        gm_room_refuse(&user_room->room, line.begin,
+        gm_room_refuse(room, line.begin,
                        "a table has a name and a profile, the value of a parameter, and points");
     }
-    table->value = number(user_room, condition);
-    while (gm_span_take(user_room->room.text, &rest, ",", &piece)) {
+    table->value = number(room, condition);
+    while (gm_span_take(room->text, &rest, ",", &piece)) {
         struct gm_span value;
-        gm_span_take(user_room->room.text, &piece, " ", &value);
+        gm_span_take(room->text, &piece, " ", &value);
         table->points =
             gm_arena_resize(user_room->arena, table->points, 2 * (table->count + 1), sizeof *table->points);
-        table->points[2 * table->count] = number(user_room, value);
-        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(user_room, piece) : NAN;
+        table->points[2 * table->count] = number(room, value);
+        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(room, piece) : NAN;
     }
 }
 
@@ -391,6 +391,11 @@ static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct 
     *nonzero = colon < close;
     rest->begin = close < rest->end ? close + 1 : close;
     return open < close;
+}
+
+const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room, struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
 }
 
 /* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
@@ -473,15 +478,8 @@ static bool take_graph(const struct gm_room *room, size_t number, struct gm_span
 void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
                        struct gm_picture *picture, struct gm_look *look)
 {
-    static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
-                                                  {"theta_error", "θ"},
-                                                  {"flux_error", "flux"},
-                                                  {"velocity_error", "velocity"},
-                                                  {"pressure_error", "total pressure"},
-                                                  {NULL, NULL}};
     struct gm_span rest, piece;
     struct gm_fault fault;
-    look->errors = gm_room_line(room, GM_ROOM_EXACT) ? errors : NULL;
     if (gm_room_said(room, "time", 0, &rest)) {
         gm_span_take(room->text, &rest, ";", &piece);
         rest = gm_span_trimmed(room->text, rest);
@@ -500,7 +498,7 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
         look->levels = look->level_count > 0 ? levels : NULL;
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles = user_room->profiles[i].quantities[0] ? gm_room_draw_profiles : look->profiles;
+        look->profiles |= user_room->profiles[i].quantities[0] != 0;
     }
     const bool graphs = gm_room_said(room, "graph", 0, &rest);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
@@ -529,7 +527,7 @@ static void check_look(struct gm_user_room *user_room)
     gm_room_said(room, "subtitle", 0, &rest);
     while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
         double value;
-        good = gm_scene_parameter(&user_room->scene, gm_room_keep(&user_room->room, piece)) ||
+        good = gm_scene_parameter(&user_room->scene, gm_room_keep(room, piece)) ||
                gm_room_number(&measured, piece, &value, room->fault);
     }
     for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
@@ -561,43 +559,43 @@ static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 /* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; reynolds VALUES */
 static void make_studies(struct gm_user_room *user_room)
 {
+    const struct gm_room *room = &user_room->room;
     struct gm_scene *scene = &user_room->scene;
     struct gm_figure *figures = NULL;
     struct gm_span rest, piece;
     size_t count = 0;
-    while (gm_room_said(&user_room->room, "figure", scene->figure_count, &rest)) {
+    while (gm_room_said(room, "figure", scene->figure_count, &rest)) {
         figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
         struct gm_figure *figure = &figures[scene->figure_count++];
-        figure->name = take(user_room, &rest, ";");
+        figure->name = take(room, &rest, ";");
         figure->arguments = take_arguments(user_room, &rest);
-        figure->statement = gm_room_keep(&user_room->room, rest);
+        figure->statement = gm_room_keep(room, rest);
     }
     scene->figures = figures;
-    if (gm_room_said(&user_room->room, "work", 0, &rest)) {
-        const char *const options[] = {
-            "measure", "coarsest", "halvings", "errors", "schemes", user_room->room.edges, NULL};
+    if (gm_room_said(room, "work", 0, &rest)) {
+        const char *const options[] = {"measure", "coarsest",  "halvings", "errors",
+                                       "schemes", room->edges, NULL};
         struct gm_work *work = &user_room->work;
         check_options(user_room, rest, options);
-        *work = (struct gm_work){.arguments = take_arguments(user_room, &rest),
-                                 .coarsest = option_number(user_room, rest, "coarsest", 0),
-                                 .halvings =
-                                     (int)fmin(fmax(0, option_number(user_room, rest, "halvings", 4)), 31)};
-        if (gm_room_option(&user_room->room, rest, "schemes", &piece)) {
-            work->schemes = list_schemes(user_room, piece);
+        *work =
+            (struct gm_work){.arguments = take_arguments(user_room, &rest),
+                             .coarsest = option_number(room, rest, "coarsest", 0),
+                             .halvings = (int)fmin(fmax(0, option_number(room, rest, "halvings", 4)), 31)};
+        if (gm_room_option(room, rest, "schemes", &piece)) {
+            work->schemes = list_schemes(room, piece);
         }
-        if (gm_room_option(&user_room->room, rest, "measure", &piece)) {
+        if (gm_room_option(room, rest, "measure", &piece)) {
             work->measure = observable_key(user_room, piece);
         }
-        work->errors = numbers(user_room, rest, "errors", &count);
-        work->resolutions = numbers(user_room, rest, user_room->room.edges, &work->resolution_count);
-        work->resolution = work->resolutions ? user_room->room.edges : NULL;
+        work->errors = numbers(room, rest, "errors", &count);
+        work->resolutions = numbers(room, rest, room->edges, &work->resolution_count);
+        work->resolution = work->resolutions ? room->edges : NULL;
         if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
-            gm_room_refuse(&user_room->room, rest.begin,
-                           "work: has three errors that fall, and 1 to 30 halvings");
+            gm_room_refuse(room, rest.begin, "work: has three errors that fall, and 1 to 30 halvings");
         }
         scene->work = work;
     }
-    if (gm_room_said(&user_room->room, "stability", 0, &rest)) {
+    if (gm_room_said(room, "stability", 0, &rest)) {
         struct gm_stability *map = &user_room->stability;
         *map = (struct gm_stability){.arguments = take_arguments(user_room, &rest),
                                      .parameter = "reynolds",
@@ -607,13 +605,12 @@ static void make_studies(struct gm_user_room *user_room)
                                      .step_count = GM_COUNT(courant_numbers),
                                      .kept = "speed_max",
                                      .schemes = marching};
-        map->values = numbers(user_room, rest, map->parameter, &map->value_count);
+        map->values = numbers(room, rest, map->parameter, &map->value_count);
         if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
-            gm_room_refuse(&user_room->room, rest.begin,
-                           "stability: needs values of a parameter: reynolds 100, 400");
+            gm_room_refuse(room, rest.begin, "stability: needs values of a parameter: reynolds 100, 400");
         }
         scene->stability = map;
-    } else if (gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
+    } else if (gm_room_line(room, GM_ROOM_EXACT)) {
         scene->no_stability =
             "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
@@ -621,30 +618,30 @@ static void make_studies(struct gm_user_room *user_room)
 
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
+    const struct gm_room *room = &user_room->room;
     struct gm_scene *scene = &user_room->scene;
     struct gm_span rest, piece;
-    const char *watch = said(user_room, "watch"), *time = said(user_room, "time");
+    const char *watch = said(room, "watch"), *time = said(room, "time");
     make_rows(user_room);
-    for (size_t i = 0; gm_room_said(&user_room->room, "profile", i, &rest); i++) {
+    for (size_t i = 0; gm_room_said(room, "profile", i, &rest); i++) {
         add_profile(user_room, rest);
     }
-    for (size_t i = 0; gm_room_said(&user_room->room, "table", i, &rest); i++) {
+    for (size_t i = 0; gm_room_said(room, "table", i, &rest); i++) {
         add_table(user_room, rest);
     }
-    for (size_t i = 0; gm_room_said(&user_room->room, "observe", i, &rest); i++) {
+    for (size_t i = 0; gm_room_said(room, "observe", i, &rest); i++) {
         observe(user_room, rest);
     }
     scene->observable_count = user_room->observable_count;
     scene->watch = watch ? watch : scene->watch;
-    if (gm_room_said(&user_room->room, "schemes", 0, &rest)) {
-        scene->schemes = list_schemes(user_room, rest);
+    if (gm_room_said(room, "schemes", 0, &rest)) {
+        scene->schemes = list_schemes(room, rest);
     }
-    if (gm_room_said(&user_room->room, "lanes", 0, &rest)) {
+    if (gm_room_said(room, "lanes", 0, &rest)) {
         scene->lanes = take_arguments(user_room, &rest);
     }
-    if (gm_room_said(&user_room->room, "time", 0, &rest) &&
-        gm_span_take(user_room->room.text, &rest, ";", &piece)) {
-        scene->time = rest.begin < rest.end ? gm_room_keep(&user_room->room, rest) : time;
+    if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &piece)) {
+        scene->time = rest.begin < rest.end ? gm_room_keep(room, rest) : time;
     }
     check_look(user_room);
     make_studies(user_room);

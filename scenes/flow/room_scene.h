@@ -4,7 +4,45 @@
 
 #include "core/arena.h"
 #include "core/flow/room.h"
-#include "scenes/flow/flows.h"
+#include "scenes/common/lane.h"
+
+/* The scene of a room, which solves, in the plane,
+       omega_t + u . grad omega = nu Laplace omega,   omega = -Laplace psi,   u = (psi_y, -psi_x)
+       theta_t + u . grad theta = kappa Laplace theta
+   by discrete exterior calculus (core/flow/flow.h), whose velocity is divergence-free to round-off. */
+
+enum gm_flows_show {
+    GM_SHOW_SCALAR,
+    GM_SHOW_VORTICITY,
+    GM_SHOW_SPEED,
+    GM_SHOW_PRESSURE,
+    GM_SHOW_NONE,
+    GM_SHOW_PROFILES,
+    GM_SHOW_CONVERGENCE,
+    GM_SHOW_DIVERGENCE,
+    GM_SHOW_TEMPERATURE, /* only if heat is carried */
+};
+
+enum {
+    GM_FLOWS_OWN = 8,  /* most parameters, or choices, of a single file */
+    GM_ROOM_ROWS = 40, /* all known rows, and as many as a room can define */
+    GM_ROOM_OBSERVED = GM_MOST_OBSERVABLES,
+    GM_ROOM_UNIT = 96, /* bytes of a unit */
+};
+
+/* The parameters of a lane; a room's table has rows for some. */
+struct gm_flows {
+    struct gm_timing timing;
+    double reynolds, schmidt, viscosity, irregular, own[GM_FLOWS_OWN];
+    long rows, columns, tracers, refine;
+    char mesh[GM_TEXT_SIZE], inlet[GM_TEXT_SIZE], outlet[GM_TEXT_SIZE], lid[GM_TEXT_SIZE];
+    int show, streamlines, arrows, grid, star, smoke, choices[GM_FLOWS_OWN];
+    const struct gm_user_room *room;
+};
+
+extern const char *const gm_flows_stars[];
+/* The possible words of the parameter `outlet`, NULL-terminated. */
+extern const char *const gm_flows_outlets[];
 
 /* A room's file; `word` is the word that named it, NULL if the room is one of the program's scenes. */
 struct gm_room_file {
@@ -21,15 +59,12 @@ struct gm_room_subject {
     int what;         /* the quantity of the subject (enum local, user_room.c) */
 };
 
-enum {
-    GM_ROOM_ROWS = 40, /* all known rows, and as many as a room can define */
-    GM_ROOM_OBSERVED = GM_MOST_OBSERVABLES,
-    GM_ROOM_UNIT = 96, /* bytes of a unit */
-};
-
-/* A line along which quantities are drawn and written: u, v or s, the scalar. */
+/* A line of `count` points from a to b along which quantities are drawn and written: u, v or s, the
+   scalar. */
 struct gm_room_profile {
-    struct gm_profile line;
+    const char *name;
+    double a[2], b[2];
+    size_t count;
     const char *quantities,
         *label; /* the letters of the quantities; the label of values, NULL: the quantity's name */
     struct gm_room_range range; /* the range of that axis; NAN: the range of the values */
@@ -79,10 +114,42 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
-/* Returns a part of a lane's text, for a picture. */
-static inline const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room,
-                                       struct gm_span span)
+/* Returns true if the mesh is the room's rectangle, with no file named instead. */
+bool gm_flows_has_rectangle(const struct gm_flows *flows);
+/* Reads or makes the mesh of a lane; without a room, as it is in its file. On failure returns false with a
+   sentence that names the line or triangle. */
+bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
+                   char *sentence);
+
+/* Reads the lines other than the boundary, while the scene is made in its arena. */
+void gm_room_take_lines(struct gm_user_room *user_room);
+
+/* Powers of the units of length, time and temperature. */
+struct gm_powers {
+    int of[3];
+};
+/* A row of an observable of flows. */
+struct gm_room_row {
+    struct gm_observable observable;
+    double (*measure)(const struct gm_flow *flow, const double *y); /* its value, if it is a measure */
+    const char *of_scalar;                                          /* its title before the scalar's name */
+    struct gm_powers powers;                                        /* of its unit */
+};
+/* The rows of all rooms' observables. */
+const struct gm_room_row *gm_room_common_rows(size_t *count);
+/* Returns the observable of flows with this key, or of a profile if `along`; NULL if the key is unknown. */
+const struct gm_observable *gm_room_observable(const char *key, bool along);
+/* Returns the exact value at a point; NAN if it is not known. */
+double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const double at[2]);
+
+/* The value and the key of a quantity: u, v or s (the scalar). */
+static inline double gm_room_quantity(const struct gm_sample *sample, char quantity)
 {
-    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
+    return quantity == 'u' ? sample->u : quantity == 'v' ? sample->v : sample->theta;
 }
+static inline enum gm_room_key gm_room_key_of(char quantity)
+{
+    return quantity == 'u' ? GM_ROOM_SPEED_X : quantity == 'v' ? GM_ROOM_SPEED_Y : GM_ROOM_SCALAR;
+}
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The triangles that are drawn, from a mesh and values at its vertices. */
-#include "scenes/flow/sheet.h"
+#include "scenes/flow/picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,20 +115,7 @@ bool gm_flow_sheet_make(struct gm_picture *picture, const struct gm_complex *com
     if (!points || !triangles) {
         return false;
     }
-    memcpy(points, complex->point, 2 * n * sizeof *points);
-    for (size_t e = 0; e < complex->edges; e++) {
-        for (int c = 0; c < 2; c++) {
-            points[2 * (n + e) + (size_t)c] = (complex->point[2 * complex->edge[2 * e] + c] +
-                                               complex->point[2 * complex->edge[2 * e + 1] + c]) /
-                                              2;
-        }
-    }
-    for (size_t t = 0; t < complex->triangles; t++) {
-        const int *v = complex->triangle + 3 * t, *e = complex->triangle_edge + 3 * t;
-        const int m[3] = {(int)n + e[0], (int)n + e[1], (int)n + e[2]};
-        const int four[12] = {v[0], m[0], m[2], m[0], v[1], m[1], m[2], m[1], v[2], m[0], m[1], m[2]};
-        memcpy(triangles + 12 * t, four, sizeof four);
-    }
+    gm_complex_quarter(complex, points, triangles);
     *sheet = (struct gm_flow_sheet){.points = points,
                                     .psi = refine(picture, complex, psi),
                                     .field = field ? refine(picture, complex, field) : NULL,

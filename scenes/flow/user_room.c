@@ -13,16 +13,10 @@
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
-#include "scenes/flow/observables.h"
-#include "scenes/flow/room_lines.h"
-
-/* Powers of the units of length, time and temperature. */
-struct powers {
-    int of[3];
-};
+#include "scenes/flow/picture.h"
 
 /* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
-static const char *name_unit(const struct gm_user_room *user_room, struct powers powers, char *name)
+static const char *name_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
     static const int order[3] = {2, 0, 1};
@@ -51,7 +45,7 @@ static const char *name_unit(const struct gm_user_room *user_room, struct powers
 }
 
 /* Writes " / (m/s)", the unit after a title. */
-static const char *beside_unit(const struct gm_user_room *user_room, struct powers powers, char *text)
+static const char *beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
 {
     char unit[GM_ROOM_UNIT];
     name_unit(user_room, powers, unit);
@@ -140,39 +134,27 @@ static double observe_local(const struct gm_view *view)
     }
 }
 
-/* Writes a fault of the room with its line, or of the whole boundary without a line; nothing without a
-   fault. */
-static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault,
-                 enum gm_boundary_fault boundary, char *sentence)
+/* Writes a fault of the room with its line, if it has one; nothing without a fault. */
+static void tell(const struct gm_user_room *user_room, const struct gm_fault *fault, char *sentence)
 {
     size_t line = 0, column = 0;
-    char whole[GM_MESSAGE] = "";
-    if (!fault->sentence[0] && gm_flows_boundary(boundary, whole)) {
+    if (!fault->sentence[0]) {
         return;
     }
-    if ((whole[0] && fault->offset == 0) || user_room->file.built_in) {
-        gm_refuse(sentence, "%s", whole[0] ? whole : fault->sentence);
+    if (fault->offset == GM_ROOM_NOWHERE || user_room->file.built_in) {
+        gm_refuse(sentence, "%s", fault->sentence);
         return;
     }
     gm_text_place(user_room->file.text, fault->offset, &line, &column);
-    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column,
-              whole[0] ? whole : fault->sentence);
-}
-
-/* Returns true if the mesh is the room's rectangle, with no file named instead. */
-static bool has_rectangle(const struct gm_flows *chosen)
-{
-    return gm_user_room_of(chosen)->room.rectangular && strcmp(chosen->mesh, "none") == 0;
+    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column, fault->sentence);
 }
 
 /* Closes a problem, also one without a flow. */
 static void close_problem(struct gm_problem *problem)
 {
-    struct gm_flow *flow = (struct gm_flow *)(uintptr_t)gm_flow_of(problem);
-    struct gm_room *room = flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL;
-    gm_flow_close(flow);
+    const struct gm_flow *flow = gm_flow_of(problem);
     problem->parameters = NULL;
-    gm_room_close(room);
+    gm_room_close(flow ? (struct gm_room *)(uintptr_t)flow->given_by : NULL);
 }
 
 /* Returns the room with a lane's parameters; `outlet` names its group; the caller closes it. NULL with a
@@ -194,42 +176,39 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
                         fault);
 }
 
-static bool read_mesh(const struct gm_user_room *user_room, const struct gm_room *room,
-                      const struct gm_flows *chosen, struct gm_triangulation *mesh, char *sentence)
-{
-    *mesh = (struct gm_triangulation){0};
-    if (has_rectangle(chosen)) {
-        struct gm_rectangle rectangle = room->rectangle;
-        mesh->complex = gm_flows_rectangle(&rectangle, sentence);
-        return mesh->complex != NULL;
-    }
-    const char *path = user_room->room.rectangular ? chosen->mesh : user_room->mesh;
-    if (!gm_flows_file(path, user_room->inside, (enum gm_star)chosen->star, mesh, sentence)) {
-        return false;
-    }
-    return !room || chosen->refine < 2 ||
-           gm_flows_refine(path, (enum gm_star)chosen->star, chosen->refine, mesh, sentence);
-}
+const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 
-/* Reads the kind and group of outlets, and checks that the named groups fit the mesh. */
+/* Reads the kind and group of outlets, "soft", "dirichlet", "free", or GROUP, or GROUP:free and so on; *group:
+   "outlet" unless named. Checks that the named groups fit the mesh. */
 static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *room,
                           enum gm_vertex_kind *kind, char *group, char *sentence)
 {
+    static const enum gm_vertex_kind kinds[] = {GM_VERTEX_SOFT, GM_VERTEX_FIXED, GM_VERTEX_OPEN};
+    const char *text = chosen->outlet, *colon = strrchr(text, ':'), *name = colon ? colon + 1 : text;
+    size_t i = 0;
     if (!gm_room_parameter(room, "outlet")) {
         return true;
     }
-    if (!gm_flows_outlet(chosen->outlet, kind, group, sentence)) {
-        return false;
+    while (gm_flows_outlets[i] && strcmp(name, gm_flows_outlets[i]) != 0) {
+        i++;
     }
+    if (gm_flows_outlets[i]) {
+        *kind = kinds[i];
+    } else if (colon) {
+        return gm_refuse(sentence, "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free",
+                         text);
+    }
+    snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon ? colon - text : GM_TEXT_SIZE),
+             colon || !gm_flows_outlets[i] ? text : "outlet");
     const bool names = gm_room_parameter(room, "inlet");
-    if (has_rectangle(chosen) && names &&
+    if (gm_flows_has_rectangle(chosen) && names &&
         (strcmp(group, "outlet") != 0 || strcmp(chosen->inlet, "inlet") != 0)) {
         return gm_refuse(
             sentence,
             "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
     }
     return names || strcmp(group, "outlet") == 0 ||
-           gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", chosen->outlet);
+           gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", text);
 }
 
 /* Returns the flow of a lane's room; NULL with a sentence on failure. */
@@ -238,24 +217,23 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
 {
     struct gm_triangulation mesh;
     struct gm_fault fault;
-    enum gm_boundary_fault boundary;
     const long edges = room->rectangle.edges, multiple = room->multiple;
-    room->from_file = room->rectangular && !has_rectangle(chosen);
-    if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
+    room->from_file = room->rectangular && !gm_flows_has_rectangle(chosen);
+    if (gm_flows_has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
         gm_refuse(
             sentence,
             "%s=%ld: the lips of inlet and outlet are vertices only if %s is a multiple of %ld; the nearest is %ld",
             room->edges, edges, room->edges, multiple, multiple * ((edges + multiple / 2) / multiple));
         return NULL;
     }
-    if (!read_mesh(user_room, room, chosen, &mesh, sentence)) {
+    if (!gm_flows_mesh(chosen, room, &mesh, sentence)) {
         return NULL;
     }
-    struct gm_flow *flow = gm_room_flow(room, &mesh, &fault, &boundary);
+    struct gm_flow *flow = gm_room_flow(room, &mesh, &fault);
     gm_triangulation_close(&mesh);
     if (!flow) {
         gm_refuse(sentence, "not enough memory");
-        tell(user_room, &fault, boundary, sentence);
+        tell(user_room, &fault, sentence);
         return NULL;
     }
     struct gm_span rest, unit;
@@ -263,8 +241,7 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
         rest.begin < rest.end &&
         (!gm_room_number(room, unit, &flow->time_unit, &fault) ||
          (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number")))) {
-        gm_flow_close(flow);
-        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        tell(user_room, &fault, sentence);
         return NULL;
     }
     room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
@@ -297,7 +274,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     struct gm_room *room = room_for(user_room, parameters, group, &fault);
     if (!room) {
         gm_refuse(sentence, "not enough memory");
-        tell(user_room, &fault, GM_BOUNDARY_OK, sentence);
+        tell(user_room, &fault, sentence);
         return false;
     }
     room->outlet = outlet;
@@ -359,7 +336,7 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
     }
     good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
     if (!good) { /* when out of memory, the lane's sentence stays */
-        tell(gm_user_room_of(parameters), &fault, GM_BOUNDARY_OK, sentence);
+        tell(gm_user_room_of(parameters), &fault, sentence);
     }
     free(omega);
     return good;
@@ -389,10 +366,9 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
     }
     for (int half = 1; half <= 2 && !sentence[0] && view->run; half++) {
         struct gm_fault fault;
-        enum gm_boundary_fault boundary;
         gm_room_fault(gm_room_of(view->problem), gm_flow_of(view->problem),
-                      view->t + view->run->dt * half / 2, &fault, &boundary);
-        tell(user_room, &fault, boundary, sentence);
+                      view->t + view->run->dt * half / 2, &fault);
+        tell(user_room, &fault, sentence);
     }
     snprintf(text, size, "%s", sentence);
 }
@@ -432,13 +408,55 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 
 static bool readable(const void *parameters, char *sentence)
 {
-    struct gm_triangulation mesh = {0};
-    const bool good = has_rectangle(parameters) ||
-                      read_mesh(gm_user_room_of(parameters), NULL, parameters, &mesh, sentence);
-    if (good) {
+    struct gm_triangulation mesh;
+    const bool good = gm_flows_has_rectangle(parameters) || gm_flows_mesh(parameters, NULL, &mesh, sentence);
+    if (good && !gm_flows_has_rectangle(parameters)) {
         gm_triangulation_close(&mesh);
     }
     return good;
+}
+
+/* Notes the star that was used if the choice was left to the mesh. */
+static void note_star(const struct gm_problem *problem, void *parameters)
+{
+    struct gm_flows *flows = parameters;
+    if (strcmp(flows->mesh, "none") != 0) {
+        flows->star = (int)gm_flow_of(problem)->complex->star;
+    }
+}
+
+/* gm_scene.note: the axes of a mesh outside the plane of x and y, and the number of repeated triangles. */
+static void note_origin(const struct gm_problem *problem, const void *parameters, char *sentence)
+{
+    (void)parameters;
+    const struct gm_complex_origin *origin = &gm_flow_of(problem)->complex->origin;
+    const double *x = origin->axes[0], *y = origin->axes[1];
+    size_t used = 0;
+    if (x[0] != 0 || x[1] != 0 || x[2] != 0) {
+        used = (size_t)snprintf(
+            sentence, GM_MESSAGE,
+            "the mesh lies in a plane of its own: x is its direction (%.3g, %.3g, %.3g), y is (%.3g, %.3g, %.3g)",
+            x[0] + 0., x[1] + 0., x[2] + 0., y[0] + 0., y[1] + 0., y[2] + 0.);
+    }
+    if (origin->repeated > 0) {
+        snprintf(sentence + used, GM_MESSAGE - used, "%striangles that the mesh has twice count once: %zu",
+                 used > 0 ? "; " : "", origin->repeated);
+    }
+}
+
+/* Returns why a parameter has no effect, with a mesh file or without; NULL if it has one. */
+static const char *idle(const void *parameters, const char *key)
+{
+    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {
+                                                                                  "inlet", "lid", "star",
+                                                                                  "refine", NULL};
+    const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
+    for (const char *const *name = from_file ? made : named; *name; name++) {
+        if (strcmp(key, *name) == 0) {
+            return from_file ? "the mesh comes from a file" : "it is for a mesh=FILE";
+        }
+    }
+    return NULL;
 }
 
 /* Returns about the largest scalar that sources produce: twice its value in the air that leaves. */
@@ -462,12 +480,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     static const struct {
         int show;
         const char *name;
-        struct powers powers;
+        struct gm_powers powers;
     } shown[] = {{GM_SHOW_VORTICITY, "vorticity ω", {{0, -1, 0}}},
                  {GM_SHOW_SPEED, "speed |u|", {{1, -1, 0}}},
                  {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
                  {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
-    const struct powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
+    const struct gm_powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
     char unit[GM_ROOM_UNIT + 8];
     const double *range = flow->temperature_range,
                  warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
@@ -479,7 +497,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
                  speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const bool units = user_room->room.units, named = !room->rectangular;
+    const bool named = !room->rectangular;
     const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
     for (size_t i = 0; sides && i < room->count; i++) {
         sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
@@ -497,20 +515,19 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                    flow->heat             ? "kinetic_energy"
                    : user_room->forces[1] ? user_room->forces[1]
                                           : "scalar_outflow"},
-        .title = user_room->scene.title,
         .scalar_high = high > 0 ? high : 1,
         .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar},
+        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar ? user_room->room.scalar : "concentration θ"},
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
     };
     for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
         look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || units) {
+        if (named || user_room->room.units) {
             look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
         }
     }
-    for (size_t i = 0; i < GM_COUNT(shown) && units; i++) {
+    for (size_t i = 0; i < GM_COUNT(shown); i++) {
         look.names[shown[i].show] =
             gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
     }
@@ -526,7 +543,7 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
     static const char no_force[] = "there is no force before the first step";
     static const struct {
         const char *what, *title;
-        struct powers powers;
+        struct gm_powers powers;
         const char *missing;
     } rows[LOCALS] = {
         [FLOW] = {"flow", "flow", {{2, -1, 0}}, NULL},
@@ -575,26 +592,12 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
 /* Adds the common observables of all rooms from files, with a unit, or with the name of the scalar. */
 static void observe_common(struct gm_user_room *user_room, bool heat)
 {
-    static const struct {
-        const char *key, *of_scalar;
-        struct powers powers;
-    } rows[] = {{"scalar_total", "integral of", {{0, 0, 0}}},
-                {"scalar_outflow", "outflow of", {{0, 0, 0}}},
-                {"budget_defect", "defect of the budget of", {{0, 0, 0}}},
-                {"divergence", NULL, {{0, 0, 0}}},
-                {"kinetic_energy", NULL, {{4, -2, 0}}},
-                {"enstrophy", NULL, {{2, -2, 0}}},
-                {"speed_max", NULL, {{1, -1, 0}}},
-                {"change", NULL, {{0, 0, 0}}},
-                {"triangles", NULL, {{0, 0, 0}}},
-                {"obtuse_share", NULL, {{0, 0, 0}}},
-                {"star_least", NULL, {{0, 0, 0}}},
-                {"scalar_mean", "mean", {{0, 0, 0}}},
-                {"temperature_mean", NULL, {{0, 0, 1}}}};
+    size_t count;
+    const struct gm_room_row *rows = gm_room_common_rows(&count);
     char unit[GM_ROOM_UNIT + 8];
-    for (size_t i = 0; i + !heat < GM_COUNT(rows); i++) {
+    for (size_t i = 0; i + !heat < count; i++) { /* the last is of heat */
         struct gm_observable *observable = &user_room->observables[user_room->observable_count++];
-        *observable = *gm_room_observable(rows[i].key, false);
+        *observable = rows[i].observable;
         observable->title =
             rows[i].of_scalar && user_room->room.scalar
                 ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, user_room->room.scalar)
@@ -655,7 +658,10 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
     if (complex) {
         sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
         sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
-        sum = checksum(sum, mesh->edge_group, complex->edges * sizeof *mesh->edge_group);
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int group = gm_triangulation_first(mesh, e);
+            sum = checksum(sum, &group, sizeof group);
+        }
     }
     return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
 }
@@ -728,12 +734,12 @@ static void make(struct gm_arena *arena, void *data)
         .initial = &user_room->initial,
         .schemes = schemes,
         .observables = user_room->observables,
-        .idle = gm_flows_idle,
+        .idle = idle,
         .settle = settle,
         .setup = setup,
         .readable = readable,
-        .chosen = gm_flows_chosen,
-        .note = gm_flows_note,
+        .chosen = note_star,
+        .note = note_origin,
         .close = close_problem,
         .start_with = start,
         .draw = draw,
@@ -747,7 +753,7 @@ static void make(struct gm_arena *arena, void *data)
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
         gm_arena_keep(arena, mesh, close_mesh);
-        if (!gm_flows_file(user_room->mesh, user_room->inside, GM_STAR_AUTO, mesh, sentence)) {
+        if (!gm_flows_mesh(&user_room->initial, NULL, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }
     }

@@ -100,20 +100,20 @@ static void draw_form(struct gm_picture *picture, struct gm_panel *panel, const 
     struct gm_form_type type;
     const double *form = shown(&view, &type);
     struct placed *order = gm_picture_memory(picture, count * sizeof *order);
+    double *corners = gm_picture_memory(picture, 9 * count * sizeof *corners);
     double *points = gm_picture_memory(picture, 6 * count * sizeof *points);
     double *values = gm_picture_memory(picture, 3 * count * sizeof *values);
     int *triangles = gm_picture_memory(picture, 3 * count * sizeof *triangles);
-    if (!order || !points || !values || !triangles) {
+    if (!order || !corners || !points || !values || !triangles) {
         return;
     }
     struct gm_space sight = {.low = {INFINITY, INFINITY, INFINITY},
                              .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t t = 0; t < count; t++) {
-        double p[9];
-        gm_complex_corners_in_space(complex, t, p);
+        gm_complex_corners_in_space(complex, t, corners + 9 * t);
         for (size_t i = 0; i < 9; i++) {
-            sight.low[i % 3] = fmin(sight.low[i % 3], p[i]);
-            sight.high[i % 3] = fmax(sight.high[i % 3], p[i]);
+            sight.low[i % 3] = fmin(sight.low[i % 3], corners[9 * t + i]);
+            sight.high[i % 3] = fmax(sight.high[i % 3], corners[9 * t + i]);
         }
     }
     const bool flat = sight.low[2] == 0 && sight.high[2] == 0;
@@ -126,24 +126,19 @@ static void draw_form(struct gm_picture *picture, struct gm_panel *panel, const 
         gm_space_fit(&sight, &self->camera, 0, panel);
     }
     for (size_t t = 0; t < count; t++) {
-        double p[9], place[2], depth = 0;
-        gm_complex_corners_in_space(complex, t, p);
+        double place[2];
+        order[t] = (struct placed){0, t};
         for (size_t k = 0; k < 3 && !flat; k++) {
-            depth += gm_space_place(&sight, p + 3 * k, place);
+            order[t].depth += gm_space_place(&sight, corners + 9 * t + 3 * k, place);
         }
-        order[t] = (struct placed){depth, t};
     }
     qsort(order, count, sizeof *order, by_depth);
     for (size_t i = 0; i < 3 * count; i++) {
         const size_t corner = 3 * order[i / 3].triangle + i % 3;
-        double p[9];
-        gm_complex_corners_in_space(complex, corner / 3, p);
-        const double *at = p + 3 * (corner % 3);
         if (flat) {
-            points[2 * i] = at[0];
-            points[2 * i + 1] = at[1];
+            memcpy(points + 2 * i, corners + 3 * corner, 2 * sizeof *points);
         } else {
-            gm_space_place(&sight, at, points + 2 * i);
+            gm_space_place(&sight, corners + 3 * corner, points + 2 * i);
         }
         values[i] = density(space, type, form, corner);
         triangles[i] = (int)i;

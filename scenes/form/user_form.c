@@ -41,24 +41,19 @@ static const struct {
 
 static double fact(const struct gm_complex *complex, enum fact fact)
 {
-    switch (fact) {
-    case VERTICES:
-        return (double)complex->vertices;
-    case EDGES:
-        return (double)complex->edges;
-    case TRIANGLES:
-        return (double)complex->triangles;
-    case EULER:
-        return (double)complex->vertices - (double)complex->edges + (double)complex->triangles;
-    case AREA:
-        return complex->total_area;
-    case STAR_LEAST:
-        return complex->star_least;
-    case OBTUSE:
-        return (double)complex->obtuse / (double)complex->triangles;
-    default:
-        return (double)gm_form_betti(complex, (int)fact - BETTI0);
-    }
+    const double vertices = (double)complex->vertices, edges = (double)complex->edges,
+                 triangles = (double)complex->triangles;
+    const double values[FACTS] = {[VERTICES] = vertices,
+                                  [EDGES] = edges,
+                                  [TRIANGLES] = triangles,
+                                  [EULER] = vertices - edges + triangles,
+                                  [BETTI0] = (double)gm_form_betti(complex, 0),
+                                  [BETTI1] = (double)gm_form_betti(complex, 1),
+                                  [BETTI2] = (double)gm_form_betti(complex, 2),
+                                  [AREA] = complex->total_area,
+                                  [STAR_LEAST] = complex->star_least,
+                                  [OBTUSE] = (double)complex->obtuse / triangles};
+    return values[fact];
 }
 
 static double observe(const struct gm_view *view)

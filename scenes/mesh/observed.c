@@ -6,7 +6,7 @@
 #include "core/basics.h"
 #include "scenes/common/lane.h"
 
-enum { PATHS = 255 /* most nodes whose paths are recorded */ };
+enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
 
 struct gm_mesh gm_mesh_of(const struct gm_view *view)
 {
@@ -165,21 +165,24 @@ static size_t path_stride(size_t points)
     return (points + PATHS - 1) / PATHS;
 }
 
-size_t gm_mesh_path_count(const struct gm_view *view)
+static size_t path_count(const struct gm_view *view)
 {
     const size_t points = view->problem->n / 4, stride = path_stride(points);
     return (points + stride - 1) / stride;
 }
 
-double gm_mesh_path_interval(const void *parameters)
+static double path_interval(const void *parameters)
 {
-    return ((const struct gm_timing *)parameters)->until / (GM_MESH_RECORDS / 2 - 1);
+    return ((const struct gm_timing *)parameters)->until / (RECORDS / 2 - 1);
 }
 
-void gm_mesh_record_paths(const struct gm_view *view, double *entry)
+static void record_paths(const struct gm_view *view, double *entry)
 {
     const size_t points = view->problem->n / 4, stride = path_stride(points);
     for (size_t k = 0; k < points; k += stride) {
         *entry++ = view->state[points + k];
     }
 }
+
+const struct gm_track gm_mesh_paths_track = {
+    .key = "paths", .width = path_count, .interval = path_interval, .bound = RECORDS, .record = record_paths};

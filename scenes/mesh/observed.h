@@ -46,14 +46,6 @@ double gm_view_factorisations(const struct gm_view *view);
         GM_OBSERVABLE("factorisations", gm_view_factorisations, "matrices factored")
 
 /* The paths of all nodes, or of evenly chosen ones. */
-#define GM_MESH_PATHS_TRACK                                                                                  \
-    {                                                                                                        \
-        .key = "paths", .width = gm_mesh_path_count, .interval = gm_mesh_path_interval,                      \
-        .bound = GM_MESH_RECORDS, .record = gm_mesh_record_paths                                             \
-    }
-enum { GM_MESH_RECORDS = 400 };
-size_t gm_mesh_path_count(const struct gm_view *view);
-double gm_mesh_path_interval(const void *parameters);
-void gm_mesh_record_paths(const struct gm_view *view, double *entry);
+extern const struct gm_track gm_mesh_paths_track;
 
 #endif

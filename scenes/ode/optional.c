@@ -1,14 +1,458 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rows of the observables on request. */
-#include "scenes/ode/asked.h"
+/* The observables on request of ordinary differential equations, which cost time only when they are asked for. For the
+   growth of distances and volumes a copy of the orbit runs with vectors along it, by the same scheme from the same
+   start; the lane's own run is unchanged. The modified Hamiltonian is derived once and stored by the lane. */
+#include "scenes/ode/optional.h"
 
-#include "scenes/ode/system/ring.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/linear/curve.h"
+#include "core/ode/backward/modified_energy.h"
+#include "core/ode/families/families.h"
+#include "core/ode/families/invariants/held.h"
+#include "core/ode/indicators/growth.h"
+#include "core/ode/indicators/tangent.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/variational/action.h"
+#include "scenes/common/graph.h"
+#include "scenes/common/system/look.h"
+
+/* ---- the modified Hamiltonian ---- */
+
+/* The stored energies of a state: the start is requested repeatedly. */
+struct state {
+    double *y; /* n */
+    double terms[GM_MODIFIED_POWER + 1];
+    bool known;
+};
+
+struct energies {
+    const struct gm_scheme *scheme; /* the lane may change it */
+    int power;
+    size_t n;
+    struct gm_modified_energy *energy; /* NULL: it does not exist; `why` has the reason */
+    char why[GM_MODIFIED_WHY];
+    struct state start, now;
+};
+
+static void forget_energies(void *data)
+{
+    struct energies *energies = data;
+    gm_modified_energy_close(energies->energy);
+    free(energies->start.y);
+    free(energies->now.y);
+    free(energies);
+}
+
+/* Returns the stored data of a lane; NULL when out of memory, which is noted. */
+static struct energies *energies_of(const struct gm_view *view, int power)
+{
+    struct energies *energies = view->worked[GM_WORKED_ENERGY].data;
+    if (energies && energies->scheme == view->scheme && energies->power >= power) {
+        return energies;
+    }
+    if (energies) {
+        forget_energies(energies);
+    }
+    const size_t n = view->problem->n;
+    view->worked[GM_WORKED_ENERGY].data = energies = calloc(1, sizeof *energies);
+    if (!energies) {
+        return NULL;
+    }
+    view->worked[GM_WORKED_ENERGY].forget = forget_energies;
+    energies->scheme = view->scheme;
+    energies->power = power;
+    energies->n = n;
+    energies->start.y = malloc(n * sizeof(double));
+    energies->now.y = malloc(n * sizeof(double));
+    if (energies->start.y && energies->now.y) {
+        energies->energy = gm_modified_energy_open(view->problem, view->scheme, power, energies->why);
+    }
+    return energies;
+}
+
+static double energy_of(struct energies *energies, struct state *state, const struct gm_view *view, int power)
+{
+    const size_t m = view->problem->m;
+    bool same = state->known;
+    for (size_t i = 0; i < energies->n; i++) {
+        const double value = view->state[i * m + m - 1];
+        same = same && value == state->y[i];
+        state->y[i] = value;
+    }
+    if (!same) {
+        gm_modified_energy_terms(energies->energy, state->y, state->terms);
+        state->known = true;
+    }
+    double sum = 0;
+    for (int k = power; k >= 0; k--) {
+        sum = sum * view->dt + state->terms[k];
+    }
+    return sum;
+}
+
+/* Returns true if the run was stopped within a step: its last, shorter step has another modified
+   Hamiltonian. */
+static bool is_within_step(const struct gm_view *view)
+{
+    return view->run && view->run->n == 0 && view->run->steps > 0 && gm_view_stopped(view);
+}
+
+static double modified_error(const struct gm_view *view)
+{
+    const int power = 2 * (int)(view->observable - gm_ode_asked) + 2; /* the first rows */
+    struct energies *energies = energies_of(view, power);
+    if (!energies || !energies->energy || is_within_step(view)) {
+        return NAN;
+    }
+    struct gm_view before = *view;
+    before.state = view->start;
+    const double initial = energy_of(energies, &energies->start, &before, power);
+    const int plain = gm_scene_observable(view->scene, "energy_error");
+    const double scale =
+        plain >= 0 ? gm_observable_scale(gm_scene_observable_at(view->scene, (size_t)plain), view) : 0;
+    const double divisor = fmax(fabs(energies->start.terms[0]), scale);
+    return fabs(energy_of(energies, &energies->now, view, power) - initial) / (divisor > 0 ? divisor : 1);
+}
+
+static const char *why_no_modified(const struct gm_view *view)
+{
+    const struct energies *energies = view->worked[GM_WORKED_ENERGY].data;
+    return energies && energies->why[0] ? energies->why
+           : is_within_step(view)
+               ? "the run was stopped within a step, and a shorter step has another modified Hamiltonian"
+               : NULL;
+}
+
+/* ---- returning, and leaving ---- */
+
+/* Returns the number of the scene's first section; its count of tracks without one. */
+static size_t section_of(const struct gm_scene *scene)
+{
+    size_t found = 0;
+    while (found < scene->track_count && !scene->tracks[found].section) {
+        found++;
+    }
+    return found;
+}
+
+static double return_time(const struct gm_view *view)
+{
+    const size_t section = section_of(view->scene);
+    if (section == view->scene->track_count || !view->tracks) {
+        return NAN;
+    }
+    /* a start on the section does not count as a return */
+    const double least = 1e-9 * fabs(view->dt);
+    const struct gm_entries *entries = &view->tracks[section];
+    for (size_t i = 0; i < entries->count; i++) {
+        if (fabs(entries->times[i] - view->t0) > least) {
+            return fabs(entries->times[i] - view->t0);
+        }
+    }
+    return NAN;
+}
+
+static const char *why_no_return(const struct gm_view *view)
+{
+    return section_of(view->scene) < view->scene->track_count ? "the section was not passed yet"
+                                                              : "there is no section to pass";
+}
+
+static double escape_time(const struct gm_view *view)
+{
+    return gm_view_stopped(view) || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
+}
+
+static const char *why_no_escape(const struct gm_view *view)
+{
+    return view->run->status != GM_OK ? gm_status_name(view->run->status) : "the orbit has not left";
+}
+
+/* ---- growth ---- */
+
+struct followed {
+    const struct gm_scheme *scheme; /* the lane may change it */
+    struct gm_growth *growth;
+    double *start; /* the start of the last member, active components */
+    size_t n;
+    const char *why; /* the reason that there are no values; NULL: there are */
+};
+
+static void forget(void *data)
+{
+    struct followed *followed = data;
+    gm_growth_close(followed->growth);
+    free(followed->start);
+    free(followed);
+}
+
+/* Returns component c of the last member. */
+static double last_of(const struct gm_view *view, const double *state, size_t c)
+{
+    const size_t m = view->problem->m;
+    return state[c * m + m - 1];
+}
+
+/* Opens the copy of the orbit; NULL when out of memory, which is noted. */
+static struct followed *open_followed(const struct gm_view *view, size_t kind)
+{
+    struct gm_worked *worked = &view->worked[kind];
+    struct followed *followed = calloc(1, sizeof *followed);
+    worked->data = followed;
+    worked->forget = forget;
+    if (!followed) {
+        return NULL;
+    }
+    followed->scheme = view->scheme;
+    followed->n = view->problem->n - 2 * view->problem->passive;
+    followed->start = malloc(followed->n * sizeof *followed->start);
+    for (size_t c = 0; followed->start && c < followed->n; c++) {
+        followed->start[c] = last_of(view, view->start, c);
+    }
+    if (!followed->start) {
+        return NULL;
+    }
+    if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
+        followed->why = view->scheme->family->by_tolerance
+                            ? "the lengths of its steps follow a tolerance and have no derivative"
+                            : "the state of the scheme is in a library: its steps have no derivative here";
+    } else if (kind == GM_WORKED_VOLUME) {
+        followed->why = followed->n > GM_NEWTON_LARGEST
+                            ? "the volume of more than 64 components is not followed"
+                        : gm_action_constraints(view->problem) > 0 ? "constraints leave no volume"
+                        : view->scheme->family->adaptive ? "its steps have other lengths beside the orbit"
+                                                         : NULL;
+    }
+    if (followed->why) {
+        return followed;
+    }
+    followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,
+                                      followed->start);
+    if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_volume(followed->growth)) {
+        gm_growth_close(followed->growth);
+        followed->growth = NULL;
+    }
+    return followed->growth ? followed : NULL;
+}
+
+/* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its
+   run. */
+static bool is_same(const struct gm_view *view, const struct followed *followed)
+{
+    const double *state = gm_growth_state(followed->growth);
+    bool same = true;
+    for (size_t c = 0; c < followed->n; c++) {
+        same = same && state[c] == last_of(view, view->state, c);
+    }
+    return same;
+}
+
+/* Returns the orbit, followed up to the view's step; NULL if there are no values. */
+static const struct gm_growth *followed_to(const struct gm_view *view, size_t kind)
+{
+    struct gm_worked *worked = &view->worked[kind];
+    struct followed *followed = worked->data;
+    const int64_t steps = view->run->steps;
+    const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
+    if (followed && (earlier || followed->scheme != view->scheme)) {
+        worked->data = NULL; /* another scheme, or an earlier step of the view */
+        forget(followed);
+        followed = NULL;
+    }
+    followed = followed ? followed : open_followed(view, kind);
+    if (!followed || !followed->growth) {
+        return NULL;
+    }
+    const bool left = !isnan(escape_time(view));
+    followed->why = view->run->status != GM_OK               ? gm_status_name(view->run->status)
+                    : left                                   ? "the run was stopped: its orbit has left"
+                    : steps == 0                             ? "no step was made yet"
+                    : !gm_growth_to(followed->growth, steps) ? "a step beside the orbit fails"
+                    : !is_same(view, followed)               ? "the run was changed on its way"
+                                                             : NULL;
+    return followed->why ? NULL : followed->growth;
+}
+
+static struct gm_growth_values values_of(const struct gm_view *view, size_t kind)
+{
+    const struct gm_growth *growth = followed_to(view, kind);
+    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+/* The values of the rows from the Lyapunov exponent on. */
+static double growth(const struct gm_view *view)
+{
+    const struct gm_growth_values values = values_of(view, GM_WORKED_GROWTH);
+    const double list[] = {values.exponent, values.exponent_change, values.megno, values.megno_change};
+    return list[view->observable - gm_ode_asked - GM_MODIFIED_OBSERVABLES];
+}
+
+/* The size that a scheme of this family noted of the last member's last step. */
+static double correction(const struct gm_view *view, const struct gm_family *family)
+{
+    const struct gm_holding *holding = view->scheme->family == family ? view->scheme->coefficients : NULL;
+    const size_t m = view->problem->m;
+    return holding && !holding->constraints ? view->memory[GM_HELD_CORRECTION * m + m - 1] : NAN;
+}
+
+static double projection(const struct gm_view *view)
+{
+    return correction(view, &gm_family_projected);
+}
+
+static const char *why_no_projection(const struct gm_view *view)
+{
+    return isnan(projection(view)) ? "the scheme is not projected(...; an invariant, ...)" : NULL;
+}
+
+static double relaxation(const struct gm_view *view)
+{
+    return correction(view, &gm_family_relaxed);
+}
+
+static const char *why_no_relaxation(const struct gm_view *view)
+{
+    return isnan(relaxation(view)) ? "the scheme is not relaxed(...; an invariant)" : NULL;
+}
+
+static const char *why_no_growth(const struct gm_view *view)
+{
+    const struct followed *followed = view->worked[GM_WORKED_GROWTH].data;
+    return followed ? followed->why : NULL;
+}
+
+static double log_volume(const struct gm_view *view)
+{
+    return values_of(view, GM_WORKED_VOLUME).log_volume;
+}
+
+static double volume_error(const struct gm_view *view)
+{
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return expm1(values.log_volume - values.divergence);
+}
+
+static const char *why_no_volume(const struct gm_view *view)
+{
+    const struct followed *followed = view->worked[GM_WORKED_VOLUME].data;
+    if (!followed || followed->why) {
+        return followed ? followed->why : NULL;
+    }
+    return log_volume(view) == -INFINITY ? "a step of the scheme has the determinant 0"
+                                         : "the divergence of the equations is not known";
+}
+
+/* ---- the ring of members ---- */
+
+enum { LEAST_POINTS = 5 };       /* all waves of fewer points are short ones */
+static const double most = 1e-3; /* the share of short waves of an action that is resolved */
+
+static size_t points_of(const struct gm_view *view)
+{
+    const size_t points = view->problem->m - 1;
+    const bool disc = ((const struct gm_system_lane *)view->parameters)->shape == GM_SHAPE_DISC;
+    return disc && points >= LEAST_POINTS ? points : 0;
+}
+
+const char *gm_ring_why(const struct gm_view *view)
+{
+    enum { LENGTH = 64 };
+    const size_t points = points_of(view);
+    struct gm_worked *worked = &view->worked[GM_WORKED_REASON];
+    if (points == 0) {
+        return "it needs a disc of at least 5 members around the one in its centre";
+    }
+    if (!worked->data) {
+        *worked = (struct gm_worked){malloc(LENGTH), free};
+    }
+    if (worked->data) {
+        snprintf(worked->data, LENGTH, "the loop is not resolved with %zu points", points);
+    }
+    return worked->data;
+}
+
+static double resolution_of(const struct gm_curve_action *loop)
+{
+    return loop->waves > 0 ? loop->short_waves / loop->waves : loop->waves;
+}
+
+/* Returns the action; NaN with a larger share of short waves. */
+static double resolved(const struct gm_curve_action *loop, double share)
+{
+    return resolution_of(loop) <= share ? loop->action : NAN;
+}
+
+static struct gm_curve_action loop_at(const struct gm_view *view, const double *state)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
+    const size_t points = points_of(view), m = view->problem->m, pairs = gm_system_motion(system) / 2;
+    struct gm_curve_action loop = {0};
+    bool found = points > 0;
+    for (size_t k = 0; found && k < pairs; k++) {
+        found = gm_curve_add_action(state + gm_system_component(system, k, 0) * m,
+                                    state + gm_system_component(system, pairs + k, 0) * m, points, &loop);
+    }
+    return found ? loop : (struct gm_curve_action){NAN, NAN, NAN, NAN};
+}
+
+double gm_ring_area(const struct gm_view *view)
+{
+    const size_t points = points_of(view), m = view->problem->m, *disc = gm_system_scene_of(view)->disc;
+    /* tighter than of an action: an area is shown unasked, and a scheme that changes it is warned of */
+    const double share = 1e-5;
+    struct gm_curve_action loop = {0};
+    const bool found = points > 0 && gm_curve_add_action(view->state + disc[0] * m, view->state + disc[1] * m,
+                                                         points, &loop);
+    return found ? -resolved(&loop, share) : NAN;
+}
+
+static double loop_action(const struct gm_view *view)
+{
+    const struct gm_curve_action loop = loop_at(view, view->state);
+    return resolved(&loop, most);
+}
+
+static double loop_resolution(const struct gm_view *view)
+{
+    const struct gm_curve_action loop = loop_at(view, view->state);
+    return resolution_of(&loop);
+}
+
+/* The rate c of forces -c p; NaN: there are others, which change the action. */
+static double friction_of(const struct gm_problem *problem)
+{
+    const struct gm_ode *ode = gm_ode_of(problem);
+    return ode->action && ode->action->friction ? ode->action->friction(problem) : ode->forced ? NAN : 0;
+}
+
+static double loop_action_error(const struct gm_view *view)
+{
+    const struct gm_curve_action before = loop_at(view, view->start), now = loop_at(view, view->state);
+    const double roundoff = 1e-12,
+                 wanted = resolved(&before, most) * exp(-friction_of(view->problem) * (view->t - view->t0)),
+                 divisor = fabs(wanted) <= roundoff * now.magnitude ? now.magnitude : wanted,
+                 error = resolved(&now, most) - wanted;
+    return error == 0 ? 0 : error / divisor;
+}
+
+static const char *why_no_loop_error(const struct gm_view *view)
+{
+    return isnan(friction_of(view->problem))
+               ? "forces other than a friction -c p may change the action of the loop"
+               : gm_ring_why(view);
+}
+
+/* ---- the rows ---- */
 
 #define MODIFIED(power, powers)                                                                              \
     {                                                                                                        \
-        .key = "modified_energy" #power "_error", .unit = "", .evaluate = gm_modified_error_##power,         \
+        .key = "modified_energy" #power "_error", .unit = "", .evaluate = modified_error,                    \
         .title = "error of the modified energy, up to Δt" powers, .logarithmic = true,                       \
-        .why = gm_modified_why                                                                               \
+        .why = why_no_modified                                                                               \
     }
 #define INDICATOR(name, function, reason, words)                                                             \
     {                                                                                                        \
@@ -19,26 +463,54 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
     MODIFIED(2, "²"),
     MODIFIED(4, "⁴"),
     MODIFIED(6, "⁶"),
-    INDICATOR("lyapunov", gm_lyapunov, gm_growth_why, "largest Lyapunov exponent"),
-    INDICATOR("lyapunov_change", gm_lyapunov_change, gm_growth_why,
-              "change of the exponent over the last half"),
-    INDICATOR("megno", gm_megno, gm_growth_why, "mean MEGNO"),
-    INDICATOR("megno_change", gm_megno_change, gm_growth_why, "change of MEGNO over the last half"),
+    INDICATOR("lyapunov", growth, why_no_growth, "largest Lyapunov exponent"),
+    INDICATOR("lyapunov_change", growth, why_no_growth, "change of the exponent over the last half"),
+    INDICATOR("megno", growth, why_no_growth, "mean MEGNO"),
+    INDICATOR("megno_change", growth, why_no_growth, "change of MEGNO over the last half"),
     {.key = "return_time",
      .title = "time until the section is passed again",
      .unit = "",
-     .evaluate = gm_return_time,
+     .evaluate = return_time,
      .recalls = true,
-     .why = gm_return_why},
-    INDICATOR("escape_time", gm_escape_time, gm_escape_why, "time until the orbit has left"),
-    INDICATOR("projection", gm_projection, gm_projection_why,
-              "length of the last move back to the invariants"),
-    INDICATOR("relaxation", gm_relaxation, gm_relaxation_why, "length of the last step beside Δt, −1"),
-    INDICATOR("volume_error", gm_volume_error, gm_volume_why, "error of the volume against exp(∫ div f dt)"),
-    INDICATOR("log_volume", gm_log_volume, gm_volume_why, "ln of the volume that the steps make of 1"),
-    INDICATOR("loop_action", gm_ring_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
-    INDICATOR("loop_action_error", gm_ring_action_error, gm_ring_error_why,
+     .why = why_no_return},
+    INDICATOR("escape_time", escape_time, why_no_escape, "time until the orbit has left"),
+    INDICATOR("projection", projection, why_no_projection, "length of the last move back to the invariants"),
+    INDICATOR("relaxation", relaxation, why_no_relaxation, "length of the last step beside Δt, −1"),
+    INDICATOR("volume_error", volume_error, why_no_volume, "error of the volume against exp(∫ div f dt)"),
+    INDICATOR("log_volume", log_volume, why_no_volume, "ln of the volume that the steps make of 1"),
+    INDICATOR("loop_action", loop_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
+    INDICATOR("loop_action_error", loop_action_error, why_no_loop_error,
               "relative error of the loop's action"),
-    INDICATOR("loop_resolution", gm_ring_resolution, gm_ring_why,
-              "share of short waves in the loop's action"),
+    INDICATOR("loop_resolution", loop_resolution, gm_ring_why, "share of short waves in the loop's action"),
 };
+
+/* ---- the picture of modified energies ---- */
+
+size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters)
+{
+    const struct gm_parameter *show = gm_scene_parameter(scene, "show");
+    char text[GM_TEXT_SIZE];
+    const bool chosen =
+        show && strcmp(gm_parameter_format(show, parameters, text, sizeof text), GM_SHOW_MODIFIED) == 0;
+    return chosen ? GM_MODIFIED_OBSERVABLES : 0;
+}
+
+void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    static const struct gm_together together[] = {
+        {"energy_error", "H"},
+        {"modified_energy2_error", "to Δt²"},
+        {"modified_energy4_error", "to Δt⁴"},
+        {"modified_energy6_error", "to Δt⁶"},
+    };
+    const bool one = gm_one_step(lanes, count);
+    picture->title = "The conserved quantity: the modified energy";
+    picture->subtitle =
+        gm_picture_text(picture, "%s%s%s;  errors of H + Δt H₁ + Δt² H₂ + …, cut off", lanes[0]->scene->title,
+                        one ? ",  Δt = " : "", one ? gm_step_text(picture, lanes[0]->run->dt) : "");
+    picture->caption =
+        "A symplectic scheme solves an equation with another Hamiltonian almost exactly: the more terms "
+        "of it are taken, the flatter the line.";
+    gm_draw_clock(picture, lanes, count);
+    gm_draw_together(picture, lanes, count, together, GM_COUNT(together));
+}

@@ -28,7 +28,7 @@
 #include "scenes/common/system/variants.h"
 #include "scenes/common/trails.h"
 #include "scenes/common/written.h"
-#include "scenes/ode/asked.h"
+#include "scenes/ode/optional.h"
 #include "scenes/ode/system/aim.h"
 #include "scenes/ode/system/curves.h"
 #include "scenes/ode/system/draw.h"
@@ -149,15 +149,9 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
     return gm_system_settle(parameters, keys, count, open_other, sentence);
 }
 
-static bool starts_on_manifold(const struct gm_system_lane *lane, const struct gm_problem *problem,
-                               char *sentence)
+static bool starts_on_manifold(const struct gm_problem *problem, const double *values, char *sentence)
 {
-    double *values = gm_system_start_values(lane, NULL);
-    if (!values) {
-        return gm_refuse(sentence, "not enough memory");
-    }
     const struct gm_manifold_defects defects = gm_manifold_defects(problem, values);
-    free(values);
     return (defects.constraint <= 1e-8 && defects.hidden <= 1e-8) ||
            gm_refuse(
                sentence,
@@ -165,27 +159,22 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
                defects.constraint, defects.hidden);
 }
 
-/* Returns true if momenta determine velocities at this lane's start; the file's start is checked when it is
-   read. */
-static bool has_velocities(const struct gm_system_lane *lane, char *sentence)
+/* Returns true if momenta determine velocities at this start; the file's start is checked when it is read. */
+static bool has_velocities(const struct gm_user_system *system, double *values, char *sentence)
 {
-    double *values = gm_system_start_values(lane, NULL);
     struct gm_fault fault = {.sentence = "not enough memory"};
-    const bool good = values && gm_equations_check_legendre(&lane->owner->system, values, &fault);
-    free(values);
-    return good || gm_refuse(sentence, "%s", fault.sentence);
+    return system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, values, &fault) ||
+           gm_refuse(sentence, "%s", fault.sentence);
 }
 
 /* Returns true if the sizes of the surfaces are positive. */
-static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
+static bool has_surfaces(const struct gm_tape *surfaces, const double *values, char *sentence)
 {
-    double sizes[3 * GM_MOST_SURFACES], *values = gm_system_start_values(lane, NULL);
-    if (!values) {
-        return gm_refuse(sentence, "not enough memory");
+    double sizes[3 * GM_MOST_SURFACES];
+    if (surfaces->outputs > 0) {
+        gm_tape_values(surfaces, values, sizes, 1);
     }
-    gm_tape_values(&lane->owner->surfaces, values, sizes, 1);
-    free(values);
-    for (size_t i = 0; i < lane->owner->surfaces.outputs; i++) {
+    for (size_t i = 0; i < surfaces->outputs; i++) {
         if (!(sizes[i] > 0 && isfinite(sizes[i]))) {
             return gm_refuse(sentence, "the size of a surface is %g, and has to be above 0", sizes[i]);
         }
@@ -193,38 +182,37 @@ static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
     return true;
 }
 
-static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+/* Opens the problem of a lane, with these values of all variables at the start. */
+static bool open_problem(const struct gm_system_lane *lane, double *values, struct gm_problem *problem,
+                         char *sentence)
 {
-    const struct gm_system_lane *lane = parameters;
     const struct gm_system_scene *system_scene = lane->owner;
-    if (system_scene->surfaces.outputs > 0 && !has_surfaces(lane, sentence)) {
+    if (!has_surfaces(&system_scene->surfaces, values, sentence) ||
+        !has_velocities(&system_scene->system, values, sentence) ||
+        (lane->portrait && !gm_system_is_plane(system_scene, sentence)) ||
+        !gm_system_can_show(lane, sentence) || !gm_system_is_admitted(lane, values, sentence)) {
         return false;
     }
-    if (system_scene->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
-        return false;
-    }
-    if ((lane->portrait && !gm_system_is_plane(system_scene, sentence)) ||
-        !gm_system_can_show(lane, sentence)) {
-        return false;
-    }
-    double *values = gm_system_start_values(lane, NULL);
-    if (values && !gm_system_is_admitted(lane, values, sentence)) {
-        free(values);
-        return false;
-    }
-    const bool good = values && gm_user_problem_open(problem, &system_scene->model, values);
-    free(values);
-    if (!good) {
+    if (!gm_user_problem_open(problem, &system_scene->model, values)) {
         return gm_refuse(sentence, "not enough memory");
     }
     problem->name = system_scene->scene.name;
-    if (gm_action_constraints(problem) > 0 && !starts_on_manifold(lane, problem, sentence)) {
+    if (gm_action_constraints(problem) > 0 && !starts_on_manifold(problem, values, sentence)) {
         gm_user_problem_close(problem);
         return false;
     }
     problem->m =
         system_scene->hook ? system_scene->hook->members : (size_t)lane->members + system_scene->centre;
     return true;
+}
+
+static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    double *values = gm_system_start_values(parameters, NULL);
+    const bool good = values ? open_problem(parameters, values, problem, sentence)
+                             : gm_refuse(sentence, "not enough memory");
+    free(values);
+    return good;
 }
 
 /* Sets a member's start relative to the last one, the centre. A grid has as many rows as make a square; its
@@ -268,22 +256,14 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     const struct gm_system_lane *lane = parameters;
     const struct gm_system_scene *system_scene = lane->owner;
     const size_t n = system_scene->system.n, m = problem->m;
-    double *centre = malloc(n * sizeof *centre);
-    if (!centre) {
-        return; /* noted: the lane reports that memory was short */
-    }
-    double *values = gm_system_start_values(lane, NULL);
-    for (size_t c = 0; c < n; c++) {
-        centre[c] = values ? values[c] : NAN;
-    }
-    free(values);
-    for (size_t i = 0; i < m; i++) {
+    double *values = gm_system_start_values(lane, NULL); /* NULL is noted: the lane reports it */
+    for (size_t i = 0; values && i < m; i++) {
         double from_centre[2] = {0, 0};
         if (!system_scene->hook) {
             place_member(lane, i, m, from_centre);
         }
         for (size_t c = 0; c < problem->n; c++) {
-            y[c * m + i] = c < n ? centre[c] : 0;
+            y[c * m + i] = c < n ? values[c] : 0;
         }
         y[system_scene->disc[0] * m + i] += from_centre[0];
         y[system_scene->disc[1] * m + i] +=
@@ -292,15 +272,10 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
             put_on_manifold(problem, y, m, i);
         }
     }
-    free(centre);
-    if (system_scene->hook) {
+    if (values && system_scene->hook) {
         system_scene->hook->place(y);
     }
-}
-
-static void close_problem(struct gm_problem *problem)
-{
-    gm_user_problem_close(problem);
+    free(values);
 }
 
 /* ---- how fast the system is ---- */
@@ -661,7 +636,7 @@ static void make(struct gm_arena *arena, void *data)
         .idle = idle,
         .settle = settle,
         .setup = setup,
-        .close = close_problem,
+        .close = gm_user_problem_close,
         .start = start,
         .draw = gm_system_draw,
         .portrait = gm_system_portrait,

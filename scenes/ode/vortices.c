@@ -19,12 +19,14 @@
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
 #include "scenes/common/trails.h"
-#include "scenes/ode/asked.h"
+#include "scenes/ode/optional.h"
 
 extern const struct gm_scene gm_scene_vortices;
 
 static const char *const configurations[] = {"reduced", "square",    "two-turned", "one-turned",
                                              "random",  "collision", "patches",    NULL};
+
+static const char *const shows[] = {"all", GM_SHOW_MODIFIED, NULL};
 
 _Static_assert(offsetof(struct gm_vortices, multipole) ==
                    offsetof(struct gm_vortices, strength) + sizeof(double),
@@ -62,7 +64,8 @@ static const struct gm_parameter parameters[] = {
     GM_INTEGER_ROW(struct gm_vortices, tracers, "tracers", "0", 0, 1e6,
                    "passive particles, half of them dyed", .logarithmic = true),
     GM_INTEGER_ROW(struct gm_vortices, seed, "seed", "1", 0, 1e9, "of the random start"),
-    GM_SHOW_ROW(struct gm_vortices),
+    GM_CHOICE_ROW(struct gm_vortices, show, "show", "all", shows,
+                  "what the picture shows: all, or errors of the modified energy", .live = true),
     GM_TRAILS_ROW(struct gm_vortices),
 };
 
@@ -444,7 +447,10 @@ const struct gm_scene gm_scene_vortices = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
-    GM_ASKED_OF_HAMILTONIAN,
+    .asked = gm_ode_asked,
+    .asked_count = GM_ODE_ASKED,
+    .asked_shown = gm_modified_shown,
+    .draw_asked = gm_draw_modified,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

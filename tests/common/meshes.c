@@ -44,7 +44,7 @@ unsigned char *sides_of(const struct gm_triangulation *mesh)
     unsigned char *sides = calloc(complex->boundary, 1);
     require(sides != NULL);
     for (size_t b = 0; b < complex->boundary; b++) {
-        const long group = mesh->edge_group[complex->boundary_edge[b]];
+        const long group = gm_triangulation_first(mesh, (size_t)complex->boundary_edge[b]);
         sides[b] = group && group == lid      ? GM_EDGE_LID
                    : group && group == inlet  ? GM_EDGE_INLET
                    : group && group == outlet ? GM_EDGE_OUTLET

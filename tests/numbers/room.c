@@ -13,7 +13,7 @@
 
 #include "core/basics.h"
 #include "core/schemes.h"
-#include "scenes/flow/flows.h"
+#include "scenes/flow/room_scene.h"
 
 /* A lane of a scene with parameters as they would be typed. */
 static struct gm_lane *open_lane(const char *scene_name, const char *scheme, const char *const words[][2])

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* (q1, q2, p1, p2), H = (1 + |q|^2)^2 |p|^2/8: rays of light where the index of refraction is 2/(1 + |q|^2), which
    are circles. Not separable, and q1 p2 - q2 p1 is kept. M. Born & E. Wolf, Principles of Optics, 4.2.2. */
-#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "tests/problems/energy.h"
 #include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(fish_eye)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Henon & Heiles, (q1, q2, p1, p2), H = (|p|^2 + |q|^2)/2 + q1^2 q2 - q2^3/3. Astron. J. 69 (1964) 73. */
-#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "tests/problems/energy.h"
 #include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(henon_heiles)

@@ -3,8 +3,8 @@
        H = p1^2/2 + p2^2/6 + d^2/2 + d^4/4 + a (q1^4 + q2^4)/4,   d = q1 - q2,
    a = *(const double *)parameters, and a monitor 1 + d^2 of steps that shorten with the distance.
    Masses that differ catch a scheme that takes p for the velocity. */
-#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "tests/problems/energy.h"
 #include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(particles)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pendulum, H = p^2/2 - cos q. */
-#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "tests/problems/energy.h"
 #include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(pendulum)

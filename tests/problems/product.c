@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* (q, p), H = (1 + q^2)(1 + p^2)/2: a Hamiltonian that is not separable.
    M. Tao, Phys. Rev. E 94 (2016) 043303. */
-#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
+#include "tests/problems/energy.h"
 #include "tests/problems/problems.h"
 
 GM_LOOPS_DECLARE(product)

@@ -215,8 +215,7 @@ static void splittings_by_brackets(void **unused)
         if (!scheme) {
             continue;
         }
-        struct gm_splitting made;
-        const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
+        const struct gm_splitting *splitting = scheme->coefficients;
         int letters[GM_COUNT(splitting->pieces)];
         double fractions[GM_COUNT(splitting->pieces)];
         for (int k = 0; k < splitting->count; k++) {

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "core/field/families/burgers.h"
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/framed.h"
@@ -77,18 +77,18 @@ static void values_agree(void **unused)
 static void projections_commute_or_not(void **unused)
 {
     (void)unused;
-    static const double u[3] = {0.4, 0.3, 0.15};
     static const struct {
         const char *name;
         bool commutes;
     } schemes[] = {
         {"ftcs", false}, {"lax-wendroff", false}, {"ftcs-invariant", true}, {"lax-wendroff-invariant", true}};
     for (size_t s = 0; s < 4; s++) {
-        const struct gm_burgers_symmetry projection = {.a4 = 0.5, .scale = 1}, scaling = {.scale = 1.3};
-        const struct gm_burgers burgers = {.viscosity = 0.005};
+        const struct gm_point_symmetry projection = {.projection = 0.5, .scale = 1}, scaling = {.scale = 1.3};
+        const struct gm_burgers burgers = {.framed.viscosity = 0.005};
+        const struct gm_problem problem = {.parameters = &burgers, .line.dx = 0.01};
         const struct gm_scheme *scheme = gm_scheme_find(schemes[s].name);
-        const double defect = gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &projection, 0.3, u);
-        assert_true(gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &scaling, 0.3, u) < 1e-15);
+        const double defect = gm_frames_of_burgers.defect(&problem, scheme, 0.01, &projection, NULL);
+        assert_true(gm_frames_of_burgers.defect(&problem, scheme, 0.01, &scaling, NULL) < 1e-15);
         if (schemes[s].commutes ? !(defect < 1e-15) : !(defect > 1e-6)) {
             fail_msg("%s: defect %.2e", schemes[s].name, defect);
         }
@@ -112,7 +112,7 @@ static void every_frame_of_the_family_commutes(void **unused)
     (void)unused;
     static const double u[3] = {0.4, 0.3, 0.15};
     const double h = 0.01, k = 0.01, x = 0.3, a4 = 0.5, a5 = 0.4, m = 1 - a4 * k;
-    const struct gm_burgers_symmetry symmetry = {.a4 = a4, .a5 = a5, .scale = 1.3};
+    const struct gm_point_symmetry symmetry = {.boost = a5, .projection = a4, .scale = 1.3};
     static const struct {
         double a, d, broken;
     } choices[] = {{-0.5, 0, 0}, {-0.5, 0.3, 0}, {0, 0, 0}, {-1, 0.3, 0}, {-0.3, -0.7, 0}, {-0.3, 0.2, 0.1}};
@@ -122,7 +122,8 @@ static void every_frame_of_the_family_commutes(void **unused)
     }
     for (size_t c = 0; c < sizeof choices / sizeof *choices; c++) {
         const double a = choices[c].a, d = choices[c].d, broken = choices[c].broken;
-        const struct gm_burgers burgers = {.viscosity = 0.005, .a = a, .d = d};
+        const struct gm_burgers burgers = {.framed.viscosity = 0.005, .a = a, .d = d};
+        const struct gm_problem problem = {.parameters = &burgers, .line.dx = h};
         const double numbers[6] = {a, -1 - 2 * a, 1 + a + broken, d, -1 - 2 * d, d};
         const double plain = family_step(u, h, k, 0.005, numbers, 0);
         const double boosted = family_step(carried, h, k / m, 0.005, numbers, (x + a5 * k) / m - x);
@@ -132,7 +133,7 @@ static void every_frame_of_the_family_commutes(void **unused)
             continue;
         }
         assert_true(defect < 1e-14);
-        assert_true(gm_burgers_defect(gm_scheme_find("ftcs-family"), &burgers, h, k, &symmetry, x, u) <
+        assert_true(gm_frames_of_burgers.defect(&problem, gm_scheme_find("ftcs-family"), k, &symmetry, NULL) <
                     1e-14);
         /* and its run makes that step */
         const struct burgers_solution moving = {

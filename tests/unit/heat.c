@@ -14,7 +14,7 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/families/heat.h"
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/framed.h"
@@ -52,12 +52,12 @@ static void symmetries_are_flows_of_their_generators(void **unused)
 {
     (void)unused;
     const double nu = 0.7;
-    const struct gm_heat_symmetry symmetry = {.boost = 0.8, .projection = -0.6, .scale = 1.5};
+    const struct gm_point_symmetry symmetry = {.boost = 0.8, .projection = -0.6, .scale = 1.5};
     double y[3] = {0.3, -0.4, log(1.7)};
     flow(false, nu, symmetry.boost, y);
     flow(true, nu, symmetry.projection, y);
-    const struct gm_event carried =
-        gm_heat_carried(nu, &symmetry, (struct gm_event){.t = 0.3, .x = -0.4, .u = 1.7});
+    const struct gm_event carried = gm_frames_of_heat.carry(&(struct gm_framed){.viscosity = nu}, &symmetry,
+                                                            (struct gm_event){.t = 0.3, .x = -0.4, .u = 1.7});
     assert_true(fabs(carried.t - 2.25 * y[0]) < 1e-11);
     assert_true(fabs(carried.x - 1.5 * y[1]) < 1e-11);
     assert_true(fabs(carried.u - exp(y[2])) < 1e-11);
@@ -164,7 +164,7 @@ static double run_to(const char *scheme, const struct heat_solution *heat, doubl
     const bool fixed = gm_frame_rests(gm_framed_of(problem), found);
     for (size_t j = 0; j < points; j++) {
         const double x = gm_grid1_node(&problem->line, j),
-                     factor = gm_heat_factor(gm_heat_of(problem), fixed, x, until);
+                     factor = gm_heat_factor(gm_framed_of(problem), fixed, x, until);
         u[j] = gm_run_state(run)[j] / factor;
         largest = fmax(largest, fabs(u[j] - heat_exact(heat, fixed, x, until) / factor));
     }
@@ -227,7 +227,7 @@ static void projections_solve_a_kernel_exactly(void **unused)
 static void groups_are_kept_or_not(void **unused)
 {
     (void)unused;
-    static const struct gm_heat_symmetry symmetries[] = {
+    static const struct gm_point_symmetry symmetries[] = {
         {.scale = 1.3}, {.boost = 0.5, .scale = 1}, {.projection = 0.5, .scale = 1}};
     const struct heat_solution heat = {.start = HEAT_TWO, .diffusivity = 1, .age = 0.25};
     struct framed framed;
@@ -239,8 +239,9 @@ static void groups_are_kept_or_not(void **unused)
     for (size_t s = 0; s < GM_COUNT(schemes); s++) {
         const struct gm_scheme *scheme = gm_scheme_find(schemes[s]);
         for (size_t g = 0; g < GM_COUNT(symmetries); g++) {
-            const double defect = gm_heat_defect(&framed.problem, scheme, 0.0025, &symmetries[g], u);
-            const bool kept = gm_heat_keeps(scheme) >> g & 1;
+            const double defect =
+                gm_frames_of_heat.defect(&framed.problem, scheme, 0.0025, &symmetries[g], u);
+            const bool kept = s >= g; /* scalings, boosts, projections */
             if (kept ? !(defect < 1e-13) : !(defect > 1e-6)) {
                 fail_msg("%s, group %zu: defect %.2e", schemes[s], g, defect);
             }

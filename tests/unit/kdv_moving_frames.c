@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/families/kdv_moving_frames.h"
+#include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/kdv_solutions.h"
@@ -50,6 +50,17 @@ static enum gm_status after(const struct gm_problem *problem, const char *scheme
     return status;
 }
 
+/* Boosts of the frames of all nodes. */
+static void find_boosts(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                        const double *y, double *boosts)
+{
+    struct gm_point_symmetry frame;
+    for (size_t j = 0; j < POINTS; j++) {
+        assert_true(gm_frames_of_kdv.find(problem, scheme, dt, y, j, &frame));
+        boosts[j] = frame.boost;
+    }
+}
+
 /* Exact solutions are solutions in every frame, and carried ones are. */
 static void symmetries_are_those_of_the_equation(void **unused)
 {
@@ -79,9 +90,9 @@ static void symmetries_are_those_of_the_equation(void **unused)
     assert_true(fabs(rate / h + kdv.kdv.eta * value[3] * slope / h + kdv.kdv.mu * third / (h * h * h)) <
                 2e-5);
     /* a soliton of velocity c is carried to one of c + b, or of c/s^2 */
-    const struct gm_kdv_symmetry symmetry = {.boost = 0.4, .scale = 1.3};
+    const struct gm_point_symmetry symmetry = {.boost = 0.4, .scale = 1.3};
     const struct gm_event event = {.t = t, .x = x, .u = value[3]};
-    const struct gm_event carried = gm_kdv_carried(&kdv.kdv, &symmetry, event);
+    const struct gm_event carried = gm_frames_of_kdv.carry(&kdv.kdv.framed, &symmetry, event);
     const double s = symmetry.scale;
     struct kdv_solution other = kdv;
     other.velocity = kdv.velocity / (s * s);
@@ -114,24 +125,25 @@ static void leapfrog_is_made_in_its_frames(void **unused)
     assert_int_equal(gm_run_advance(run, 3), GM_OK);
     memcpy(y, gm_run_state(run), sizeof y);
     double boosts[POINTS];
-    assert_true(gm_kdv_moving_frames(&problem, run->scheme, dt, y, boosts));
+    find_boosts(&problem, run->scheme, dt, y, boosts);
     assert_int_equal(gm_run_advance(run, 1), GM_OK);
     for (size_t j = 0; j < POINTS; j++) {
         double u[5];
-        const struct gm_kdv_symmetry frame = {.boost = boosts[j], .scale = 1}, back = {-boosts[j], 1};
+        const struct gm_point_symmetry frame = {.boost = boosts[j], .scale = 1},
+                                       back = {.boost = -boosts[j], .scale = 1};
         for (size_t i = 0; i < 5; i++) {
             const struct gm_event event = {.x = ((double)i - 2) * h, .u = y[(j + i + POINTS - 2) % POINTS]};
-            u[i] = gm_kdv_carried(&kdv.kdv, &frame, event).u;
+            u[i] = gm_frames_of_kdv.carry(&kdv.kdv.framed, &frame, event).u;
         }
         assert_true(fabs(u[1] + u[2] + u[3]) < 1e-14); /* the cross-section */
-        const struct gm_event past =
-            gm_kdv_carried(&kdv.kdv, &frame,
-                           (struct gm_event){.t = -dt, .x = -kdv.kdv.framed.lambda * dt, .u = y[POINTS + j]});
+        const struct gm_event past = gm_frames_of_kdv.carry(
+            &kdv.kdv.framed, &frame,
+            (struct gm_event){.t = -dt, .x = -kdv.kdv.framed.lambda * dt, .u = y[POINTS + j]});
         /* du/dt along the way from -x to x is u_t + (x/dt) u_x */
         const double along = -past.x / dt * (u[3] - u[1]) / (2 * h);
         const double dispersion = kdv.kdv.mu * (u[4] - 2 * u[3] + 2 * u[1] - u[0]) / (2 * h * h * h);
         const struct gm_event next = {.t = dt, .x = -past.x, .u = past.u + 2 * dt * (along - dispersion)};
-        const struct gm_event arrived = gm_kdv_carried(&kdv.kdv, &back, next);
+        const struct gm_event arrived = gm_frames_of_kdv.carry(&kdv.kdv.framed, &back, next);
         assert_true(fabs(arrived.x - kdv.kdv.framed.lambda * dt) < 1e-15);
         assert_true(fabs(arrived.u - gm_run_state(run)[j]) < 1e-13);
     }
@@ -170,7 +182,7 @@ static void projections_solve_their_equations(void **unused)
     y[2 * POINTS] = dt;
     struct gm_run *run =
         gm_run_open(&problem, gm_scheme_find("evolution-projection"), &no_settings, 0, dt, y);
-    assert_true(gm_kdv_moving_frames(&problem, run->scheme, dt, y, boosts));
+    find_boosts(&problem, run->scheme, dt, y, boosts);
     assert_int_equal(gm_run_advance(run, 1), GM_OK);
     const double *v = gm_run_state(run);
     for (size_t pass = 0; pass < 2; pass++) {

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"

@@ -15,7 +15,7 @@
 #include "app/words/request.h"
 #include "core/basics.h"
 #include "scenes/common/graph.h"
-#include "scenes/flow/flows.h"
+#include "scenes/flow/room_scene.h"
 #include "tests/common/layout_faults.h"
 
 enum { MOST_LANES = 24, SCHEMES = 3 /* without a list, as render shows them */ };

@@ -11,11 +11,10 @@
 
 #include <cmocka.h>
 
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/flow/boundary.h"
-#include "core/flow/start.h"
-#include "core/flow/tracers.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"
@@ -341,7 +340,7 @@ static struct gm_flow *open_room(double window)
     unsigned char *side_of = calloc(mesh.complex->boundary, 1);
     assert_true(flow && side_of);
     for (size_t b = 0; b < mesh.complex->boundary; b++) {
-        side_of[b] = (unsigned char)mesh.edge_group[mesh.complex->boundary_edge[b]];
+        side_of[b] = (unsigned char)gm_triangulation_first(&mesh, (size_t)mesh.complex->boundary_edge[b]);
     }
     const struct gm_side sides[6] = {
         {.kind = GM_EDGE_WALL, .theta_free = true},
@@ -384,8 +383,7 @@ static void smoke_comes_in(void **unused)
     enum { TRACERS = 400, STEPS = 25 };
     const double dt = 0.04;
     struct gm_flow *flow = open_room(0.15);
-    struct gm_flow_place *source = calloc(1, sizeof *source);
-    assert_non_null(source);
+    struct gm_flow_place place = {0}, *source = &place;
     for (int k = 0; k < 3; k++) {
         const double *corner = flow->complex->point + 2 * flow->complex->triangle[k];
         source->x[0] += corner[0] / 3;
@@ -685,7 +683,7 @@ static void budget_closes(void **unused)
         struct gm_flow *flow = open_mesh(12, false, GM_STAR_AUTO);
         const struct gm_complex *complex = flow->complex;
         unsigned char *side_of = calloc(complex->boundary, 1);
-        flow->source = calloc(complex->vertices, sizeof *flow->source);
+        flow->source = gm_arena_take(flow->arena, complex->vertices, sizeof *flow->source);
         assert_true(side_of && flow->source);
         for (size_t b = 0; b < complex->boundary; b++) {
             const double *p = complex->point + 2 * complex->boundary_vertex[b],
@@ -842,7 +840,8 @@ static struct gm_flow *open_square(int n, double rayleigh, double irregular)
                                            .irregular = irregular};
     struct gm_triangulation_fault fault;
     struct gm_flow *flow = gm_flow_open(gm_rectangle_open(&rectangle, &fault));
-    assert_true(flow && gm_flow_carry_heat(flow, 0.71 * rayleigh, 0.5));
+    assert_non_null(flow);
+    gm_flow_carry_heat(flow, 0.71 * rayleigh, 0.5);
     const struct gm_complex *complex = flow->complex;
     unsigned char *side_of = calloc(complex->boundary, 1);
     assert_non_null(side_of);

@@ -571,7 +571,7 @@ static void long_texts_stay_whole(void **unused)
     struct gm_request request;
     const int wake = eventfd(0, 0);
     assert_true(gm_request_parse(&request, 5, typed, 1, message));
-    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    struct gm_worker *worker = gm_worker_open(&(struct gm_worker_plan){.request = &request}, wake, message);
     assert_non_null(worker);
     gm_request_close(&request);
 
@@ -581,7 +581,7 @@ static void long_texts_stay_whole(void **unused)
     gm_studies_begin(&studies, GM_STUDY_STABILITY, shot, wake);
     assert_non_null(studies.studies[GM_STUDY_STABILITY]);
     struct gm_arguments arguments = {0};
-    assert_true(gm_arguments_split(&arguments, gm_study_words(studies.studies[GM_STUDY_STABILITY])));
+    assert_true(gm_arguments_split(&arguments, studies.studies[GM_STUDY_STABILITY]->words));
     bool whole = false;
     for (int i = 0; i < arguments.count; i++) {
         whole = whole || strcmp(arguments.words[i], words) == 0;
@@ -618,7 +618,7 @@ static void drags_are_undone_one_by_one(void **unused)
     struct gm_request request;
     const int wake = eventfd(0, 0);
     assert_true(gm_request_parse(&request, 1, typed, 1, message));
-    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    struct gm_worker *worker = gm_worker_open(&(struct gm_worker_plan){.request = &request}, wake, message);
     assert_non_null(worker);
     gm_request_close(&request);
     const struct gm_parameter *row = gm_scene_parameter(gm_scene_find("kepler"), "eccentricity");
@@ -658,7 +658,8 @@ static void what_was_asked_for_is_saved(void **unused)
         char *typed[] = {"disc"}, parting[GM_MESSAGE];
         struct gm_request request;
         assert_true(gm_request_parse(&request, 1, typed, 1, message));
-        struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+        struct gm_worker *worker =
+            gm_worker_open(&(struct gm_worker_plan){.request = &request}, wake, message);
         assert_non_null(worker);
         gm_request_close(&request);
         gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_SAVE});
@@ -672,7 +673,7 @@ static void what_was_asked_for_is_saved(void **unused)
     struct gm_request request;
     struct rlimit room;
     assert_true(gm_request_parse(&request, GM_COUNT(typed), typed, 1, message));
-    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    struct gm_worker *worker = gm_worker_open(&(struct gm_worker_plan){.request = &request}, wake, message);
     assert_non_null(worker);
     gm_request_close(&request);
     signal(SIGXFSZ, SIG_IGN);

@@ -18,9 +18,9 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/families/runge_kutta/partitioned.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/families/splitting/splitting.h"
-#include "core/ode/user/polish.h"
+#include "core/ode/user/scheme.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/high_order.h"
@@ -77,6 +77,28 @@ static void put_splitting(FILE *out, const struct gm_splitting *splitting)
     fprintf(out, "%s)", even && splitting->pieces[0].piece == GM_KICK ? "; first: kick" : "");
 }
 
+/* Kick, drift, ..., kick, each kick the mean of the drifts next to it: several steps of Verlet's method. */
+static bool is_of_verlet(const struct gm_splitting *splitting)
+{
+    double before = 0;
+    bool good = splitting->count > 3 && splitting->count % 2 == 1;
+    for (int i = 0; good && i < splitting->count; i += 2) {
+        const double drift = i + 1 < splitting->count ? splitting->pieces[i + 1].fraction : 0;
+        good = splitting->pieces[i].piece == GM_KICK && splitting->pieces[i].fraction == (before + drift) / 2;
+        before = drift;
+    }
+    return good;
+}
+
+static void put_steps_of_verlet(FILE *out, const struct gm_splitting *splitting)
+{
+    fputs("composition(verlet", out);
+    for (int i = 1; i < splitting->count; i += 2) {
+        fprintf(out, "%s%.17g", i > 1 ? ", " : "; ", splitting->pieces[i].fraction);
+    }
+    fputs(")", out);
+}
+
 static void put_composition(FILE *out, const char *base, const struct gm_composition *composition)
 {
     fprintf(out, "composition(%s", base);
@@ -124,11 +146,11 @@ static char *typed(const struct gm_scheme *scheme)
         put_rows(out, 1, stages, row->d, 0);
         fputs(")", out);
     } else if (scheme->family == &gm_family_splitting) {
-        const struct gm_splitting_row *row = scheme->coefficients;
-        if (row->of_verlet) {
-            put_composition(out, "verlet", row->of_verlet);
+        const struct gm_splitting *row = scheme->coefficients;
+        if (is_of_verlet(row)) {
+            put_steps_of_verlet(out, row);
         } else {
-            put_splitting(out, &row->splitting);
+            put_splitting(out, row);
         }
     }
     fclose(out);
@@ -293,7 +315,7 @@ static void schemes_of_schemes(void **unused)
     const struct gm_scheme *again = open_user(yoshida->word);
     assert_string_equal(again->word, yoshida->word);
     assert_string_equal(again->title, yoshida->title);
-    assert_memory_equal(again->coefficients, yoshida->coefficients, sizeof(struct gm_splitting_row));
+    assert_memory_equal(again->coefficients, yoshida->coefficients, sizeof(struct gm_splitting));
     gm_user_scheme_close(again);
     gm_user_scheme_close(yoshida);
     /* titles that follow from the text stand in the word: a splitting's in that of what it is a part of */

@@ -13,7 +13,6 @@
 #include "app/commands/reference/reference.h"
 #include "app/grid/certified_lane.h"
 #include "app/grid/chart.h"
-#include "app/grid/grid.h"
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
@@ -362,9 +361,7 @@ static int polish(const struct gm_options *options)
     }
     const bool written = write_text(out, text, message);
     free(text);
-    if (!written) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !written, GM_EXIT_FILE, "%s", message);
     if (options->json) {
         struct gm_row row = gm_row_begin(stdout);
         gm_row_put(
@@ -385,32 +382,29 @@ static int polish(const struct gm_options *options)
 
 int gm_command_certify(const struct gm_options *options)
 {
-    if (options->polish && (options->on || options->output || options->arguments.count != 1)) {
-        return gm_give_up(GM_EXIT_USAGE, "--polish takes one scheme, a file or a word, and nothing else");
-    }
+    gm_command_end_if(options,
+                      options->polish && (options->on || options->output || options->arguments.count != 1),
+                      GM_EXIT_USAGE, "--polish takes one scheme, a file or a word, and nothing else");
     if (options->polish) {
         return polish(options);
     }
-    if (options->on && options->arguments.count > 0 && strcmp(options->arguments.words[0], "all") == 0) {
-        return gm_give_up(GM_EXIT_USAGE, "--on measures one scheme: name it");
-    }
+    gm_command_end_if(options,
+                      options->on && options->arguments.count > 0 &&
+                          strcmp(options->arguments.words[0], "all") == 0,
+                      GM_EXIT_USAGE, "--on measures one scheme: name it");
     if (options->on && options->arguments.count > 0) {
         return certify_on(options);
     }
-    if (options->arguments.count != 1) {
-        return gm_give_up(GM_EXIT_USAGE, "certify which scheme? A name, or all");
-    }
+    gm_command_end_if(options, options->arguments.count != 1, GM_EXIT_USAGE,
+                      "certify which scheme? A name, or all");
     const char *name = options->arguments.words[0];
     const bool every = strcmp(name, "all") == 0;
-    if (every && (options->output || options->out)) {
-        return gm_give_up(GM_EXIT_USAGE, "--output and --out are for the diagram of one scheme: name it");
-    }
+    gm_command_end_if(options, every && (options->output || options->out), GM_EXIT_USAGE,
+                      "--output and --out are for the diagram of one scheme: name it");
     char message[GM_MESSAGE] = "";
     int status = GM_EXIT_MEMORY;
     const struct gm_scheme *found = every ? NULL : gm_scheme_sought(name, &status, message);
-    if (!every && !found) {
-        return gm_give_up(status, "%s", message);
-    }
+    gm_command_end_if(options, !every && !found, status, "%s", message);
     const size_t most = gm_scheme_count();
     struct certifying all = {.schemes = gm_arena_take(options->arena, most, sizeof *all.schemes),
                              .options = options,

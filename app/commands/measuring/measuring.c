@@ -3,7 +3,6 @@
    studies, everything but the printing. */
 #include "app/commands/measuring/measuring.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -51,35 +50,7 @@ int gm_command_chart(const struct gm_options *options, const char *command, stru
     return GM_EXIT_OK;
 }
 
-void gm_print_number(const char *format, int width, double value)
-{
-    if (isfinite(value)) {
-        printf(format, value);
-    } else {
-        printf(" %*s", width, "-");
-    }
-}
-
-static void print_json(const struct gm_grid *grid, const struct gm_study_printer *printer)
-{
-    for (size_t i = 0; i < grid->begun; i++) {
-        struct gm_row row = gm_row_begin(stdout);
-        gm_row_put(&row, "scene %s, scheme %s", grid->request.scene->name, grid->lines[i].scheme->name);
-        if (grid->row->ordered) {
-            gm_row_put(&row, "order %i", grid->lines[i].scheme->order);
-        }
-        printer->put_front(&row, grid, &grid->lines[i]);
-        gm_grid_put_cells(grid, &grid->lines[i], printer->cells, &row);
-        if (printer->put_end) {
-            printer->put_end(&row, grid, &grid->lines[i]);
-        }
-        gm_row_close(&row);
-        putchar('\n');
-    }
-}
-
-int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
-                     const struct gm_study_printer *printer)
+int gm_command_study(const struct gm_options *options, enum gm_study_kind kind)
 {
     char message[GM_MESSAGE], name[128];
     const struct gm_study_row *study = gm_study_rows[kind];
@@ -98,10 +69,8 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
     if (gm_memory_was_short()) {
         gm_command_end(options, GM_EXIT_MEMORY, "not enough memory to measure what was asked for");
     } else if (measured) {
-        if (options->json) {
-            print_json(grid, printer);
-        } else if (!gm_options_take_stdout(options)) {
-            printer->print(grid);
+        if (options->json || !gm_options_take_stdout(options)) {
+            gm_grid_print(grid, options->json);
         }
         snprintf(name, sizeof name, "%s-%s", grid->request.scene->name, study->name);
         status = gm_command_chart(
@@ -111,4 +80,14 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
         status = gm_give_up(study->refusal, "%s", message);
     }
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}
+
+int gm_command_backward(const struct gm_options *options)
+{
+    return gm_command_study(options, GM_STUDY_BACKWARD);
+}
+
+int gm_command_work_precision(const struct gm_options *options)
+{
+    return gm_command_study(options, GM_STUDY_WORK);
 }

@@ -4,27 +4,13 @@
 
 #include "app/commands/commands.h"
 #include "app/grid/grid.h"
-#include "render/picture/picture.h"
 
 /* Writes the picture and the table of a measuring command, as its options demand, and reports them; the chart
    has its data, its functions and its default name. Returns the exit status. */
 int gm_command_chart(const struct gm_options *options, const char *command, struct gm_chart *chart);
 
-/* The printer of a study: text, or a line of JSON with members before and after its runs, called `cells`. */
-struct gm_study_printer {
-    void (*print)(const struct gm_grid *grid);
-    const char *cells;
-    void (*put_front)(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line);
-    void (*put_end)(struct gm_row *row, const struct gm_grid *grid,
-                    const struct gm_grid_line *line); /* NULL */
-};
-
-/* Prints a cell of a table, with a dash as wide as the number for one that is not finite. */
-__attribute__((format(printf, 1, 0))) void gm_print_number(const char *format, int width, double value);
-
 /* The whole command of a study: reads its words, measures, prints the table and writes its chart. Returns the
    exit status. */
-int gm_command_study(const struct gm_options *options, enum gm_study_kind kind,
-                     const struct gm_study_printer *printer);
+int gm_command_study(const struct gm_options *options, enum gm_study_kind kind);
 
 #endif

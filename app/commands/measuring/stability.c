@@ -17,7 +17,6 @@
 #include "core/arena.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
-#include "core/schemes.h"
 
 /* ---- the region ---- */
 
@@ -228,15 +227,11 @@ static int find_region(const struct gm_options *options)
         .scheme = gm_scheme_sought(options->region, &status, message),
         .measured = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.measured),
         .known = gm_arena_take(options->arena, (size_t)SIDE * SIDE, sizeof *region.known)};
-    if (!region.scheme) {
-        return gm_give_up(status, "%s", message);
-    }
+    gm_command_end_if(options, !region.scheme, status, "%s", message);
     region.test = gm_linear_test_of(region.scheme);
-    if (region.test == GM_TEST_NONE) {
-        return gm_give_up(GM_EXIT_USAGE,
-                          "%s takes neither y' = z y nor an oscillator: it has no linear stability region",
-                          region.scheme->name);
-    }
+    gm_command_end_if(options, region.test == GM_TEST_NONE, GM_EXIT_USAGE,
+                      "%s takes neither y' = z y nor an oscillator: it has no linear stability region",
+                      region.scheme->name);
     gm_catch_interrupts();
     region.reach = region.test == GM_TEST_PLANE ? 6 : 2 * M_PI;
     char own[41];
@@ -255,60 +250,9 @@ static int find_region(const struct gm_options *options)
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
 
-/* ---- the study ---- */
-
-static void print_table(const struct gm_grid *grid)
-{
-    const struct gm_stability *plan = grid->plan;
-    char letters[128], question[GM_TEXT_SIZE];
-    gm_stability_letters(grid, letters, sizeof letters);
-    printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", grid->request.scene->name,
-           gm_stability_question(grid, question, sizeof question), gm_grid_timing(grid)->until,
-           gm_stability_judge(grid), letters[0] ? ", " : "", letters);
-    if (plan->told) {
-        printf("%s: %.4g here\n", plan->told, 1 / plan->unit(gm_grid_timing(grid)));
-    }
-    for (size_t i = 0; i < grid->count; i++) {
-        const struct gm_grid_line *line = &grid->lines[i];
-        printf("\n%-20s %s\n%12s", line->scheme->name, plan->parameter, plan->label);
-        for (size_t v = 0; v < grid->values.count; v++) {
-            printf(" %7.4g", grid->values.values[v]);
-        }
-        printf("\n");
-        for (size_t s = grid->steps.count; s-- > 0;) {
-            printf("%12.4g", grid->steps.values[s]);
-            for (size_t v = 0; v < grid->values.count; v++) {
-                printf(" %7c", gm_cell_letter(&line->cells[s * grid->values.count + v]));
-            }
-            printf("\n");
-        }
-        const double limit = gm_stability_limit(grid, line);
-        if (isnan(limit)) {
-            printf("  how far it is %s is open: not every step was tried\n", gm_stability_judge(grid));
-        } else if (limit > 0) {
-            printf("  %s for all values up to %.4g\n", gm_stability_judge(grid), limit);
-        } else {
-            printf("  at no step %s for all values\n", gm_stability_judge(grid));
-        }
-    }
-}
-
-static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
-{
-    const double limit = gm_stability_limit(grid, line);
-    gm_row_put(row, "parameter %s, unit %s, until %.17g, judge %s, accuracy %.17g, limit %.17g",
-               grid->parameter->key, grid->plan->label, gm_grid_timing(grid)->until, gm_stability_judge(grid),
-               grid->accuracy, limit > 0 ? limit : NAN);
-}
-
 int gm_command_stability(const struct gm_options *options)
 {
-    if (options->region && options->arguments.count > 0) {
-        return gm_give_up(GM_EXIT_USAGE, "--region takes a scheme alone, no scene");
-    }
-    if (options->region) {
-        return find_region(options);
-    }
-    return gm_command_study(options, GM_STUDY_STABILITY,
-                            &(const struct gm_study_printer){print_table, "cells", put_front, NULL});
+    gm_command_end_if(options, options->region && options->arguments.count > 0, GM_EXIT_USAGE,
+                      "--region takes a scheme alone, no scene");
+    return options->region ? find_region(options) : gm_command_study(options, GM_STUDY_STABILITY);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint sweep: a run for every combination of values, on all cores, and a table of them. */
-#include <stdio.h>
 #include <string.h>
 
 #include "app/base/interrupt.h"
@@ -11,7 +10,6 @@
 #include "app/output/say.h"
 #include "app/words/drive.h"
 #include "core/arena.h"
-#include "core/basics.h"
 #include "core/expression/number.h"
 
 /* More runs than these are made if that is confirmed. */
@@ -58,22 +56,17 @@ static bool is_drawn(const struct gm_options *options)
 /* The options must go together. */
 static void check(const struct gm_options *options)
 {
-    if (options->retry && !is_status(options->retry)) {
-        gm_command_end(options, GM_EXIT_USAGE, "--retry %.60s is none of: %s", options->retry,
-                       gm_sweep_statuses);
-    }
-    if (options->table && strcmp(options->table, "-") == 0) {
-        gm_command_end(options, GM_EXIT_USAGE,
-                       "--table - is not a file; without --table the rows go to standard output");
-    }
+    gm_command_end_if(options, options->retry && !is_status(options->retry), GM_EXIT_USAGE,
+                      "--retry %.60s is none of: %s", options->retry, gm_sweep_statuses);
+    gm_command_end_if(options, options->table && strcmp(options->table, "-") == 0, GM_EXIT_USAGE,
+                      "--table - is not a file; without --table the rows go to standard output");
     const bool streamed = gm_options_take_stdout(options);
     const bool named = options->table || (is_drawn(options) && !streamed);
-    if ((options->retry || options->pace.shards || streamed) && !named) {
-        gm_command_end(options, GM_EXIT_USAGE, "%s needs a table: --table FILE.csv",
-                       options->retry         ? "--retry"
-                       : options->pace.shards ? "--shard"
-                                              : "--output -");
-    }
+    gm_command_end_if(options, (options->retry || options->pace.shards || streamed) && !named, GM_EXIT_USAGE,
+                      "%s needs a table: --table FILE.csv",
+                      options->retry         ? "--retry"
+                      : options->pace.shards ? "--shard"
+                                             : "--output -");
 }
 
 /* The table: as given, or beside the picture. */
@@ -114,9 +107,7 @@ static int paint(const struct gm_sweep *sweep, const struct gm_options *options,
     const struct gm_arguments *words = gm_arguments_of(options->arena, sweep->arguments);
     *options->end = GM_EXIT_FILE;
     struct gm_sweep_chart *chart = gm_sweep_chart_open(options->arena, sweep);
-    if (!gm_sweep_chart_read(chart, path, message)) {
-        return gm_give_up(GM_EXIT_FILE, "%s", message);
-    }
+    gm_command_end_if(options, !gm_sweep_chart_read(chart, path, message), GM_EXIT_FILE, "%s", message);
     struct gm_options told = *options;
     told.arguments = *words;
     told.measure = sweep->measure;
@@ -191,9 +182,9 @@ int gm_command_sweep(const struct gm_options *options)
     sweep->shard = options->pace.shards ? (size_t)options->pace.shard : 1;
     sweep->shards = options->pace.shards ? (size_t)options->pace.shards : 1;
     const char *path = options->table || is_drawn(options) ? path_of(options, sweep) : NULL;
-    if (is_drawn(options) && !options->pace.shards && !gm_sweep_is_drawable(sweep, message)) {
-        gm_command_end(options, GM_EXIT_USAGE, "%s; --table FILE.csv alone makes none", message);
-    }
+    gm_command_end_if(options,
+                      is_drawn(options) && !options->pace.shards && !gm_sweep_is_drawable(sweep, message),
+                      GM_EXIT_USAGE, "%s; --table FILE.csv alone makes none", message);
     confirm(sweep, options);
     return gm_finish(make(sweep, options, path));
 }

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+#include "app/base/arguments.h"
 #include "app/tours/tour.h"
 #include "core/scheme.h"
 #include "render/layout/appearance.h"
@@ -71,31 +72,42 @@ struct gm_study_look {
     unsigned long message_number;
 };
 
-struct gm_study;
+struct gm_study {
+    enum gm_study_kind kind;
+    char *words; /* the command's, the scene first */
+    int wake;
+    struct gm_job job;
 
-/* Starts to measure; gm_study_close frees the study. `words` are the command's, the scene first. `wake` is
-   an eventfd, written when there is a new look. Returns NULL on failure and fills message (GM_MESSAGE
-   bytes). */
+    /* owned by the screen */
+    const struct gm_scene *scene; /* the scene that is open at its start; it may be freed */
+    struct gm_study_look *look;   /* the last look taken; NULL before the first */
+    int64_t until;                /* time (ms) at which the notice of its end disappears */
+
+    /* shared, under the job's lock */
+    bool stop; /* measuring stops; finished results remain */
+    bool save; /* the results go to PNG and CSV in the working directory; the next look names them */
+    bool leave;
+    enum gm_theme theme; /* of a saved picture */
+    bool ready;          /* looks[filled] is finished and not yet taken */
+    int filled;          /* index of the look that the thread fills; the screen has the other one */
+    struct gm_study_look looks[2];
+
+    /* owned by the thread */
+    struct gm_arguments arguments; /* the words, split */
+    struct gm_grid grid;
+    struct gm_study_look now; /* the current look without its picture */
+    double looked;            /* time of the last look, in seconds */
+    unsigned long told;       /* number of that look's message */
+};
+
+/* Starts to measure; gm_study_close frees the study. `wake` is an eventfd, written when there is a new look.
+   Returns NULL on failure and fills message (GM_MESSAGE bytes). */
 struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int wake, char *message);
 /* Abandons unfinished runs and frees the study; ignores NULL. */
 void gm_study_close(struct gm_study *study);
 
-const char *gm_study_words(const struct gm_study *study);
-
-/* Returns true while it measures or carries out an order. */
-bool gm_study_is_busy(struct gm_study *study);
-
-/* Returns a look that is new since the last call, or NULL. The caller may read it and lay out its picture
-   until the next call. */
-struct gm_study_look *gm_study_take(struct gm_study *study);
-
-/* Returns the words of the run at (x, y) of the picture's panel number `panel`, the scene first. The
-   caller frees them; NULL if there is no run. */
-char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y);
-
-/* Stops measuring; finished results remain. */
-void gm_study_stop(struct gm_study *study);
-/* Writes the results as PNG and CSV to the working directory; the next look's message gives the name. */
-void gm_study_save(struct gm_study *study, enum gm_theme theme);
+/* Takes a look that is new since the last call; returns false without one. The caller may read it and lay out
+   its picture until the next call. */
+bool gm_study_take(struct gm_study *study);
 
 #endif

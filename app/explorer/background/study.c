@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +12,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
-#include "app/grid/grid.h"
 #include "app/output/folder.h"
 #include "app/output/printer.h"
 #include "render/clock.h"
@@ -22,37 +21,14 @@ enum { NICE = 10 };
 /* seconds between two looks, at least */
 static const double look_seconds = 0.1;
 
-struct gm_study {
-    enum gm_study_kind kind;
-    char *words;
-    int wake;
-    struct gm_job job;
-
-    /* shared, under the job's lock */
-    bool stop, leave, save;
-    enum gm_theme theme;
-    bool ready; /* looks[filled] is finished and not yet taken */
-    int filled; /* index of the look that the thread fills; the screen has the other one */
-    struct gm_study_look looks[2];
-
-    /* owned by the thread */
-    struct gm_arguments arguments; /* the words, split */
-    struct gm_grid grid;
-    struct gm_study_look now; /* the current look without its picture */
-    double looked;            /* time of the last look, in seconds */
-    unsigned long told;       /* number of that look's message */
-};
-
-const char *gm_study_words(const struct gm_study *study)
-{
-    return study->words;
-}
-
 /* ---- the thread ---- */
 
-static void say(struct gm_study *study, const char *sentence)
+__attribute__((format(printf, 2, 3))) static void say(struct gm_study *study, const char *format, ...)
 {
-    snprintf(study->now.message, sizeof study->now.message, "%s", sentence);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(study->now.message, sizeof study->now.message, format, values);
+    va_end(values);
     study->now.message_number++;
 }
 
@@ -83,7 +59,7 @@ static void show(struct gm_study *study)
 
 static void save(struct gm_study *study, enum gm_theme theme)
 {
-    char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
+    char kind[96], name[128], message[GM_MESSAGE] = "not enough memory";
     const char *study_name = gm_study_rows[study->kind]->name;
     char *command = gm_arguments_join(study_name, &study->arguments);
     struct gm_chart chart = {.name = name,
@@ -98,11 +74,10 @@ static void save(struct gm_study *study, enum gm_theme theme)
     const bool saved = command && gm_chart_write(&chart, message);
     free(command);
     if (saved) {
-        snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);
+        say(study, "Saved %s.png and %s.csv.", name, name);
     } else {
-        snprintf(sentence, sizeof sentence, "Not saved: %.400s", message);
+        say(study, "Not saved: %.400s", message);
     }
-    say(study, sentence);
 }
 
 /* Saves if requested. */
@@ -151,7 +126,7 @@ static void measure(struct gm_study *study)
         say(study, "Stopped; what is finished stays.");
     } else if (!measured) {
         study->now.impossible = study->now.done == 0;
-        say(study, message);
+        say(study, "%s", message);
     } else {
         study->now.done = study->now.all;
         say(study, "Done.");
@@ -171,22 +146,7 @@ static void work(void *self)
     }
 }
 
-static void close_grid(void *self)
-{
-    struct gm_study *study = self;
-    gm_grid_close(&study->grid);
-}
-
-/* ---- orders ---- */
-
-static bool open_grid(struct gm_study *study, char *message)
-{
-    if (!study->words || !study->looks[0].picture || !study->looks[1].picture ||
-        !gm_arguments_split(&study->arguments, study->words)) {
-        return gm_refuse(message, "There is not enough memory.");
-    }
-    return gm_grid_open(&study->grid, study->kind, &study->arguments, NULL, message);
-}
+/* ---- the screen ---- */
 
 static void free_study(struct gm_study *study)
 {
@@ -195,6 +155,23 @@ static void free_study(struct gm_study *study)
     gm_arguments_close(&study->arguments);
     free(study->words);
     free(study);
+}
+
+static bool start(struct gm_study *study, char *message)
+{
+    if (!study->words || !study->looks[0].picture || !study->looks[1].picture ||
+        !gm_arguments_split(&study->arguments, study->words)) {
+        return gm_refuse(message, "There is not enough memory.");
+    }
+    if (!gm_grid_open(&study->grid, study->kind, &study->arguments, NULL, message)) {
+        return false;
+    }
+    if (!gm_job_open(&study->job, work, NULL, study, -1, message)) {
+        gm_grid_close(&study->grid);
+        return false;
+    }
+    gm_job_begin(&study->job);
+    return true;
 }
 
 struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int wake, char *message)
@@ -210,65 +187,35 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     study->looks[0].picture = gm_picture_open();
     study->looks[1].picture = gm_picture_open();
     study->looked = -INFINITY;
-    if (!open_grid(study, message)) {
+    if (!start(study, message)) {
         free_study(study);
-        return NULL;
+        study = NULL;
     }
-    if (!gm_job_open(&study->job, work, close_grid, study, -1, message)) {
-        close_grid(study);
-        free_study(study);
-        return NULL;
-    }
-    gm_job_begin(&study->job);
     return study;
 }
 
 void gm_study_close(struct gm_study *study)
 {
-    if (!study) {
-        return;
+    if (study) {
+        gm_job_tell(&study->job, &study->leave);
+        gm_job_close(&study->job);
+        gm_grid_close(&study->grid);
+        free_study(study);
     }
-    gm_job_tell(&study->job, &study->leave);
-    gm_job_close(&study->job);
-    free_study(study);
 }
 
-bool gm_study_is_busy(struct gm_study *study)
+bool gm_study_take(struct gm_study *study)
 {
-    return gm_job_is_busy(&study->job);
-}
-
-struct gm_study_look *gm_study_take(struct gm_study *study)
-{
-    struct gm_study_look *look = NULL;
     pthread_mutex_lock(&study->job.lock);
-    if (study->ready) {
-        look = &study->looks[study->filled];
+    const bool ready = study->ready;
+    if (ready) {
+        study->look = &study->looks[study->filled];
         study->filled = 1 - study->filled;
         study->ready = false;
     }
     pthread_mutex_unlock(&study->job.lock);
-    if (look) {
+    if (ready) {
         gm_job_begin(&study->job);
     }
-    return look;
-}
-
-char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y)
-{
-    const struct gm_study_row *row = gm_study_rows[study->kind];
-    return row->pick ? row->pick(&study->grid, panel, x, y) : NULL;
-}
-
-void gm_study_stop(struct gm_study *study)
-{
-    gm_job_tell(&study->job, &study->stop);
-}
-
-void gm_study_save(struct gm_study *study, enum gm_theme theme)
-{
-    pthread_mutex_lock(&study->job.lock);
-    study->theme = theme;
-    pthread_mutex_unlock(&study->job.lock);
-    gm_job_tell(&study->job, &study->save);
+    return ready;
 }

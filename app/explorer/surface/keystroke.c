@@ -58,20 +58,11 @@ bool gm_typed_key(char *typed, int key)
 /* The place of a word in a text, the best first. */
 enum { EXACT, PREFIX, WORD_START, ANYWHERE, NOWHERE };
 
-static bool begins_with(const char *text, const char *word, size_t length)
-{
-    size_t i = 0;
-    while (i < length && tolower((unsigned char)text[i]) == tolower((unsigned char)word[i])) {
-        i++;
-    }
-    return i == length;
-}
-
 static int place_in(const char *text, const char *word, size_t length)
 {
     int best = NOWHERE;
     for (const char *at = text; *at && best > WORD_START; at++) {
-        if (begins_with(at, word, length)) {
+        if (strncasecmp(at, word, length) == 0) {
             const bool start = at == text || !isalnum((unsigned char)at[-1]);
             best = at == text ? (at[length] ? PREFIX : EXACT) : start ? WORD_START : ANYWHERE;
         }

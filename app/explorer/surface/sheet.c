@@ -291,11 +291,8 @@ const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row)
 
 /* ---- the whole screen ---- */
 
-struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face)
+static struct gm_sheet whole_of(struct gm_screen *screen, const struct gm_face *face)
 {
-    clear_cells(&screen->cells, face->theme);
-    screen->hits.count = 0;
-    screen->pixels = (struct gm_inline_place){0};
     return (struct gm_sheet){
         .cells = &screen->cells,
         .face = face,
@@ -303,6 +300,14 @@ struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *
         .height = screen->cells.rows,
         .hits = &screen->hits,
     };
+}
+
+struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face)
+{
+    clear_cells(&screen->cells, face->theme);
+    screen->hits.count = 0;
+    screen->pixels = (struct gm_inline_place){0};
+    return whole_of(screen, face);
 }
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows)
@@ -356,27 +361,17 @@ void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
     gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
 }
 
-void gm_screen_ask(const struct gm_sheet *whole, const char *loss)
+void gm_screen_ask(struct gm_screen *screen, const struct gm_face *face)
 {
     char text[160];
-    const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
-    snprintf(text, sizeof text, "Quit? %s. q again quits, any other key stays", loss);
-    gm_screen_say_above(whole, text);
+    const struct gm_sheet whole = whole_of(screen, face);
+    const struct gm_sheet last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
+    snprintf(text, sizeof text, "Quit? %s. q again quits, any other key stays", face->loss);
+    gm_screen_say_above(&whole, text);
     for (int column = 0; column < last.width; column++) {
         gm_sheet_glyph(&last, column, 0, ' ', GM_INK, false);
     }
     gm_sheet_hints(&last, 1, "q:quit|any other key:stay");
-}
-
-static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)
-{
-    screen->pixels = (struct gm_inline_place){.column = column, .row = row, .columns = columns, .rows = rows};
-    for (int i = 0; i < rows; i++) {
-        struct gm_cell *line = &screen->cells.cells[(size_t)(row + i) * (size_t)screen->cells.columns];
-        for (int k = column; k < column + columns; k++) {
-            line[k].glyph = 0;
-        }
-    }
 }
 
 void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_shot *shot)
@@ -389,7 +384,12 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, c
     screen->picture_row = sheet->row;
     /* in the last row a picture of pixels could make the screen scroll */
     if (face->pixels && !face->monochrome && sheet->row + sheet->height < screen->cells.rows) {
-        leave_for_pixels(screen, sheet->column, sheet->row, sheet->width, sheet->height);
+        screen->pixels = (struct gm_inline_place){
+            .column = sheet->column, .row = sheet->row, .columns = sheet->width, .rows = sheet->height};
+        for (int i = 0; i < sheet->width * sheet->height; i++) {
+            const int row = sheet->row + i / sheet->width, column = sheet->column + i % sheet->width;
+            screen->cells.cells[row * screen->cells.columns + column].glyph = 0;
+        }
         return;
     }
     if (face->guide) {

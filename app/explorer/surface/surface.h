@@ -216,8 +216,8 @@ void gm_screen_rule(const struct gm_sheet *whole, int below, int side);
 struct gm_sheet gm_screen_foot(const struct gm_sheet *whole);
 /* Writes a text that does not fit beside the hints above the last row, in at most a third of the rows. */
 void gm_screen_say_above(const struct gm_sheet *whole, const char *text);
-/* Draws the question whether to quit, over the rows at the bottom. */
-void gm_screen_ask(const struct gm_sheet *whole, const char *loss);
+/* Draws the question whether to quit with face->loss, over the rows at the bottom. */
+void gm_screen_ask(struct gm_screen *screen, const struct gm_face *face);
 /* Paints the shot's picture, or leaves its cells to the pixels. */
 void gm_screen_picture(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_shot *shot);
 

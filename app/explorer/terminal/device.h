@@ -203,7 +203,7 @@ struct gm_writer {
     const char *place, *plain, *strong, *reversed, *set_foreground, *set_background;
     bool corner;           /* the last cell of the screen can be written without a scroll */
     struct gm_cells shown; /* the screen that the terminal shows once all is sent */
-    bool known;            /* `shown` is valid */
+    bool known;            /* `shown` is valid; else the next screen is written in full */
     char *out;
     size_t length, capacity, sent;
     bool failed; /* out of memory, or the terminal is gone */
@@ -255,8 +255,6 @@ void gm_writer_tell(struct gm_writer *writer, const char *text);
 bool gm_writer_send(struct gm_writer *writer);
 /* Drops the unsent bytes and ends a sequence that this cuts. */
 void gm_writer_cut(struct gm_writer *writer);
-/* Invalidates the shown screen: the next one is written in full. */
-void gm_writer_forget(struct gm_writer *writer);
 
 /* Shows composed screens with a picture of pixels. A thread paints the picture, so a screen with a new one
    appears a little later, both together. Nothing waits for the terminal. */
@@ -270,6 +268,8 @@ struct gm_pixels_job {
     bool whole;                  /* the terminal may have lost earlier pictures */
 };
 
+struct gm_face;
+struct gm_screen;
 struct gm_display {
     struct gm_writer writer;
     struct gm_terminal *terminal;
@@ -288,20 +288,12 @@ struct gm_display {
 bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, int wake);
 void gm_display_close(struct gm_display *display);
 
-/* A composed screen. */
-struct gm_composed {
-    const struct gm_cells *cells;
-    struct gm_inline_place room; /* cells without a glyph, for a picture of pixels; no columns: none */
-    enum gm_inline_kind pixels;  /* the kind of that picture */
-    enum gm_theme theme;
-    struct gm_picture *picture; /* the picture; may be NULL */
-};
-
 /* Returns true if a screen can be shown now. Until then the last screen's picture may be in use. */
 bool gm_display_takes(struct gm_display *display);
-/* Shows a screen. Returns false if its picture must be painted first: it is in use until gm_display_takes,
-   then call again. */
-bool gm_display_show(struct gm_display *display, const struct gm_composed *screen);
+/* Shows a composed screen with a picture (NULL: none). Returns false if that must be painted first: it is in use
+   until gm_display_takes, then call again. */
+bool gm_display_show(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
+                     struct gm_picture *picture);
 /* Invalidates the shown screen and picture. */
 void gm_display_forget(struct gm_display *display);
 /* Takes a finished picture; returns true if there was one. */

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/explorer/background/background.h"
+#include "app/explorer/surface/surface.h"
 #include "render/clock.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"
@@ -47,18 +48,13 @@ static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job 
     return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
 }
 
-static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
-{
-    return same_kind(a, b) && a->theme == b->theme;
-}
-
 /* Opens a canvas of the right size, unless it is open. */
 static bool prepare(struct gm_pixels *pixels)
 {
     const struct gm_pixels_job *job = &pixels->job;
     struct gm_appearance look = {.theme = job->theme, .live = true};
     char message[GM_MESSAGE];
-    if (pixels->canvas && same_place(job, &pixels->made_for)) {
+    if (pixels->canvas && same_kind(job, &pixels->made_for) && job->theme == pixels->made_for.theme) {
         return true;
     }
     forget(pixels);
@@ -129,7 +125,7 @@ bool gm_display_takes(struct gm_display *display)
 
 void gm_display_forget(struct gm_display *display)
 {
-    gm_writer_forget(&display->writer);
+    display->writer.known = false;
     display->lost = true;
 }
 
@@ -160,17 +156,16 @@ static void remove_picture(struct gm_display *display)
     display->lost = true;
 }
 
-/* Starts the screen's picture; returns false if it is current or cannot be painted. */
-static bool begin(struct gm_display *display, const struct gm_composed *screen)
+/* Starts a picture; returns false if it is current or cannot be painted. */
+static bool begin(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
+                  struct gm_picture *picture)
 {
     const struct gm_terminal *terminal = display->terminal;
-    struct gm_pixels_job job = {
-        .kind = screen->pixels,
-        .theme = screen->theme,
-        .place = screen->room,
-        .most_width = terminal->answers.most_width,
-        .most_height = terminal->answers.most_height,
-    };
+    struct gm_pixels_job job = {.kind = face->pixels,
+                                .theme = face->theme,
+                                .place = screen->pixels,
+                                .most_width = terminal->answers.most_width,
+                                .most_height = terminal->answers.most_height};
     job.place.cell_width = terminal->cell_width;
     job.place.cell_height = terminal->cell_height;
     if (!same_kind(&job, &display->job)) {
@@ -180,34 +175,33 @@ static bool begin(struct gm_display *display, const struct gm_composed *screen)
     if (!display->lost && (display->painted || !display->stale)) {
         return false;
     }
+    display->painter = display->painter ? display->painter : open_pixels(display->wake);
     if (!display->painter) {
-        display->painter = open_pixels(display->wake);
-        if (!display->painter) {
-            display->failed = true;
-            return false;
-        }
+        display->failed = true;
+        return false;
     }
     job.whole = display->lost;
     display->job = job;
     display->painted = display->stale = display->lost = false;
-    display->painter->picture = screen->picture;
+    display->painter->picture = picture;
     display->painter->job = job;
     display->painter->busy = true;
     gm_job_begin(&display->painter->painting);
     return true;
 }
 
-bool gm_display_show(struct gm_display *display, const struct gm_composed *screen)
+bool gm_display_show(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
+                     struct gm_picture *picture)
 {
-    bool pixels = screen->room.columns > 0 && screen->picture;
-    if (pixels && begin(display, screen)) {
+    bool pixels = screen->pixels.columns > 0 && picture;
+    if (pixels && begin(display, screen, face, picture)) {
         return false;
     }
     if (!pixels && display->shown) {
         remove_picture(display);
     }
     bool new = pixels && display->painted;
-    gm_writer_draw(&display->writer, screen->cells, new ? &display->painter->made : NULL);
+    gm_writer_draw(&display->writer, &screen->cells, new ? &display->painter->made : NULL);
     if (new) {
         display->shown = display->job.kind;
         display->painted = false;

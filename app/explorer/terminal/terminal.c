@@ -110,6 +110,23 @@ static bool find_demand(struct demand *demand, const char *option, const char *g
     return false;
 }
 
+/* The user's demands on the terminal. */
+struct demands {
+    struct demand theme, colours, graphics;
+};
+
+/* Finds the options' demands and, unless `alone`, those of the environment. */
+static bool find_demands(struct demands *demands, const struct gm_overrides *overrides, bool alone,
+                         char *message)
+{
+    return find_demand(&demands->theme, "--theme", overrides->theme, alone ? "" : "GEOMINT_THEME",
+                       theme_names, message) &&
+           find_demand(&demands->colours, "--colours", overrides->colours, alone ? "" : "GEOMINT_COLOURS",
+                       colours_names, message) &&
+           find_demand(&demands->graphics, "--graphics", overrides->graphics, alone ? "" : "GEOMINT_GRAPHICS",
+                       graphics_names, message);
+}
+
 static void because(char *why, const struct demand *demand)
 {
     snprintf(why, GM_REASON, "%s%s%.60s", demand->name, demand->name[0] == '-' ? " " : "=", demand->value);
@@ -332,26 +349,23 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
              asked                     ? "the terminal was asked"
              : *environment("COLUMNS") ? "COLUMNS and LINES"
                                        : "assumed, as there is no terminal to ask");
-    struct demand theme, colours, graphics;
-    if (!find_demand(&theme, "--theme", overrides->theme, "GEOMINT_THEME", theme_names, message) ||
-        !find_demand(&colours, "--colours", overrides->colours, "GEOMINT_COLOURS", colours_names, message) ||
-        !find_demand(&graphics, "--graphics", overrides->graphics, "GEOMINT_GRAPHICS", graphics_names,
-                     message)) {
+    struct demands demands;
+    if (!find_demands(&demands, overrides, false, message)) {
         return false;
     }
     ask(terminal);
-    decide_theme(terminal, &theme);
-    decide_colours(terminal, &colours, theme.number == MONO);
+    decide_theme(terminal, &demands.theme);
+    decide_colours(terminal, &demands.colours, demands.theme.number == MONO);
     find_cell(terminal);
-    decide_graphics(terminal, &graphics);
-    terminal->demanded = graphics.number >= 0;
+    decide_graphics(terminal, &demands.graphics);
+    terminal->demanded = demands.graphics.number >= 0;
     return true;
 }
 
 bool gm_terminal_imagine(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
 {
     enum { LEAST_COLUMNS = 20, LEAST_ROWS = 6, MOST_COLUMNS = 400, MOST_ROWS = 120 };
-    struct demand theme, colours, graphics;
+    struct demands demands;
     const char *size = overrides->screen ? overrides->screen : "80x24";
     int used = 0;
     *terminal = (struct gm_terminal){
@@ -362,20 +376,17 @@ bool gm_terminal_imagine(struct gm_terminal *terminal, const struct gm_overrides
         return gm_refuse(message, "--screen %.40s is not COLUMNSxROWS from %dx%d to %dx%d", size,
                          LEAST_COLUMNS, LEAST_ROWS, MOST_COLUMNS, MOST_ROWS);
     }
-    if (!find_demand(&theme, "--theme", overrides->theme, "", theme_names, message) ||
-        !find_demand(&colours, "--colours", overrides->colours, "", colours_names, message) ||
-        !find_demand(&graphics, "--graphics", overrides->graphics, "", graphics_names, message)) {
+    if (!find_demands(&demands, overrides, true, message)) {
         return false;
     }
-    terminal->theme = theme.number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
-    terminal->colours = theme.number == MONO  ? GM_COLOURS_NONE
-                        : colours.number >= 0 ? (enum gm_colours)colours.number
-                                              : GM_COLOURS_TRUE;
-    decide_graphics(terminal, &graphics);
+    const int colours = demands.colours.number >= 0 ? demands.colours.number : (int)GM_COLOURS_TRUE;
+    terminal->theme = demands.theme.number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
+    terminal->colours = demands.theme.number == MONO ? GM_COLOURS_NONE : (enum gm_colours)colours;
+    decide_graphics(terminal, &demands.graphics);
     return !terminal->graphics.pixels || gm_refuse(message,
                                                    "--graphics %s needs a terminal; --shot draws braille, "
                                                    "quadrants, half or ascii",
-                                                   graphics.value);
+                                                   demands.graphics.value);
 }
 
 void gm_terminal_reconsider(struct gm_terminal *terminal)

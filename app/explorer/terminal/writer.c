@@ -57,45 +57,15 @@ static const struct gm_rgb sixteen[16] = {
     {92, 92, 255}, {255, 0, 255},   {0, 255, 255},   {255, 255, 255},
 };
 
-static int nearest_16(struct gm_rgb colour)
-{
-    int best = 0;
-    for (int i = 1; i < 16; i++) {
-        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
-            best = i;
-        }
-    }
-    return best;
-}
-
-/* strong and faded colours of the roles, on black and on white */
-static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
-    [GM_THEME_DARK] = {[GM_PAPER] = {0, 0},
-                       [GM_INK] = {15, 7},
-                       [GM_SECONDARY] = {7, 7},
-                       [GM_GRID] = {8, 8},
-                       [GM_INITIAL] = {9, 1},
-                       [GM_EXACT] = {7, 8},
-                       [GM_OVER] = {15, 7},
-                       [GM_LANE + 0] = {14, 6},
-                       [GM_LANE + 1] = {11, 3},
-                       [GM_LANE + 2] = {10, 2},
-                       [GM_LANE + 3] = {13, 5},
-                       [GM_LANE + 4] = {12, 4},
-                       [GM_LANE + 5] = {15, 7}},
-    [GM_THEME_LIGHT] = {[GM_PAPER] = {15, 15},
-                        [GM_INK] = {0, 8},
-                        [GM_SECONDARY] = {8, 8},
-                        [GM_GRID] = {7, 7},
-                        [GM_INITIAL] = {1, 9},
-                        [GM_EXACT] = {8, 7},
-                        [GM_OVER] = {15, 7},
-                        [GM_LANE + 0] = {4, 12},
-                        [GM_LANE + 1] = {3, 11},
-                        [GM_LANE + 2] = {2, 10},
-                        [GM_LANE + 3] = {5, 13},
-                        [GM_LANE + 4] = {6, 14},
-                        [GM_LANE + 5] = {0, 8}},
+/* the roles' strong and faded colours on white, then on black */
+static const uint8_t roles[GM_ROLE_COUNT][GM_THEME_COUNT][2] = {
+    [GM_PAPER] = {{15, 15}, {0, 0}},    [GM_INK] = {{0, 8}, {15, 7}},
+    [GM_SECONDARY] = {{8, 8}, {7, 7}},  [GM_GRID] = {{7, 7}, {8, 8}},
+    [GM_INITIAL] = {{1, 9}, {9, 1}},    [GM_EXACT] = {{8, 7}, {7, 8}},
+    [GM_OVER] = {{15, 7}, {15, 7}},     [GM_LANE + 0] = {{4, 12}, {14, 6}},
+    [GM_LANE + 1] = {{3, 11}, {11, 3}}, [GM_LANE + 2] = {{2, 10}, {10, 2}},
+    [GM_LANE + 3] = {{5, 13}, {13, 5}}, [GM_LANE + 4] = {{6, 14}, {12, 4}},
+    [GM_LANE + 5] = {{0, 8}, {15, 7}},
 };
 
 /* Returns a role's colour, or the darker one of its pair if it is faded. */
@@ -104,16 +74,22 @@ static int nearest_role(enum gm_theme theme, struct gm_rgb colour, enum gm_role 
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     /* distances are squared: 1/3 is 0.58 of the distance */
     bool faded = 3 * gm_rgb_distance(colour, paper) < gm_rgb_distance(gm_theme_colour(theme, role), paper);
-    return roles[theme][role][faded];
+    return roles[role][theme][faded];
 }
 
 static int nearest_ground(enum gm_theme theme, struct gm_rgb colour)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     if (gm_rgb_distance(colour, paper) < 4000) {
-        return roles[theme][GM_PAPER][0];
+        return roles[GM_PAPER][theme][0];
     }
-    return nearest_16(colour);
+    int best = 0;
+    for (int i = 1; i < 16; i++) {
+        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
+            best = i;
+        }
+    }
+    return best;
 }
 
 /* Returns true if a colour counts as ink on a monochrome terminal. */
@@ -158,12 +134,6 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     gm_writer_tell(writer, text);
-}
-
-static void put_glyph(struct gm_writer *writer, uint32_t code)
-{
-    char bytes[GM_TEXT_BYTES];
-    put(writer, bytes, gm_text_put(code, bytes));
 }
 
 const char *gm_capability(const char *name)
@@ -221,11 +191,9 @@ static void put_colour(struct gm_writer *writer, long number, bool ground)
                    number & 255);
     } else if (writer->colours == GM_COLOURS_256) {
         put_format(writer, "\033[%d;5;%ldm", ground ? 48 : 38, number);
-    } else if (!writer->bright && writer->set_foreground) {
-        put_capability(writer,
-                       tiparm(ground ? writer->set_background : writer->set_foreground, (int)(number & 7)));
     } else if (writer->set_foreground) {
-        put_capability(writer, tiparm(ground ? writer->set_background : writer->set_foreground, (int)number));
+        put_capability(writer, tiparm(ground ? writer->set_background : writer->set_foreground,
+                                      (int)(writer->bright ? number : number & 7)));
     } else {
         put_format(writer, "\033[%ldm", (number < 8 ? 30 + number : 82 + number) + (ground ? 10 : 0));
     }
@@ -304,50 +272,21 @@ static void take_look(struct gm_writer *writer, const struct look *look)
 
 static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
 {
-    bool ground = a->background.r == b->background.r && a->background.g == b->background.g &&
-                  a->background.b == b->background.b;
-    if (a->glyph != b->glyph || !ground) {
-        return false;
-    }
-    if (a->glyph == ' ') {
-        return true;
-    }
-    return a->foreground.r == b->foreground.r && a->foreground.g == b->foreground.g &&
-           a->foreground.b == b->foreground.b && a->bold == b->bold && a->role == b->role;
-}
-
-static void move_to(struct gm_writer *writer, int column, int row)
-{
-    if (writer->row == row && writer->column == column) {
-        return;
-    }
-    put_capability(writer, tiparm(writer->place, row, column));
-    writer->row = row;
-    writer->column = column;
+    return a->glyph == b->glyph && memcmp(&a->background, &b->background, sizeof a->background) == 0 &&
+           (a->glyph == ' ' || (memcmp(&a->foreground, &b->foreground, sizeof a->foreground) == 0 &&
+                                a->bold == b->bold && a->role == b->role));
 }
 
 static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
 {
+    char bytes[GM_TEXT_BYTES];
     struct look look = look_of(writer, &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column]);
     take_look(writer, &look);
-    put_glyph(writer, look.glyph);
+    put(writer, bytes, gm_text_put(look.glyph, bytes));
     writer->column++;
     if (writer->column >= cells->columns) {
         writer->row = -1; /* at the right edge terminals differ in the cursor's position */
     }
-}
-
-static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
-{
-    if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows) {
-        return true;
-    }
-    if (!gm_cells_resize(&writer->shown, cells->columns, cells->rows)) {
-        writer->failed = true;
-        return false;
-    }
-    writer->known = false;
-    return true;
 }
 
 enum { CHEAPER = 4 }; /* the most cells that are cheaper to rewrite than to skip */
@@ -371,8 +310,12 @@ static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     const struct gm_writer_image *image)
 {
-    if (!resize(writer, cells)) {
-        return;
+    if (writer->shown.columns != cells->columns || writer->shown.rows != cells->rows) {
+        writer->known = false;
+        if (!gm_cells_resize(&writer->shown, cells->columns, cells->rows)) {
+            writer->failed = true;
+            return;
+        }
     }
     /* Synchronised output: terminals that support it show the frame at once, others ignore it. */
     bool together = writer->colours >= GM_COLOURS_256 || image;
@@ -397,7 +340,11 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     put_cell(writer, cells, writer->column, row);
                 }
             }
-            move_to(writer, column, row);
+            if (writer->row != row || writer->column != column) {
+                put_capability(writer, tiparm(writer->place, row, column));
+                writer->row = row;
+                writer->column = column;
+            }
             put_cell(writer, cells, column, row);
         }
     }
@@ -503,15 +450,10 @@ bool gm_writer_send(struct gm_writer *writer)
 {
     while (writer->sent < writer->length) {
         ssize_t done = write(writer->fd, writer->out + writer->sent, writer->length - writer->sent);
-        if (done > 0) {
-            writer->sent += (size_t)done;
-        } else if (done < 0 && errno == EINTR) {
-            continue;
-        } else if (done < 0 && errno == EAGAIN) {
-            return true;
-        } else {
-            return false;
+        if (done <= 0 && !(done < 0 && errno == EINTR)) {
+            return done < 0 && errno == EAGAIN;
         }
+        writer->sent += done > 0 ? (size_t)done : 0;
     }
     writer->sent = writer->length = 0;
     return !writer->failed;
@@ -524,11 +466,6 @@ void gm_writer_cut(struct gm_writer *writer)
         writer->known = false;
         gm_writer_tell(writer, "\033\\");
     }
-}
-
-void gm_writer_forget(struct gm_writer *writer)
-{
-    writer->known = false;
 }
 
 bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)

@@ -44,13 +44,6 @@ static void put_heading(struct page *page, const char *text)
     page->row++;
 }
 
-static void put_scene(struct page *page, const struct gm_scene *scene)
-{
-    put_title(page, scene->title, GM_INK);
-    put_wrapped(page, 0, scene->blurb ? scene->blurb : "", GM_INK);
-    put_wrapped(page, 0, scene->watch ? scene->watch : "", GM_SECONDARY);
-}
-
 enum { KEY_COLUMNS = 11 };
 
 static void put_key(struct page *page, const char *label, const char *text)
@@ -134,14 +127,6 @@ static void put_measured(struct page *page)
     }
 }
 
-static int draw_scheme(const struct gm_sheet *sheet, int scroll)
-{
-    struct page page = {.sheet = *sheet, .scroll = scroll};
-    put_scheme(&page, sheet->face->explained, GM_INK);
-    put_measured(&page);
-    return page.row;
-}
-
 enum { TWO_COLUMNS = 110, COLUMN_GAP = 4 };
 
 static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
@@ -155,8 +140,11 @@ static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_s
     if (two) {
         right.sheet.column += left.sheet.width + COLUMN_GAP;
     }
-    put_scene(&left, shot->scene);
-    put_keys(&left, shot->scene);
+    const struct gm_scene *scene = shot->scene;
+    put_title(&left, scene->title, GM_INK);
+    put_wrapped(&left, 0, scene->blurb ? scene->blurb : "", GM_INK);
+    put_wrapped(&left, 0, scene->watch ? scene->watch : "", GM_SECONDARY);
+    put_keys(&left, scene);
     if (!two) {
         right.row = left.row;
     }
@@ -225,30 +213,24 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
     if (sheet->face->page == GM_PAGE_COMMAND) {
         return draw_commands(sheet, scroll, shot);
     }
-    return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
-}
-
-static void draw_page(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
-{
-    /* Drawn first on zero rows, to find the last line for scrolling. */
-    struct gm_sheet nothing = *sheet;
-    nothing.height = 0;
-    int most = draw(&nothing, 0, shot) - sheet->height;
-    if (face->scroll > most) {
-        face->scroll = most;
+    if (sheet->face->page == GM_PAGE_HELP) {
+        return draw_help(sheet, scroll, shot);
     }
-    if (face->scroll < 0) {
-        face->scroll = 0;
-    }
-    draw(sheet, face->scroll, shot);
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put_scheme(&page, sheet->face->explained, GM_INK);
+    put_measured(&page);
+    return page.row;
 }
 
 void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, const struct gm_shot *shot)
 {
     const int below = gm_screen_rows_below(whole->cells);
     const struct gm_sheet page = gm_sheet_part(whole, 1, 0, whole->width - 2, whole->height - below),
-                          last = gm_screen_foot(whole);
-    draw_page(&page, face, shot);
+                          nothing = gm_sheet_part(&page, 0, 0, page.width, 0), last = gm_screen_foot(whole);
+    const int most = draw(&nothing, 0, shot) - page.height; /* the last line, for scrolling */
+    face->scroll = face->scroll > most ? most : face->scroll;
+    face->scroll = face->scroll < 0 ? 0 : face->scroll;
+    draw(&page, face->scroll, shot);
     if (below > 0) {
         gm_sheet_hints(&last, 1,
                        face->page != GM_PAGE_COMMAND ? "?:back|↑↓:scroll|q:quit"

@@ -87,12 +87,6 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
 }
 
-/* Returns true while the status line shows what to watch; a tour has its own text. */
-static bool is_watched(const struct gm_face *face, const struct gm_shot *shot)
-{
-    return shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
-}
-
 /* Writes the sentences of a text that fit into two rows above the last one, or if not even one fits, its words. */
 static void few_sentences(const struct gm_sheet *whole, const char *all, char *text, size_t size)
 {
@@ -110,28 +104,15 @@ static void few_sentences(const struct gm_sheet *whole, const char *all, char *t
     snprintf(text, size, "%.*s%s", (int)(sentences ? sentences : words), all, sentences ? "" : "…");
 }
 
-void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size)
-{
-    snprintf(text, size, "%.6g", shot->ahead);
-}
-
-/* Returns the end of the typed text, where letters are added, and sets the mark before it; the help needs
-   the rest. */
-static const char *end_of(const char *typed, const char **before)
-{
-    enum { SHOWN = 40 };
-    const size_t length = strlen(typed);
-    *before = length > SHOWN ? "…" : "";
-    return length > SHOWN ? typed + length - SHOWN : typed;
-}
-
+/* Of a long typed text the end is shown, where letters are added; the help needs the rest. */
 static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
 {
-    const char *before, *typed = end_of(face->typed, &before);
+    enum { SHOWN = 40 };
+    const size_t length = strlen(face->typed);
+    const char *before = length > SHOWN ? "…" : "";
+    const char *typed = face->typed + (length > SHOWN ? length - SHOWN : 0);
     if (face->prompt == GM_PROMPT_AHEAD) {
-        char standard[32] = "";
-        gm_prompt_ahead(shot, standard, sizeof standard);
-        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %s)", before, typed, standard);
+        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %.6g)", before, typed, shot->ahead);
     } else {
         const struct gm_parameter *row = shot->parameters[face->parameter].row;
         snprintf(text, size, "%s = %s%s_   (%s)", row->key, before, typed, row->help);
@@ -142,6 +123,8 @@ static void prompt_text(const struct gm_face *face, const struct gm_shot *shot, 
 static void say(const struct gm_sheet *whole, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
     const struct gm_face *face = whole->face;
+    /* a tour has its own text */
+    const bool watched = shot->scene->watch && !face->guide && gm_clock_milliseconds() < face->watch_until;
     text[0] = '\0';
     const char *alias = gm_chooser_alias(face), *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
@@ -162,7 +145,7 @@ static void say(const struct gm_sheet *whole, const struct gm_shot *shot, bool s
         snprintf(text, size, "%s", face->hint);
     } else if (face->explaining && parameter) {
         explain(parameter, !side, text, size);
-    } else if (is_watched(face, shot)) {
+    } else if (watched) {
         few_sentences(whole, shot->scene->watch, text, size);
     } else if (!shot->paused && shot->pace < standstill) {
         snprintf(text, size, "%.1g steps per second: press %s to shorten dt", shot->pace,
@@ -209,6 +192,75 @@ static void draw_status(const struct gm_sheet *whole, const struct gm_shot *shot
     } else if (begin > column) {
         const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
         gm_sheet_cut(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
+    }
+}
+
+/* ---- a tour: its keys, and its texts below the picture ---- */
+
+enum { MOST_ROWS = 100, LEAST_HEIGHT = 8 };
+
+struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step)
+{
+    return (struct gm_guide){.tour = tour, .step = step, .answered = !tour->steps[step].ask};
+}
+
+/* Draws a mark such as "Watch:" before a text (NULL: neither); returns the rows. */
+static int draw_marked(const struct gm_sheet *sheet, int row, const char *mark, const char *text)
+{
+    if (!text) {
+        return 0;
+    }
+    gm_sheet_text(sheet, 0, row, mark, GM_INK, true);
+    return gm_sheet_wrapped(sheet, gm_sheet_width(sheet, mark) + 1, row, MOST_ROWS, text, GM_INK);
+}
+
+/* Draws the paragraphs below row 0; returns the row after them. */
+static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    const char *first = step->ask && guide->answered ? step->answer : step->say;
+    int row = 1;
+    row += gm_sheet_wrapped(sheet, 0, row, MOST_ROWS, first, GM_INK);
+    if (!guide->answered) {
+        return row + draw_marked(sheet, row, "Predict:", step->ask);
+    }
+    row += draw_marked(sheet, row, "Watch:", step->watch);
+    row += draw_marked(sheet, row, "Try:", step->attempt);
+    return row;
+}
+
+/* Draws the tour's keys at the right of the rule; returns their first column. */
+static int draw_guide_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    char hints[64];
+    const bool on = !guide->answered || guide->step + 1 < guide->tour->count;
+    const char *forward = guide->answered ? "n:next|" : "n:answer|";
+    snprintf(hints, sizeof hints, "%s%sa:again", on ? forward : "", guide->step > 0 ? "N:back|" : "");
+    const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
+    for (int i = gm_sheet_hints(&nothing, 1, hints) - 2; i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
+    }
+    return gm_sheet_hints(sheet, 1, hints);
+}
+
+static void draw_guide(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    const struct gm_tour *tour = guide->tour;
+    char text[256];
+    if (sheet->height < 1) {
+        return;
+    }
+    for (int i = 0; i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
+    }
+    const int begin = draw_guide_keys(sheet, guide);
+    snprintf(text, sizeof text, " %.80s %zu/%zu: %.120s ", tour->title, guide->step + 1, tour->count,
+             tour->steps[guide->step].title);
+    const struct gm_sheet head = gm_sheet_part(sheet, 0, 0, begin > 1 ? begin - 1 : 0, 1);
+    gm_sheet_text(&head, 1, 0, text, GM_INK, true);
+    const struct gm_sheet body = gm_sheet_part(sheet, 1, 0, sheet->width - 2, sheet->height);
+    if (draw_texts(&body, guide) > sheet->height) {
+        gm_sheet_text(&body, body.width - 1, body.height - 1, "…", GM_INK, true);
     }
 }
 
@@ -304,17 +356,14 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, shot);
         return;
     }
-    const int asked = gm_typed_prompt_rows(face->typed_prompt, cells->columns, cells->rows);
-    if (asked) {
-        const struct gm_sheet panel =
-            gm_sheet_part(&whole, 0, cells->rows - 1 - asked, cells->columns, asked);
-        gm_typed_prompt_draw(&panel, face->typed_prompt);
-        rows = cells->rows - 1 - asked;
-    }
+    const int asked = gm_typed_prompt_draw(&whole, face->typed_prompt);
+    rows = asked ? cells->rows - asked : rows;
     if (face->guide && !asked) {
-        const int told = gm_guide_rows(&whole, face->guide);
+        const struct gm_sheet nothing = gm_sheet_part(&whole, 0, 0, whole.width - 2, 0);
+        const int wanted = draw_texts(&nothing, face->guide), most = whole.height * 2 / 5;
+        const int told = whole.height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
         const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows - told, cells->columns, told);
-        gm_guide_draw(&panel, face->guide);
+        draw_guide(&panel, face->guide);
         rows -= told;
     }
     if (face->studies && face->studies->shown != GM_STUDY_NONE) {
@@ -340,10 +389,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
             gm_side_draw(&body, shot);
         }
     }
-    if (asked) {
-        const struct gm_sheet last = gm_sheet_part(&whole, 0, cells->rows - 1, cells->columns, 1);
-        gm_typed_prompt_keys(&last, face->typed_prompt);
-    } else if (below > 0) {
+    if (!asked && below > 0) {
         draw_status(&whole, shot, side);
     }
 }

@@ -1,25 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The appearance of schemes and lanes in lists. */
+/* The appearance of schemes in lists, and the list to choose from. */
 #include "app/explorer/view/view.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* a lane's line as three cells of text, dashed as in the picture */
-static const char *const dash_marks[GM_DASH_COUNT] = {
-    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
-    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
-};
-
-const char *gm_schemes_dash(const struct gm_shot_lane *lane)
-{
-    return dash_marks[gm_lane_dash(lane->shown.dash)];
-}
-
-enum gm_role gm_schemes_role(const struct gm_shot_lane *lane)
-{
-    return gm_lane_role(lane->shown.colour);
-}
+#include "app/explorer/surface/surface.h"
+#include "core/aliases.h"
 
 /* ---- claims ---- */
 
@@ -103,7 +90,7 @@ void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const str
 
 /* ---- the formula ---- */
 
-int gm_schemes_formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme)
+static int formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme)
 {
     const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
     return gm_sheet_wrapped(&nothing, 0, 0, 100, scheme->formula, GM_INK) + 1;
@@ -113,4 +100,123 @@ void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_s
 {
     row += gm_sheet_wrapped(sheet, 0, row, sheet->height - row - 1, scheme->formula, GM_INK);
     gm_sheet_cut(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
+}
+
+/* ---- the list of schemes, with a search ---- */
+
+const struct gm_scheme gm_chooser_user = {
+    .name = "own",
+    .title = "your own scheme",
+    .formula = "composition(verlet; 1/2, 1/2), adjoint(rk4)\nrunge-kutta(a; b), partitioned(a; b; ah; bh)\n"
+               "splitting(drifts; kicks), or a file: ./my.scheme",
+};
+
+size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
+                       const struct gm_scheme *found[GM_SHOT_SCHEMES])
+{
+    int ranks[GM_SHOT_SCHEMES];
+    size_t count = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        const struct gm_scheme *scheme = shot->schemes[i];
+        enum { ALIASES = 8 };
+        const char *texts[4 + ALIASES + 1] = {scheme->name, scheme->title, scheme->family->title,
+                                              scheme->reference ? scheme->reference : ""};
+        for (size_t k = 0; k < ALIASES; k++) {
+            texts[4 + k] = gm_alias_of(scheme->name, k);
+        }
+        const int rank = gm_search_rank(face->typed, texts);
+        if (rank < 0) {
+            continue;
+        }
+        const size_t at = gm_search_place(ranks, 0, count, rank);
+        memmove(&found[at + 1], &found[at], (count++ - at) * sizeof *found);
+        found[at] = scheme;
+    }
+    const char *own[] = {gm_chooser_user.name, gm_chooser_user.title, gm_chooser_user.formula, NULL};
+    if (count < GM_SHOT_SCHEMES && gm_search_rank(face->typed, own) >= 0) {
+        found[count++] = &gm_chooser_user;
+    }
+    return count;
+}
+
+const struct gm_scheme *gm_chooser_first(const struct gm_shot *shot)
+{
+    size_t own = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        if (shot->schemes[i] == shot->lanes[shot->selected].scheme) {
+            own = i;
+        }
+    }
+    for (size_t i = 1; i < shot->scheme_count; i++) {
+        const struct gm_scheme *scheme = shot->schemes[(own + i) % shot->scheme_count];
+        if (!gm_shot_uses(shot, scheme)) {
+            return scheme;
+        }
+    }
+    return shot->scheme_count > 0 ? shot->schemes[own] : NULL;
+}
+
+const char *gm_chooser_alias(const struct gm_face *face)
+{
+    const struct gm_scheme *choice = face->typed[0] ? face->choice : NULL;
+    if (!choice ||
+        gm_search_rank(face->typed, (const char *const[]){choice->name, choice->title, NULL}) >= 0) {
+        return NULL;
+    }
+    const char *alias;
+    size_t k = 0;
+    do {
+        alias = gm_alias_of(choice->name, k++);
+    } while (alias && gm_search_rank(face->typed, (const char *const[]){alias, NULL}) < 0);
+    return alias;
+}
+
+void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
+{
+    const struct gm_face *face = sheet->face;
+    const struct gm_scheme *found[GM_SHOT_SCHEMES];
+    int count = (int)gm_chooser_find(face, shot, found), row = 0, at = 0;
+    for (int i = 0; i < count; i++) {
+        at = found[i] == face->choice ? i : at;
+    }
+    /* the formula has the rows that the list leaves, and those beyond a list of LIST rows */
+    enum { LIST = 15, LEAST = 3 };
+    const int most = sheet->height - 2 - (count < LIST ? count : LIST);
+    int below = face->choice ? 1 + formula_rows(sheet, face->choice) : 0;
+    below = most < LEAST ? 0 : below < most ? below : most;
+    const int rows = sheet->height - 2 - below;
+    int first = at >= rows ? at - rows + 1 : 0;
+    char text[GM_TYPED + 16];
+    gm_schemes_heading(sheet, row++, face->choosing == GM_CHOOSE_FORK ? "FORK WITH" : "SWITCH TO");
+    snprintf(text, sizeof text, face->typed[0] ? "search: %s_" : "type to search%s", face->typed);
+    gm_sheet_text(sheet, 4, row++, text, face->typed[0] ? GM_INK : GM_SECONDARY, false);
+    if (count == 0) {
+        char message[GM_MESSAGE];
+        gm_scheme_refuse_among(shot->schemes, shot->scheme_count, face->typed,
+                               "backspace takes a letter back", message);
+        row += gm_sheet_wrapped(sheet, 4, row, rows, message, GM_INK);
+    }
+    for (int i = first; i < count && i < first + rows; i++, row++) {
+        bool chosen = found[i] == face->choice;
+        enum gm_role role = chosen ? GM_INK : GM_SECONDARY;
+        if (chosen) {
+            gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+        }
+        for (size_t k = 0; k < shot->lane_count; k++) {
+            if (shot->lanes[k].scheme == found[i]) {
+                role = gm_lane_role(shot->lanes[k].shown.colour);
+                gm_sheet_text(sheet, 2, row, "●", role, false);
+                break;
+            }
+        }
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = found[i]});
+        if (found[i] == &gm_chooser_user) {
+            gm_sheet_text(sheet, 4, row, found[i]->title, role, chosen);
+        } else {
+            gm_schemes_row(sheet, 4, row, shot, found[i], role, chosen);
+        }
+    }
+    if (below > 0) {
+        gm_schemes_formula(sheet, row + 1, face->choice);
+    }
 }

@@ -102,6 +102,12 @@ static struct plan plan_all(int rows, const struct gm_shot *shot)
 
 /* ---- schemes: each section draws from `row` on and returns the next free row ---- */
 
+/* a lane's line as three cells of text, dashed as in the picture */
+static const char *const dashes[GM_DASH_COUNT] = {
+    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
+    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
+};
+
 /* Returns the column of a lane's title, after the selection's mark and the lane's line. */
 static int title_column(const struct gm_sheet *sheet)
 {
@@ -116,15 +122,6 @@ static const char *beyond_title(const char *name, const char *title)
         return name;
     }
     return name[length] ? name + length + 2 : "";
-}
-
-/* Writes the difference of a lane from others of its scheme. */
-static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
-{
-    const char *title = lane->first_scheme->title;
-    const char *panel = overlaid ? "" : beyond_title(lane->shown.panel_name, title);
-    const char *colour = beyond_title(lane->shown.colour_name, title);
-    snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
 /* Draws a title and difference up to column `end`. If they are too long, the difference is reduced to its
@@ -152,8 +149,8 @@ static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_sh
     }
     const int most = end - gm_sheet_width(sheet, tail), whole = column + gm_sheet_width(sheet, front);
     const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, most, sheet->height);
-    gm_sheet_cut(&left, column, row, front, gm_schemes_role(lane), bold);
-    gm_sheet_text(sheet, whole < most ? whole : most, row, tail, gm_schemes_role(lane), bold);
+    gm_sheet_cut(&left, column, row, front, gm_lane_role(lane->shown.colour), bold);
+    gm_sheet_text(sheet, whole < most ? whole : most, row, tail, gm_lane_role(lane->shown.colour), bold);
 }
 
 enum { NOTES = 3, NOTE = 160, DIFFERENCE = 256 };
@@ -172,11 +169,15 @@ static void note_of(const struct gm_shot *shot, const struct gm_shot_lane *lane,
     }
 }
 
-/* Returns the column at which a lane's title and its difference end. */
+/* Writes the difference of a lane from others of its scheme. Returns the column at which its title and that
+   end. */
 static int title_end(const struct gm_sheet *sheet, const struct gm_shot *shot,
                      const struct gm_shot_lane *lane, char *difference, size_t size)
 {
-    lane_difference(lane, shot->overlaid, difference, size);
+    const char *title = lane->first_scheme->title;
+    const char *panel = shot->overlaid ? "" : beyond_title(lane->shown.panel_name, title);
+    const char *colour = beyond_title(lane->shown.colour_name, title);
+    snprintf(difference, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
     return title_column(sheet) + gm_sheet_width(sheet, lane->scheme->title) +
            gm_sheet_width(sheet, difference);
 }
@@ -204,11 +205,11 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
     const struct gm_shot_lane *lane = &shot->lanes[index];
     const bool selected = index == shot->selected;
     char note[NOTE], difference[DIFFERENCE];
-    const enum gm_role role = gm_schemes_role(lane);
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
     if (selected) {
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     }
-    gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_schemes_dash(lane), role, false);
+    gm_sheet_text(sheet, title_column(sheet) - 4, row, dashes[gm_lane_dash(lane->shown.dash)], role, false);
     const int whole = title_end(sheet, shot, lane, difference, sizeof difference);
     int end = sheet->width;
     note_of(shot, lane, form, note);
@@ -438,15 +439,6 @@ static void observable_name(const struct gm_observable *observable, char *text, 
     }
 }
 
-/* Returns the first of the lanes whose values fit side by side, including the selected one. */
-static size_t first_column(const struct gm_shot *shot, size_t columns)
-{
-    if (shot->lane_count <= columns || shot->selected < columns) {
-        return 0;
-    }
-    return shot->selected - columns + 1;
-}
-
 /* The columns of numbers: `count` lanes from `first` on. */
 struct columns {
     const struct gm_shot *shot;
@@ -454,9 +446,10 @@ struct columns {
     int begin, label;
 };
 
-/* Draws the lanes' numbers in a row, under or beside a name. */
+/* Draws the lanes' values of observable k, or without one (negative) their way back, in a row, under or beside a
+   name. */
 static void draw_numbers(const struct gm_sheet *sheet, int row, const struct columns *columns,
-                         const char *name, double (*value)(const struct gm_shot_lane *, size_t), size_t k)
+                         const char *name, long k)
 {
     const struct gm_sheet label = gm_sheet_part(sheet, 0, 0, columns->label, sheet->height);
     char text[64];
@@ -466,20 +459,10 @@ static void draw_numbers(const struct gm_sheet *sheet, int row, const struct col
     }
     for (size_t i = 0; i < columns->count; i++) {
         const struct gm_shot_lane *lane = &columns->shot->lanes[columns->first + i];
-        gm_sheet_number(value(lane, k), text, sizeof text);
+        gm_sheet_number(k < 0 ? lane->from_start : lane->values[k], text, sizeof text);
         gm_sheet_right(sheet, columns->begin + (int)i * VALUE_WIDTH + SPARK_CELLS, row, text,
-                       gm_schemes_role(lane), false);
+                       gm_lane_role(lane->shown.colour), false);
     }
-}
-
-static double value_of(const struct gm_shot_lane *lane, size_t observable)
-{
-    return lane->values[observable];
-}
-
-static double way_back(const struct gm_shot_lane *lane, size_t unused)
-{
-    return (void)unused, lane->from_start;
 }
 
 static int draw_observables(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
@@ -494,19 +477,21 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     columns.count = columns.count < 1                  ? 1
                     : columns.count > shot->lane_count ? shot->lane_count
                                                        : columns.count;
-    columns.first = first_column(shot, columns.count);
+    /* the lanes whose values fit side by side include the selected one */
+    columns.first = shot->selected < columns.count ? 0 : shot->selected - columns.count + 1;
     columns.begin = sheet->width - (int)columns.count * VALUE_WIDTH + 1;
     columns.label = plan->stacked ? sheet->width : columns.begin - 1;
     draw_heading(sheet, row, "OBSERVED");
     for (size_t i = 0; i < columns.count; i++) {
         const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
         int right = columns.begin + (int)i * VALUE_WIDTH + SPARK_CELLS;
-        gm_sheet_right(sheet, right, row, gm_schemes_dash(lane), gm_schemes_role(lane), false);
+        gm_sheet_right(sheet, right, row, dashes[gm_lane_dash(lane->shown.dash)],
+                       gm_lane_role(lane->shown.colour), false);
     }
     row++;
     int end = row + plan->observables, each = 1 + plan->stacked + plan->sparks;
     if (shot->turned) {
-        draw_numbers(sheet, row, &columns, "from start", way_back, 0);
+        draw_numbers(sheet, row, &columns, "from start", -1);
         row += 1 + plan->stacked;
     }
     for (size_t k = 0; k < shot->observable_count && row + each <= end; k++) {
@@ -516,12 +501,12 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
             continue;
         }
         observable_name(observable, text, sizeof text);
-        draw_numbers(sheet, row, &columns, text, value_of, k);
+        draw_numbers(sheet, row, &columns, text, (long)k);
         bool graphs = plan->sparks && spark_scale(shot, k, &scale);
         for (size_t i = 0; graphs && i < columns.count; i++) {
             const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
             draw_spark(sheet, columns.begin + (int)i * VALUE_WIDTH, row + each - 1, &lane->sparks[k], &scale,
-                       gm_schemes_role(lane));
+                       gm_lane_role(lane->shown.colour));
         }
         row += each;
     }
@@ -543,6 +528,7 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
         return;
     }
     draw_heading(sheet, row + 1, "FORMULA");
-    gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, gm_schemes_role(lane), false);
+    gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, gm_lane_role(lane->shown.colour),
+                   false);
     gm_schemes_formula(sheet, row + 2, lane->scheme);
 }

@@ -92,13 +92,6 @@ static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start
     }
 }
 
-static int wrapped_rows(const struct gm_sheet *sheet, const char *text)
-{
-    struct gm_sheet nothing = *sheet;
-    nothing.height = 0;
-    return gm_sheet_wrapped(&nothing, 0, 0, 100, text, GM_INK);
-}
-
 /* Draws a message and below it the faulty line with a caret, in unchanged columns. */
 static void draw_fault(const struct gm_sheet *sheet, int row, int rows, const char *said)
 {
@@ -126,7 +119,9 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
     if (rows >= 30) {
         row += gm_sheet_wrapped(sheet, 0, row, 4, blurb, GM_SECONDARY) + 1;
     }
-    int below = wrapped_rows(sheet, watch), picture = rows - row - below - (rows >= 30);
+    const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
+    int below = gm_sheet_wrapped(&nothing, 0, 0, 100, watch, GM_INK);
+    int picture = rows - row - below - (rows >= 30);
     if (said[0]) {
         draw_fault(sheet, row + 1, picture, said);
     } else if (shot && picture >= 4) {
@@ -201,8 +196,6 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    const int asked = gm_typed_prompt_rows(face->typed_prompt, whole.width, whole.height);
-    const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked + 1 : below);
     int at = 0;
     if (fresh) {
         screen->picture.fresh = false;
@@ -211,6 +204,8 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, NULL);
         return;
     }
+    const int asked = gm_typed_prompt_draw(&whole, face->typed_prompt);
+    const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked : below);
     if (rows > 6) {
         gm_sheet_text(&whole, 1, 0, "geomint", GM_INK, true);
         gm_sheet_text(&whole, 10, 0, "what a geometric integrator conserves, and an ordinary one loses",
@@ -233,13 +228,10 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
             draw_look(screen, &right, chosen, shot, said);
         }
     }
-    const struct gm_sheet last =
-        asked ? gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1) : gm_screen_foot(&whole);
-    if (asked) {
-        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked);
-        gm_typed_prompt_draw(&panel, face->typed_prompt);
-        gm_typed_prompt_keys(&last, face->typed_prompt);
-    } else if (below > 0) {
-        draw_keys(&last, start);
+    if (!asked) {
+        const struct gm_sheet last = gm_screen_foot(&whole);
+        if (below > 0) {
+            draw_keys(&last, start);
+        }
     }
 }

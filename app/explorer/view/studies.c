@@ -32,16 +32,15 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
                      const char *words, int wake)
 {
     struct gm_study *present = studies->studies[kind];
-    if (!present || strcmp(gm_study_words(present), words) != 0) {
+    if (!present || strcmp(present->words, words) != 0) {
         struct gm_study *study = gm_study_open(kind, words, wake, studies->notice);
         if (!study) {
             return false;
         }
         gm_study_close(present);
         studies->studies[kind] = study;
-        studies->looks[kind] = NULL;
     }
-    studies->scenes[kind] = scene;
+    studies->studies[kind]->scene = scene;
     studies->shown = kind;
     studies->painting.fresh = false;
     return true;
@@ -53,11 +52,11 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
     void *owner =
         calloc(1, scene->size > sizeof(struct gm_settings) ? scene->size : sizeof(struct gm_settings));
     bool standard = true;
-    if (owner && gm_parameter_set(parameter->row, owner, parameter->value) == GM_PARSED) {
-        const double present = gm_parameter_get(parameter->row, owner);
+    if (owner) {
+        char usual[GM_TEXT_SIZE];
         gm_parameter_set(parameter->row, owner, parameter->row->standard);
-        const double usual = gm_parameter_get(parameter->row, owner);
-        standard = present == usual || (isnan(present) && isnan(usual));
+        gm_parameter_format(parameter->row, owner, usual, sizeof usual);
+        standard = strcmp(parameter->value, usual) == 0;
     }
     free(owner);
     return standard;
@@ -99,7 +98,8 @@ void gm_studies_begin(struct gm_studies *studies, enum gm_study_kind kind, const
 
 char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, int column, int row)
 {
-    const struct gm_study_look *look = studies->looks[studies->shown];
+    const struct gm_study *study = studies->studies[studies->shown];
+    const struct gm_study_look *look = study ? study->look : NULL;
     double x, y;
     size_t number = 0;
     const struct gm_panel *hit =
@@ -110,7 +110,8 @@ char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, i
          panel = panel->next) {
         number++;
     }
-    return hit ? gm_study_pick(studies->studies[studies->shown], number, x, y) : NULL;
+    const struct gm_study_row *kind = gm_study_rows[studies->shown];
+    return hit && kind->pick ? kind->pick(&study->grid, number, x, y) : NULL;
 }
 
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
@@ -127,10 +128,13 @@ bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
     }
     switch (key) {
     case 'x':
-        gm_study_stop(study);
+        gm_job_tell(&study->job, &study->stop);
         return true;
     case 'p':
-        gm_study_save(study, theme);
+        pthread_mutex_lock(&study->job.lock);
+        study->theme = theme;
+        pthread_mutex_unlock(&study->job.lock);
+        gm_job_tell(&study->job, &study->save);
         return true;
     case 'w':
     case 'm':
@@ -145,7 +149,7 @@ bool gm_studies_are_busy(const struct gm_studies *studies)
 {
     bool busy = false;
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
-        busy = busy || (studies->studies[i] && gm_study_is_busy(studies->studies[i]));
+        busy = busy || (studies->studies[i] && gm_job_is_busy(&studies->studies[i]->job));
     }
     return busy;
 }
@@ -154,7 +158,7 @@ int64_t gm_studies_end(const struct gm_studies *studies, int64_t now)
 {
     int64_t first = 0;
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
-        const int64_t end = studies->until[i];
+        const int64_t end = studies->studies[i] ? studies->studies[i]->until : 0;
         first = end > now && (first == 0 || end < first) ? end : first;
     }
     return first;
@@ -163,18 +167,22 @@ int64_t gm_studies_end(const struct gm_studies *studies, int64_t now)
 void gm_studies_leave(struct gm_studies *studies)
 {
     studies->shown = GM_STUDY_NONE;
-    memset(studies->until, 0, sizeof studies->until);
+    for (int i = 0; i < GM_STUDY_COUNT; i++) {
+        if (studies->studies[i]) {
+            studies->studies[i]->until = 0;
+        }
+    }
 }
 
 bool gm_studies_look(struct gm_studies *studies)
 {
     bool news = false;
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
-        struct gm_study_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
-        if (look) {
-            const bool first = look->finished && !(studies->looks[i] && studies->looks[i]->finished);
-            studies->until[i] = first ? gm_clock_milliseconds() + NOTICE_MILLISECONDS : studies->until[i];
-            studies->looks[i] = look;
+        struct gm_study *study = studies->studies[i];
+        const bool finished = study && study->look && study->look->finished;
+        if (study && gm_study_take(study)) {
+            const bool first = study->look->finished && !finished;
+            study->until = first ? gm_clock_milliseconds() + NOTICE_MILLISECONDS : study->until;
             studies->painting.fresh = studies->painting.fresh && studies->shown != (enum gm_study_kind)i;
             news = true;
         }
@@ -197,19 +205,17 @@ static void draw_reason(const struct gm_sheet *sheet, const struct gm_study_look
 
 void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
 {
-    struct gm_study_look *look = studies->looks[studies->shown];
+    struct gm_study_look *look = studies->studies[studies->shown]->look;
     if (sheet->width < 1 || sheet->height < 1) {
         return;
     }
     if (!look) {
         gm_sheet_text(sheet, 1, 0, "measuring", GM_SECONDARY, false);
-        return;
-    }
-    if (look->impossible) {
+    } else if (look->impossible) {
         draw_reason(sheet, look);
-        return;
+    } else {
+        gm_sheet_paint(sheet, &studies->painting, look->picture);
     }
-    gm_sheet_paint(sheet, &studies->painting, look->picture);
 }
 
 static int percent(const struct gm_study_look *look)
@@ -219,7 +225,7 @@ static int percent(const struct gm_study_look *look)
 
 void gm_studies_status(const struct gm_studies *studies, char *text, size_t size)
 {
-    const struct gm_study_look *look = studies->looks[studies->shown];
+    const struct gm_study_look *look = studies->studies[studies->shown]->look;
     const char *name = gm_study_rows[studies->shown]->name;
     if (studies->notice[0]) {
         snprintf(text, size, "%s", studies->notice);
@@ -227,10 +233,9 @@ void gm_studies_status(const struct gm_studies *studies, char *text, size_t size
         snprintf(text, size, "%s: begins", name);
     } else if (look->impossible) {
         snprintf(text, size, "%s: not possible here", name);
-    } else if (look->message[0]) {
-        snprintf(text, size, "%s %d %%: %s", name, percent(look), look->message);
     } else {
-        snprintf(text, size, "%s %d %%: %s", name, percent(look), look->what);
+        snprintf(text, size, "%s %d %%: %s", name, percent(look),
+                 look->message[0] ? look->message : look->what);
     }
 }
 
@@ -238,13 +243,13 @@ void gm_studies_news(const struct gm_studies *studies, const struct gm_scene *sc
 {
     snprintf(text, size, "%s", studies->notice);
     for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && !text[0]; i++) {
-        const struct gm_study_look *look = studies->looks[i];
-        if (!studies->studies[i] || studies->scenes[i] != scene || studies->shown == (enum gm_study_kind)i ||
-            (look &&
-             (look->impossible || (look->finished && gm_clock_milliseconds() >= studies->until[i])))) {
+        const struct gm_study *study = studies->studies[i];
+        const struct gm_study_look *look = study ? study->look : NULL;
+        if (!study || study->scene != scene || studies->shown == (enum gm_study_kind)i ||
+            (look && (look->impossible || (look->finished && gm_clock_milliseconds() >= study->until)))) {
             continue;
         }
-        const char *words = gm_study_words(studies->studies[i]); /* the scene is the first word */
+        const char *words = study->words; /* the scene is the first word */
         const int length = (int)strcspn(words, " ");
         if (look && look->finished) {
             snprintf(text, size, keys[i] ? "%s of %.*s is ready: %c shows it" : "%s of %.*s is ready",

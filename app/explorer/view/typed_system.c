@@ -23,7 +23,8 @@ static int rows_told(int columns)
     return rows > 2 ? rows : 2;
 }
 
-int gm_typed_prompt_rows(const struct gm_typed_prompt *prompt, int columns, int rows)
+/* Returns the prompt's rows on a screen of this size, in cells; 0: it is closed. */
+static int rows_of(const struct gm_typed_prompt *prompt, int columns, int rows)
 {
     if (!prompt || prompt->kind == GM_TYPED_NONE || rows < 4) {
         return 0;
@@ -47,32 +48,34 @@ static void verdict(const struct gm_typed_prompt *prompt, char *text, size_t siz
     }
 }
 
-void gm_typed_prompt_draw(const struct gm_sheet *sheet, const struct gm_typed_prompt *prompt)
+int gm_typed_prompt_draw(const struct gm_sheet *whole, const struct gm_typed_prompt *prompt)
 {
+    static const char hints[] = "enter:take it|esc:back|← →:move|ctrl-U:clear";
     char text[GM_MESSAGE + 128];
-    const bool rule = sheet->height > 2 + rows_told(sheet->width), caret = sheet->height > FEW_ROWS,
+    const int rows = rows_of(prompt, whole->width, whole->height);
+    if (rows == 0) {
+        return 0;
+    }
+    const struct gm_sheet sheet = gm_sheet_part(whole, 0, whole->height - 1 - rows, whole->width, rows);
+    const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+    const bool rule = rows > 2 + rows_told(sheet.width), caret = rows > FEW_ROWS,
                wrong = prompt->fault.sentence[0] != '\0';
     const int below = rule + 1 + caret;
-    const struct gm_sheet line = gm_sheet_part(sheet, 1, rule, sheet->width - 2, 1);
-    const struct gm_sheet told = gm_sheet_part(sheet, 1, below, sheet->width - 2, sheet->height - below);
-    for (int i = 0; rule && i < sheet->width; i++) {
-        gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
+    const struct gm_sheet line = gm_sheet_part(&sheet, 1, rule, sheet.width - 2, 1);
+    const struct gm_sheet told = gm_sheet_part(&sheet, 1, below, sheet.width - 2, rows - below);
+    for (int i = 0; rule && i < sheet.width; i++) {
+        gm_sheet_glyph(&sheet, i, 0, 0x2500, GM_GRID, false);
     }
     if (rule) {
-        gm_sheet_cut(sheet, 1, 0, questions[prompt->kind], GM_INK, true);
+        gm_sheet_cut(&sheet, 1, 0, questions[prompt->kind], GM_INK, true);
     }
     gm_edit_draw(&line, 0, &prompt->line);
     if (caret && prompt->checked && wrong && prompt->fault.at >= 0) {
-        gm_sheet_glyph(sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), rule + 1,
+        gm_sheet_glyph(&sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), rule + 1,
                        '^', GM_INITIAL, true);
     }
     verdict(prompt, text, sizeof text);
     gm_sheet_wrapped(&told, 0, 0, told.height, text, prompt->checked && wrong ? GM_INITIAL : GM_SECONDARY);
-}
-
-void gm_typed_prompt_keys(const struct gm_sheet *last, const struct gm_typed_prompt *prompt)
-{
-    const bool ready = prompt->checked && !prompt->fault.sentence[0];
-    static const char hints[] = "enter:take it|esc:back|← →:move|ctrl-U:clear";
-    gm_sheet_hints(last, 1, ready ? hints : strchr(hints, '|') + 1);
+    gm_sheet_hints(&last, 1, prompt->checked && !wrong ? hints : strchr(hints, '|') + 1);
+    return rows + 1;
 }

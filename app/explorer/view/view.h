@@ -19,16 +19,7 @@ struct gm_guide {
 /* Returns a guide at the start of a step of the tour. */
 struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step);
 
-/* Returns the rows below the picture for the texts, at most two fifths of the screen. */
-int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide);
-/* Writes the texts into a sheet of that many rows. */
-void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide);
-
 /* Schemes in the rows of a list: title, claims and order in columns, the formula below. */
-
-/* Return the colour of a lane, and its line as three cells of text. */
-enum gm_role gm_schemes_role(const struct gm_shot_lane *lane);
-const char *gm_schemes_dash(const struct gm_shot_lane *lane);
 
 /* Returns the claims that the shot's schemes make: only those have a column. */
 unsigned gm_schemes_claims(const struct gm_shot *shot);
@@ -46,9 +37,7 @@ int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_sche
 void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_shot *shot,
                     const struct gm_scheme *scheme, enum gm_role role, bool bold);
 
-/* Return the rows of the formula with its reference, and draw them down to the sheet's end; a formula that does not
-   fit ends with an ellipsis. */
-int gm_schemes_formula_rows(const struct gm_sheet *sheet, const struct gm_scheme *scheme);
+/* Draws the formula with its reference down to the sheet's end; a formula that does not fit ends with an ellipsis. */
 void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme);
 
 /* The start screen: the entries found, group by group. */
@@ -63,6 +52,7 @@ enum gm_start_group {
 struct gm_start_entry {
     enum gm_start_group group;
     const char *name, *title;
+    const char *more[2];          /* further texts that a search reads, or NULL */
     const struct gm_scene *scene; /* NULL for a file or a typed system */
     const struct gm_tour *tour;   /* NULL unless the entry is a tour */
 };
@@ -90,13 +80,10 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
 /* The background studies, one of each kind, and the shown one. */
 
 struct gm_studies {
-    struct gm_study *studies[GM_STUDY_COUNT];
-    struct gm_study_look *looks[GM_STUDY_COUNT];   /* the last looks taken; NULL before the first */
-    const struct gm_scene *scenes[GM_STUDY_COUNT]; /* scenes open at the studies' start; they may be freed */
-    enum gm_study_kind shown;                      /* GM_STUDY_NONE: the scene is shown */
-    struct gm_painting painting;                   /* the painting of the shown picture */
-    int64_t until[GM_STUDY_COUNT];                 /* time (ms) at which the notice of a finished one ends */
-    char notice[GM_MESSAGE];                       /* the reason of a failure; "" after the next key */
+    struct gm_study *studies[GM_STUDY_COUNT]; /* NULL: none of that kind */
+    enum gm_study_kind shown;                 /* GM_STUDY_NONE: the scene is shown */
+    struct gm_painting painting;              /* the painting of the shown picture */
+    char notice[GM_MESSAGE];                  /* the reason of a failure; "" after the next key */
 };
 
 void gm_studies_close(struct gm_studies *studies);
@@ -159,12 +146,9 @@ struct gm_typed_prompt {
     char *last[GM_TYPED_KINDS]; /* the last line of each kind; NULL: never typed */
 };
 
-/* Returns the prompt's rows on a screen of this size, in cells; 0: it is closed. */
-int gm_typed_prompt_rows(const struct gm_typed_prompt *prompt, int columns, int rows);
-/* Draws the prompt into a sheet of that many rows. */
-void gm_typed_prompt_draw(const struct gm_sheet *sheet, const struct gm_typed_prompt *prompt);
-/* Draws the prompt's keys, in the last row. */
-void gm_typed_prompt_keys(const struct gm_sheet *last, const struct gm_typed_prompt *prompt);
+/* Draws the prompt over the last rows of the screen, with its keys; returns the number of these rows, 0 if it is
+   closed (or NULL). */
+int gm_typed_prompt_draw(const struct gm_sheet *whole, const struct gm_typed_prompt *prompt);
 
 /* The parts of the screen, and their keys. */
 
@@ -193,9 +177,6 @@ size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
 /* Returns the alias by which the typed words found the chosen scheme; NULL: by its name, or another text. */
 const char *gm_chooser_alias(const struct gm_face *face);
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
-
-/* Writes the time to run ahead to if no time is typed. */
-void gm_prompt_ahead(const struct gm_shot *shot, char *text, size_t size);
 
 /* Pages on the scene with its keys and claims, a scheme, the command lines, or the list of scenes. */
 

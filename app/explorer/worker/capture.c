@@ -38,92 +38,68 @@ struct gm_recorder {
     /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
     long repeat; /* number of frames that show the picture */
+    unsigned char *rgb;
 
     /* owned by the thread */
     struct gm_canvas *canvas; /* NULL before the first picture */
-    unsigned char *rgb;
     bool failed;
     char message[GM_MESSAGE];
 };
 
-static bool open_canvas(struct gm_recorder *recorder)
-{
-    if (!recorder->canvas) {
-        const struct gm_appearance look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
-        recorder->canvas = gm_canvas_open(&look, recorder->message);
-    }
-    if (!recorder->rgb) {
-        recorder->rgb = malloc((size_t)WIDTH * HEIGHT * 3);
-    }
-    return recorder->canvas && recorder->rgb;
-}
-
-/* Paints a picture once and adds `repeat` frames of it to the movie. */
+/* Paints a picture once and adds `repeat` frames of it to the movie. The canvas is the thread's own. */
 static void record(void *self)
 {
     struct gm_recorder *recorder = self;
-    recorder->failed = recorder->failed || !open_canvas(recorder) ||
+    const struct gm_appearance look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
+    if (!recorder->canvas && !recorder->failed) {
+        recorder->canvas = gm_canvas_open(&look, recorder->message);
+    }
+    recorder->failed = recorder->failed || !recorder->canvas ||
                        !gm_canvas_paint(recorder->canvas, recorder->picture, recorder->rgb) ||
                        !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
 }
 
-/* Runs in the thread, which owns the canvas's context. */
 static void end(void *self)
 {
     struct gm_recorder *recorder = self;
     gm_canvas_close(recorder->canvas);
-    free(recorder->rgb);
 }
 
 static void release(struct gm_recorder *recorder)
 {
     gm_picture_close(recorder->picture);
+    free(recorder->rgb);
     free(recorder);
-}
-
-static bool begin_movie(struct gm_recorder *recorder, char *message)
-{
-    const struct gm_sink_settings settings = {
-        .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
-    recorder->picture = gm_picture_open();
-    if (!recorder->picture) {
-        return gm_refuse(message, "There is not enough memory.");
-    }
-    recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
-    if (recorder->sink && !gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
-        char given_up[GM_MESSAGE];
-        gm_sink_close(recorder->sink, false, given_up);
-        return false;
-    }
-    return recorder->sink != NULL;
 }
 
 static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, char *message)
 {
+    const struct gm_sink_settings settings = {
+        .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
+    char given_up[GM_MESSAGE];
     struct gm_recorder *recorder = calloc(1, sizeof *recorder);
     if (!recorder) {
         gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
-    recorder->theme = theme;
-    recorder->begun = NAN;
+    *recorder = (struct gm_recorder){.theme = theme,
+                                     .begun = NAN,
+                                     .picture = gm_picture_open(),
+                                     .rgb = malloc((size_t)WIDTH * HEIGHT * 3)};
     snprintf(recorder->path, sizeof recorder->path, "%s", path);
-    if (!begin_movie(recorder, message)) {
-        release(recorder);
-        return NULL;
+    if (!recorder->picture || !recorder->rgb) {
+        gm_refuse(message, "There is not enough memory.");
+    } else {
+        recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
     }
-    return recorder;
-}
-
-static bool close_recorder(struct gm_recorder *recorder, char *message)
-{
-    gm_job_close(&recorder->painting);
-    bool closed = gm_sink_close(recorder->sink, true, message);
-    if (recorder->message[0]) { /* painting failed */
-        closed = gm_refuse(message, "%s", recorder->message);
+    if (recorder->sink && gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
+        return recorder;
+    }
+    if (recorder->sink) {
+        gm_sink_close(recorder->sink, false, given_up);
     }
     release(recorder);
-    return closed;
+    return NULL;
 }
 
 double gm_recorder_length(const struct gm_recorder *recorder)
@@ -131,123 +107,106 @@ double gm_recorder_length(const struct gm_recorder *recorder)
     return (double)recorder->frames / RATE;
 }
 
-static struct gm_picture *due_picture(struct gm_recorder *recorder, double now)
-{
-    if (isnan(recorder->begun)) {
-        recorder->begun = now - 1.0 / RATE;
-    }
-    long due = (long)((now - recorder->begun) * RATE + 1e-6) - recorder->frames;
-    if (due < 1 || gm_job_is_busy(&recorder->painting)) {
-        return NULL;
-    }
-    if (due > RATE) { /* no change for over a second */
-        recorder->begun += (double)(due - RATE) / RATE;
-        due = RATE;
-    }
-    recorder->repeat = due;
-    gm_picture_clear(recorder->picture);
-    return recorder->picture;
-}
-
-static void put_picture(struct gm_recorder *recorder)
-{
-    recorder->frames += recorder->repeat;
-    gm_job_begin(&recorder->painting);
-}
-
 /* ---- pictures and systems ---- */
 
 /* 300 dots per inch on 32 cm, 600 on the 16 cm of a text column */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
 
-/* Stores the lanes' step counts in the log. */
-static void note_steps(struct gm_session *session)
-{
-    for (size_t i = 0; i < session->count; i++) {
-        session->log.lanes[i].steps = session->lanes[i]->run->steps;
-    }
-}
-
 void gm_capture_save(struct gm_play *play, enum gm_theme theme)
 {
     struct gm_session *session = &play->session;
-    char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
+    char path[128], message[GM_MESSAGE] = "";
     gm_folder_free_file(session->scene->name, ".png", path, sizeof path);
-    note_steps(session);
+    for (size_t i = 0; i < session->count; i++) {
+        session->log.lanes[i].steps = session->lanes[i]->run->steps;
+    }
     struct gm_print print = {.path = path,
                              .look = {.width = PRINT_WIDTH, .height = PRINT_HEIGHT, .theme = theme}};
     bool ok = gm_still_write(&print, &session->log, (const struct gm_lane *const *)session->lanes, message);
-    snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
-    gm_play_say(play, sentence);
+    gm_play_say(play, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
 }
 
 void gm_capture_save_system(struct gm_play *play)
 {
     const struct gm_session *session = &play->session;
-    char path[128], sentence[GM_MESSAGE];
+    char path[128];
     if (!session->scene->text) {
         return;
     }
     char *text = gm_system_now(session->scene, gm_session_owner(session, play->selected, false));
     gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
     const int error = text ? gm_temporary_write(path, text, strlen(text)) : ENOMEM;
-    snprintf(sentence, sizeof sentence,
-             error == 0 ? "Saved %.400s: geomint ./%.60s runs it." : "Not saved: %.400s: %.60s", path,
-             error == 0        ? path
-             : error == ENOMEM ? "not enough memory"
-                               : strerror(error));
     free(text);
-    gm_play_say(play, sentence);
+    if (error == 0) {
+        gm_play_say(play, "Saved %.400s: geomint ./%.60s runs it.", path, path);
+    } else {
+        gm_play_say(play, "Not saved: %.400s: %.60s", path,
+                    error == ENOMEM ? "not enough memory" : strerror(error));
+    }
 }
 
 /* ---- the movie ---- */
 
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)
 {
-    char path[128], message[GM_MESSAGE] = "";
-    if (!capture->recorder) {
+    struct gm_recorder *recorder = capture->recorder;
+    char message[GM_MESSAGE] = "";
+    if (!recorder) {
         return false;
     }
-    snprintf(path, sizeof path, "%s", capture->recorder->path);
-    double length = gm_recorder_length(capture->recorder);
-    if (close_recorder(capture->recorder, message)) {
-        snprintf(sentence, GM_MESSAGE, "Saved %.100s, a movie of %.1f s.", path, length);
+    gm_job_close(&recorder->painting);
+    const bool closed = gm_sink_close(recorder->sink, true, message);
+    if (recorder->message[0] || !closed) { /* painting failed, or writing */
+        gm_refuse(sentence, "No movie: %.400s", recorder->message[0] ? recorder->message : message);
     } else {
-        gm_refuse(sentence, "No movie: %.400s", message);
+        gm_refuse(sentence, "Saved %.100s, a movie of %.1f s.", recorder->path, gm_recorder_length(recorder));
     }
+    release(recorder);
     capture->recorder = NULL;
     return true;
 }
 
 void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme)
 {
-    char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    if (gm_capture_stop_recording(capture, sentence)) {
-        gm_play_say(play, sentence);
+    char path[128], message[GM_MESSAGE] = "";
+    if (gm_capture_stop_recording(capture, message)) {
+        gm_play_say(play, "%s", message);
         return;
     }
     gm_folder_free_file(play->session.scene->name, ".mp4", path, sizeof path);
     capture->recorder = open_recorder(path, theme, message);
-    if (capture->recorder) {
-        snprintf(sentence, sizeof sentence, "Recording %.100s; R ends it.", path);
-    } else {
-        snprintf(sentence, sizeof sentence, "No movie: %.400s", message);
-    }
     capture->unrecorded = true;
-    gm_play_say(play, sentence);
+    if (capture->recorder) {
+        gm_play_say(play, "Recording %.100s; R ends it.", path);
+    } else {
+        gm_play_say(play, "No movie: %.400s", message);
+    }
 }
 
 void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *session)
 {
-    if (!capture->recorder || !capture->unrecorded) {
+    struct gm_recorder *recorder = capture->recorder;
+    const double now = gm_clock_seconds();
+    if (!recorder || !capture->unrecorded) {
         return;
     }
-    struct gm_picture *picture = due_picture(capture->recorder, gm_clock_seconds());
-    if (picture) {
-        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
-        put_picture(capture->recorder);
-        capture->unrecorded = false;
+    if (isnan(recorder->begun)) {
+        recorder->begun = now - 1.0 / RATE;
     }
+    long due = (long)((now - recorder->begun) * RATE + 1e-6) - recorder->frames;
+    if (due < 1 || gm_job_is_busy(&recorder->painting)) {
+        return;
+    }
+    if (due > RATE) { /* no change for over a second */
+        recorder->begun += (double)(due - RATE) / RATE;
+        due = RATE;
+    }
+    recorder->repeat = due;
+    recorder->frames += due;
+    gm_picture_clear(recorder->picture);
+    gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, recorder->picture);
+    gm_job_begin(&recorder->painting);
+    capture->unrecorded = false;
 }
 
 void gm_capture_wait(struct gm_capture *capture)
@@ -289,14 +248,9 @@ static void put_end(FILE *stream, const struct gm_session *session)
 
 static void put_changes(FILE *stream, const struct gm_request *log)
 {
-    char *list = NULL;
-    size_t size = 0;
-    FILE *changes = log->change_count > 0 ? open_memstream(&list, &size) : NULL;
-    for (size_t i = 0; changes && i < log->change_count; i++) {
-        const struct gm_change *change = &log->changes[i];
-        fprintf(changes, "%s%zu:%" PRId64 ":%s", i == 0 ? "" : ",", change->lane, change->step, change->text);
-    }
-    if (changes && fclose(changes) == 0) {
+    char *list = log->change_count > 0 ? gm_changes_format(log, ':', ',') : NULL;
+    if (list) {
+        list[strlen(list) - 1] = '\0';
         fputs(" --changes ", stream);
         gm_arguments_put_shell(stream, list);
     }
@@ -353,9 +307,7 @@ static char *tell_explorer(const struct gm_session *session)
 
 void gm_capture_tell(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme)
 {
-    for (size_t i = 0; i < GM_COMMANDS; i++) {
-        free(capture->commands[i]);
-    }
+    gm_capture_close(capture);
     capture->commands[GM_COMMAND_PICTURE] = command_of(&session->log, session, theme);
     capture->commands[GM_COMMAND_EXPLORER] = tell_explorer(session);
     capture->command_number++;

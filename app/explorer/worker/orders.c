@@ -39,15 +39,13 @@ static bool undo(struct gm_play *play, char *message)
     const struct gm_order *order = &play->undos[--play->undo_count];
     const size_t lane = order->value == all_lanes ? play->selected : (size_t)order->value;
     const bool scheme = order->kind == GM_ORDER_SWITCH;
-    char sentence[GM_MESSAGE];
     if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
                : !gm_session_set(&play->session, lane, order->row, is_of_scheme(order->row), order->text,
                                  &play->restart, message)) {
         return false;
     }
-    snprintf(sentence, sizeof sentence, "Undone: %s is %.300s again.",
-             scheme ? "the scheme" : order->row->key, scheme ? order->scheme->title : order->text);
-    gm_play_say(play, sentence);
+    gm_play_say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
+                scheme ? order->scheme->title : order->text);
     return true;
 }
 
@@ -78,11 +76,10 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
             return;
         }
     } else if (!gm_slider_next(row, owner, order->amount, order->kind == GM_ORDER_NUDGE, text)) {
-        snprintf(message, sizeof message,
-                 row->type == GM_TEXT ? "%s is a word of your own: enter types it."
-                                      : "%s is at the end of its range.",
-                 row->key);
-        gm_play_say(play, message);
+        gm_play_say(play,
+                    row->type == GM_TEXT ? "%s is a word of your own: enter types it."
+                                         : "%s is at the end of its range.",
+                    row->key);
         return;
     }
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
@@ -96,7 +93,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
                         message)) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     } else if (strcmp(back.text, text) != 0) {
         note_undo(play, back);
     }
@@ -139,16 +136,6 @@ static bool look(struct gm_play *play, const struct gm_order *order, char *messa
         }
     }
     return true;
-}
-
-static void step_forward(struct gm_play *play)
-{
-    double next = gm_session_next(&play->session);
-    if (isfinite(next)) {
-        while (gm_session_advance(&play->session, next)) {
-            ;
-        }
-    }
 }
 
 static bool run_ahead(struct gm_play *play, const char *text, char *message)
@@ -207,16 +194,6 @@ static bool start_from(struct gm_play *play, double x, double y, char *message)
     return true;
 }
 
-static void select_lane(struct gm_play *play, const struct gm_order *order)
-{
-    size_t count = play->session.count;
-    if (order->amount == 0) {
-        play->selected = order->value < (double)count ? (size_t)order->value : play->selected;
-    } else {
-        play->selected = (play->selected + (size_t)((int)count + order->amount)) % count;
-    }
-}
-
 static bool add_lane(struct gm_play *play, char *message)
 {
     const struct gm_scheme *scheme = gm_session_unused(&play->session);
@@ -245,10 +222,13 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
     case GM_ORDER_PAUSE:
         play->paused = !play->paused;
         break;
-    case GM_ORDER_FORWARD:
+    case GM_ORDER_FORWARD: {
+        const double next = gm_session_next(session);
         play->paused = true;
-        step_forward(play);
+        while (isfinite(next) && gm_session_advance(session, next)) {
+        }
         break;
+    }
     case GM_ORDER_RESTART:
         play->restart = true;
         break;
@@ -273,7 +253,11 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         play->ahead = false;
         break;
     case GM_ORDER_SELECT:
-        select_lane(play, order);
+        if (order->amount != 0) {
+            play->selected = (play->selected + session->count + (size_t)order->amount) % session->count;
+        } else if (order->value < (double)session->count) {
+            play->selected = (size_t)order->value;
+        }
         break;
     case GM_ORDER_LOOK:
         ok = look(play, order, message);
@@ -331,7 +315,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     }
     if (!ok) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     if (order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_TURN || order->kind == GM_ORDER_VISIT) {
         gm_agenda_rewind(&play->agenda, gm_session_time(session));

@@ -3,6 +3,7 @@
 #include "app/explorer/worker/session.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
 #include "app/native/engine.h"
@@ -40,9 +41,12 @@ static void set_speed_for(struct gm_play *play, double span, double seconds)
     gm_play_set_speed(play, (int)round(3 * log10(span / seconds)));
 }
 
-void gm_play_say(struct gm_play *play, const char *sentence)
+void gm_play_say(struct gm_play *play, const char *format, ...)
 {
-    snprintf(play->message, sizeof play->message, "%s", sentence);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(play->message, sizeof play->message, format, values);
+    va_end(values);
     play->message_number++;
     play->changed = true;
 }
@@ -101,7 +105,7 @@ bool gm_play_keep_agenda(struct gm_play *play)
     }
     const bool stop = gm_agenda_keep(&play->agenda, &play->session, message);
     if (message[0]) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     if (stop) {
         play->paused = true;
@@ -148,30 +152,14 @@ static bool step_ahead(struct gm_play *play)
     return worked;
 }
 
-/* Pauses at the start time, so that the returned states can be seen. */
-static void stop_at_home(struct gm_play *play)
-{
-    const struct gm_lane *lane = play->session.lanes[0];
-    if (play->homewards && gm_play_left_until(play, lane->t0) < 1e-6 * fabs(lane->run->dt)) {
-        play->homewards = false;
-        play->paused = true;
-        gm_play_say(play,
-                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
-    }
-}
-
-/* Limits the time that is due to one second's worth of steps, so that orders are heard. */
-static double due_at_once(const struct gm_play *play)
-{
-    const struct gm_session *session = &play->session;
-    const double a_second = gm_session_time(session) + gm_session_direction(session) * play->rate;
-    return sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(session)));
-}
-
 static bool step_along(struct gm_play *play)
 {
     const double begun = gm_clock_seconds(), from = gm_session_time(&play->session);
-    const double due = due_at_once(play);
+    const struct gm_lane *first = play->session.lanes[0];
+    /* at most one second's worth of steps, so that orders are heard */
+    const double a_second = from + gm_session_direction(&play->session) * play->rate;
+    const double due =
+        sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(&play->session)));
     bool worked = false;
     while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
         worked = true;
@@ -180,8 +168,11 @@ static bool step_along(struct gm_play *play)
         const double covered = fabs(gm_session_time(&play->session) - from);
         play->rate = covered > 0 ? covered / fmax(gm_clock_seconds() - begun, 1e-9) : play->rate;
         play->changed = true;
-    } else {
-        stop_at_home(play);
+    } else if (play->homewards && gm_play_left_until(play, first->t0) < 1e-6 * fabs(first->run->dt)) {
+        play->homewards = false;
+        play->paused = true; /* so that the returned states can be seen */
+        gm_play_say(play,
+                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
     }
     double next = gm_session_next(&play->session);
     if (!play->paused && isfinite(next)) {
@@ -242,16 +233,6 @@ void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t 
     go_to_step(play);
 }
 
-/* Shows the tour's step again after a restart of all lanes. */
-static void repeat_step(struct gm_play *play)
-{
-    if (play->agenda.tour) {
-        play->paused = play->paused && !play->agenda.over;
-        gm_agenda_rewind(&play->agenda, -INFINITY);
-        go_to_step(play);
-    }
-}
-
 void gm_play_restart(struct gm_play *play)
 {
     char message[GM_MESSAGE];
@@ -260,10 +241,14 @@ void gm_play_restart(struct gm_play *play)
     play->frozen = 0;
     play->ahead = play->homewards = false;
     if (!gm_session_restart(&play->session, message)) {
-        gm_play_say(play, message);
+        gm_play_say(play, "%s", message);
     }
     gm_play_set_clock(play, gm_session_time(&play->session));
-    repeat_step(play);
+    if (play->agenda.tour) { /* its step is shown again */
+        play->paused = play->paused && !play->agenda.over;
+        gm_agenda_rewind(&play->agenda, -INFINITY);
+        go_to_step(play);
+    }
     play->changed = true;
 }
 
@@ -313,11 +298,9 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_OUT_OF_MEMORY] = "found no memory",
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
         };
-        char sentence[GM_MESSAGE];
-        snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
-                 sentences[latest->run->status], latest->run->t,
-                 frozen < play->session.count ? "; the others continue" : "");
-        gm_play_say(play, sentence);
+        gm_play_say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
+                    sentences[latest->run->status], latest->run->t,
+                    frozen < play->session.count ? "; the others continue" : "");
     }
     play->frozen = frozen;
 }

@@ -90,7 +90,7 @@ struct gm_play {
 void gm_play_begin(struct gm_play *play);
 
 /* Sets the message of the status line. */
-void gm_play_say(struct gm_play *play, const char *sentence);
+__attribute__((format(printf, 2, 3))) void gm_play_say(struct gm_play *play, const char *format, ...);
 
 /* ---- time ---- */
 

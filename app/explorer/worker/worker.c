@@ -99,17 +99,6 @@ static void rest(struct gm_worker *worker)
     pthread_cond_timedwait(&worker->news, &worker->lock, &until);
 }
 
-static bool open_named(struct gm_worker *worker, char *message)
-{
-    struct gm_request request;
-    if (!gm_request_parse(&request, 1, &worker->name, worker->schemes, message)) {
-        return false;
-    }
-    bool ok = gm_session_open(&worker->play.session, &request, message);
-    gm_request_close(&request);
-    return ok;
-}
-
 static void release(struct gm_worker *worker)
 {
     pthread_cond_destroy(&worker->news);
@@ -158,24 +147,17 @@ static bool go_on(struct gm_worker *worker)
     return worked || changed;
 }
 
-/* One round, then a shot or a rest. Called with the lock held. */
-static void go_round(struct gm_worker *worker)
-{
-    const bool worked = go_on(worker);
-    if (worker->wanted && worker->play.changed) {
-        take_shot(worker);
-    } else if (!worked && worker->count == 0 && !worker->leave) {
-        rest(worker);
-    }
-}
-
 /* Opens the scene that has only a name yet. Returns false with a message in play if that fails. */
 static bool begin(struct gm_worker *worker)
 {
     char message[GM_MESSAGE] = "";
-    if (worker->name && !open_named(worker, message)) {
-        snprintf(worker->play.message, sizeof worker->play.message, "%s", message);
-        return false;
+    struct gm_request request = {0};
+    const bool ok =
+        !worker->name || (gm_request_parse(&request, 1, &worker->name, worker->schemes, message) &&
+                          gm_session_open(&worker->play.session, &request, message));
+    gm_request_close(&request);
+    if (!ok) {
+        return gm_refuse(worker->play.message, "%s", message);
     }
     gm_play_begin(&worker->play);
     return true;
@@ -190,11 +172,15 @@ static void *work(void *self)
     if (!ok) {
         announce(worker);
     }
+    while (!ok && !worker->leave) {
+        pthread_cond_wait(&worker->news, &worker->lock);
+    }
     while (!worker->leave) {
-        if (ok) {
-            go_round(worker);
-        } else {
-            pthread_cond_wait(&worker->news, &worker->lock);
+        const bool worked = go_on(worker);
+        if (worker->wanted && worker->play.changed) {
+            take_shot(worker);
+        } else if (!worked && worker->count == 0 && !worker->leave) {
+            rest(worker);
         }
     }
     while (ok && worker->owed > 0) {
@@ -208,79 +194,42 @@ static void *work(void *self)
     return NULL;
 }
 
-/* Returns a worker without session and thread, or NULL with a message when out of memory. */
-static struct gm_worker *make(int wake, char *message)
+struct gm_worker *gm_worker_open(const struct gm_worker_plan *plan, int wake, char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
-    if (!worker || !gm_shot_open(&worker->shots[0]) || !gm_shot_open(&worker->shots[1])) {
+    if (!worker) {
         gm_refuse(message, "There is not enough memory.");
-        if (worker) {
-            gm_shot_close(&worker->shots[0]);
-        }
-        free(worker);
         return NULL;
     }
     worker->wake = wake;
     worker->wanted = true;
+    worker->schemes = plan->schemes;
+    worker->play.preview = plan->preview;
+    worker->name = plan->request ? NULL : strdup(plan->name);
     pthread_condattr_t attributes;
     pthread_condattr_init(&attributes);
     pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
     pthread_cond_init(&worker->news, &attributes);
     pthread_condattr_destroy(&attributes);
     pthread_mutex_init(&worker->lock, NULL);
-    return worker;
-}
-
-/* Starts the thread, if there is one to wake, and returns the worker. On failure releases it, fills message
-   and returns NULL. */
-static struct gm_worker *start(struct gm_worker *worker, char *message)
-{
-    if (worker->wake < 0) {
+    if (plan->first) {
+        worker->queue[worker->count++] = *plan->first;
+    }
+    bool ok = (gm_shot_open(&worker->shots[0]) && gm_shot_open(&worker->shots[1]) &&
+               (plan->request || worker->name)) ||
+              gm_refuse(message, "There is not enough memory.");
+    ok = ok && (!plan->request || gm_session_open(&worker->play.session, plan->request, message));
+    if (ok && wake < 0) {
         worker->failed = !begin(worker);
-        return worker;
+    } else if (ok) {
+        const int error = gm_thread_start(&worker->thread, work, worker);
+        ok = error == 0 || gm_refuse(message, "No thread could be started: %s.", strerror(error));
     }
-    const int error = gm_thread_start(&worker->thread, work, worker);
-    if (error == 0) {
-        return worker;
-    }
-    gm_refuse(message, "No thread could be started: %s.", strerror(error));
-    release(worker);
-    return NULL;
-}
-
-struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
-                                 char *message)
-{
-    struct gm_worker *worker = make(wake, message);
-    if (!worker) {
-        return NULL;
-    }
-    if (!gm_session_open(&worker->play.session, request, message)) {
+    if (!ok) {
         release(worker);
-        return NULL;
+        worker = NULL;
     }
-    if (first) {
-        worker->queue[worker->count++] = *first;
-    }
-    return start(worker, message);
-}
-
-struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool preview, int wake,
-                                       char *message)
-{
-    struct gm_worker *worker = make(wake, message);
-    if (!worker) {
-        return NULL;
-    }
-    worker->name = strdup(name);
-    if (!worker->name) {
-        gm_refuse(message, "There is not enough memory.");
-        release(worker);
-        return NULL;
-    }
-    worker->schemes = schemes;
-    worker->play.preview = preview;
-    return start(worker, message);
+    return worker;
 }
 
 bool gm_worker_failed(struct gm_worker *worker, char *message)

@@ -10,19 +10,24 @@
 
 struct gm_worker;
 
-/* Opens the lanes and starts the thread. Returns the worker, which gm_worker_close frees; on failure fills
-   message (GM_MESSAGE bytes) and returns NULL. `wake` is an eventfd, written when a shot is finished;
-   with -1 there is no thread, and gm_worker_play does its work. `first` (may be NULL) is obeyed before the first step. */
-struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
-                                 char *message);
+/* The lanes to play: those of a request, or of a scene, system or room by name. */
+struct gm_worker_plan {
+    const struct gm_request *request; /* NULL: the scene of this name, with its first `schemes` schemes */
+    const char *name;
+    size_t schemes;
+    bool preview;                 /* the play stops at the scene's own end */
+    const struct gm_order *first; /* obeyed before the first step; NULL: none */
+};
+
+/* Opens the lanes and starts the thread, which itself opens a scene that has a name, so that this never waits.
+   Returns the worker, which gm_worker_close frees; on failure fills message (GM_MESSAGE bytes) and returns NULL.
+   `wake` is an eventfd, written when a shot is finished; with -1 there is no thread, and gm_worker_play does its
+   work. */
+struct gm_worker *gm_worker_open(const struct gm_worker_plan *plan, int wake, char *message);
 /* Writes the requested files, finishes a movie and frees the worker. `parting` (GM_MESSAGE bytes) receives
    a report on them, or "". */
 void gm_worker_close(struct gm_worker *worker, char *parting);
 
-/* Like gm_worker_open, for a scene, system or room by name, with its first `schemes` schemes. The thread
-   itself opens it, so this never waits. A preview stops at the scene's own end. */
-struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool preview, int wake,
-                                       char *message);
 /* Returns true and fills message (GM_MESSAGE bytes) if opening failed. */
 bool gm_worker_failed(struct gm_worker *worker, char *message);
 /* Releases the worker without waiting for its step. If a movie or a file is unfinished, acts like

@@ -26,10 +26,8 @@ static size_t rank_of(const struct gm_scene *scene, const struct gm_scheme *sche
    modified energy. */
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
-    if (!scene->asked_shown) {
-        gm_arena_refuse(grid->arena, "scene %s has no modified energy: it has no canonical Hamiltonian",
-                        scene->name);
-    }
+    gm_arena_refuse_if(grid->arena, !scene->asked_shown,
+                       "scene %s has no modified energy: it has no canonical Hamiltonian", scene->name);
     const struct gm_scheme *schemes[GM_FITTING_SCHEMES], *usual = NULL;
     const size_t count = gm_fitting_schemes(scene, schemes);
     const struct gm_timing *timing = gm_arena_keep(grid->arena, gm_scene_defaults(scene), free);
@@ -62,10 +60,8 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
         const double dt = ((const struct gm_timing *)spec->parameters)->dt;
         size_t at = line->count++;
         for (; at > 0 && line->cells[at - 1].step <= dt; at--) {
-            if (line->cells[at - 1].step == dt) {
-                gm_arena_refuse(grid->arena,
-                                "backward compares steps and schemes: only scheme and dt take lists");
-            }
+            gm_arena_refuse_if(grid->arena, line->cells[at - 1].step == dt,
+                               "backward compares steps and schemes: only scheme and dt take lists");
             line->cells[at] = line->cells[at - 1];
         }
         line->cells[at] = (struct gm_grid_cell){.spec = spec, .step = dt};
@@ -201,6 +197,67 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
     }
 }
 
+static void print_line(const struct gm_grid_line *line)
+{
+    printf("\n%s, order %d\n", line->scheme->name, line->scheme->order);
+    if (line->reason[0]) {
+        printf("  none: %s\n", line->reason);
+        return;
+    }
+    static const char *const heads[] = {"H", "dt", "dt^2", "dt^3", "dt^4", "dt^5", "dt^6"};
+    printf("%12s", "dt");
+    for (int k = 0; k < GM_POWERS; k++) {
+        if (line->shown[k]) {
+            printf(" %9s", heads[k]);
+        }
+    }
+    printf(" %9s %9s %9s %9s\n", "best", "gamma", "gamma/dt", "drift");
+    for (size_t p = 0; p < line->count; p++) {
+        const struct gm_grid_cell *cell = &line->cells[p];
+        if (!cell->tried) {
+            continue;
+        }
+        printf("%12.6g", cell->dt);
+        for (int k = 0; k < GM_POWERS; k++) {
+            if (line->shown[k]) {
+                gm_print_number(" %9.2e", 9, cell->errors[k]);
+            }
+        }
+        printf(" %9s", heads[cell->best]);
+        gm_print_number(" %9.3g", 9, cell->gamma);
+        gm_print_number(" %9.3g", 9, cell->gamma / cell->dt);
+        gm_print_number(" %9.1e", 9, exp(-cell->gamma / (2 * cell->dt)));
+        printf("%s%s\n", cell->status == GM_OK ? "" : "  ",
+               cell->status == GM_OK ? "" : gm_status_name(cell->status));
+    }
+    printf("%12s", "slope");
+    for (int k = 0; k < GM_POWERS; k++) {
+        if (line->shown[k]) {
+            gm_print_number(" %9.3f", 9, line->orders[k]);
+        }
+    }
+    printf("\n");
+}
+
+static void print(const struct gm_grid *grid)
+{
+    printf("%s, up to t = %.6g: largest error of H + dt H1 + dt^2 H2 + ..., cut off after a power of dt\n",
+           grid->request.scene->name, gm_grid_timing(grid)->until);
+    for (size_t i = 0; i < grid->count; i++) {
+        print_line(&grid->lines[i]);
+    }
+    printf(
+        "\ngamma: term k is about k! (dt/gamma)^k, estimated from the last two; it is smallest at k = gamma/dt, and "
+        "what\nis left drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt)\n");
+}
+
+static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    gm_row_put(row, "order %i, until %.17g, reason %s", line->scheme->order, gm_grid_timing(grid)->until,
+               line->reason);
+    gm_row_list(row, "slopes", line->orders, GM_POWERS);
+}
+
 /* ---- diagrams: for every scheme the errors against dt, a line for every power after which H~ is cut off; and, of the
    first, against that power, a line for every dt ---- */
 
@@ -311,6 +368,9 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 const struct gm_study_row gm_study_backward = {.name = "backward",
                                                .refusal = GM_EXIT_USAGE,
                                                .draw = draw,
+                                               .print = print,
+                                               .cells = "points",
+                                               .put_front = put_front,
                                                .which = "backward error of which scene?",
                                                .schemes = 1,
                                                .usual = usual,

@@ -15,11 +15,9 @@
 static const char *usual(struct gm_grid *grid, const struct gm_scene *scene)
 {
     enum { MOST = 6 }; /* schemes of the scene, if the plan gives none */
-    if (!scene->stability) {
-        gm_arena_refuse(grid->arena, "scene %s has no stability map: %s", scene->name,
-                        scene->no_stability ? scene->no_stability
-                                            : "stability --region SCHEME shows the limit of a scheme");
-    }
+    gm_arena_refuse_if(grid->arena, !scene->stability, "scene %s has no stability map: %s", scene->name,
+                       scene->no_stability ? scene->no_stability
+                                           : "stability --region SCHEME shows the limit of a scheme");
     const bool planned = scene->stability->schemes != NULL;
     const char *const *schemes = planned ? scene->stability->schemes : scene->schemes;
     char list[512] = "";
@@ -38,18 +36,17 @@ static void read_judge(struct gm_grid *grid, const char *judge)
     if (!judge || strcmp(judge, "bounded") == 0) {
         return;
     }
-    if (strncmp(judge, accurate, length) != 0 || (judge[length] && judge[length] != '=')) {
-        gm_arena_refuse(grid->arena, "--judge %.60s is none of: bounded, accurate, accurate=ERROR", judge);
-    }
+    gm_arena_refuse_if(grid->arena,
+                       strncmp(judge, accurate, length) != 0 || (judge[length] && judge[length] != '='),
+                       "--judge %.60s is none of: bounded, accurate, accurate=ERROR", judge);
     grid->accuracy = 0.1;
-    if (judge[length] && (!gm_number_parse(judge + length + 1, &grid->accuracy) ||
-                          !(grid->accuracy > 0 && grid->accuracy < INFINITY))) {
-        gm_arena_refuse(grid->arena, "--judge %.60s needs an error above 0, such as accurate=1e-2", judge);
-    }
-    if (!grid->plan->error) {
-        gm_arena_refuse(grid->arena, "scene %s has no error to be accurate by; take --judge bounded",
-                        grid->request.scene->name);
-    }
+    gm_arena_refuse_if(grid->arena,
+                       judge[length] && (!gm_number_parse(judge + length + 1, &grid->accuracy) ||
+                                         !(grid->accuracy > 0 && grid->accuracy < INFINITY)),
+                       "--judge %.60s needs an error above 0, such as accurate=1e-2", judge);
+    gm_arena_refuse_if(grid->arena, !grid->plan->error,
+                       "scene %s has no error to be accurate by; take --judge bounded",
+                       grid->request.scene->name);
 }
 
 static struct gm_grid_axis axis_of(struct gm_grid *grid, const double *values, size_t count)
@@ -72,10 +69,8 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     grid->values = axis_of(grid, plan->values, plan->value_count);
     grid->lines = gm_arena_take(grid->arena, request->count, sizeof *grid->lines);
     for (size_t i = 0; i < request->count; i++) {
-        if (gm_grid_find(grid, request->lanes[i].scheme)) {
-            gm_arena_refuse(grid->arena, "stability varies dt and %s itself: only scheme takes a list",
-                            plan->parameter);
-        }
+        gm_arena_refuse_if(grid->arena, gm_grid_find(grid, request->lanes[i].scheme),
+                           "stability varies dt and %s itself: only scheme takes a list", plan->parameter);
         struct gm_grid_line *line =
             gm_grid_add(grid, request->lanes[i].scheme, grid->steps.count * grid->values.count);
         for (size_t s = 0; s < grid->steps.count; s++) {
@@ -87,6 +82,98 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
         }
     }
     grid->begun = grid->count;
+}
+
+/* ---- verdicts ---- */
+
+static const char *judge_of(const struct gm_grid *grid)
+{
+    return grid->accuracy < INFINITY ? "accurate" : "bounded";
+}
+
+const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t size)
+{
+    const char *judge = judge_of(grid);
+    if (grid->accuracy < INFINITY) {
+        snprintf(text, size, "%s to %.3g (%s)", judge, grid->accuracy, grid->plan->error);
+    } else {
+        snprintf(text, size, "%s", judge);
+    }
+    return text;
+}
+
+static const struct {
+    char letter;
+    const char *word;
+} verdicts[] = {[GM_BOUNDED] = {'.', ""},
+                [GM_LOST] = {'L', "lost"},
+                [GM_GAINED] = {'G', "gained"},
+                [GM_WRONG] = {'W', "wrong"}};
+
+const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell)
+{
+    if (!cell->tried) {
+        return "untried";
+    }
+    if (cell->verdict == GM_FAILED) {
+        return gm_status_name(cell->status);
+    }
+    return cell->verdict == GM_BOUNDED ? judge_of(grid) : verdicts[cell->verdict].word;
+}
+
+char gm_cell_letter(const struct gm_grid_cell *cell)
+{
+    if (!cell->tried || cell->verdict != GM_FAILED) {
+        return cell->tried ? verdicts[cell->verdict].letter : '?';
+    }
+    switch (cell->status) {
+    case GM_BLOW_UP:
+        return 'B';
+    case GM_NO_CONVERGENCE:
+        return 'N';
+    case GM_MESH_CROSSING:
+        return 'M';
+    default:
+        return 'C';
+    }
+}
+
+/* Writes the letters in use, except that of the question: "W wrong, M mesh-crossing". */
+static const char *letters_of(const struct gm_grid *grid, char *text, size_t size)
+{
+    bool noted[128] = {['.'] = true};
+    text[0] = '\0';
+    for (size_t i = 0; i < grid->count; i++) {
+        for (size_t k = 0; k < grid->lines[i].count; k++) {
+            const struct gm_grid_cell *cell = &grid->lines[i].cells[k];
+            const char letter = gm_cell_letter(cell);
+            if (!noted[(size_t)letter]) {
+                gm_append(text, size, "%s%c %s", text[0] ? ", " : "", letter, gm_cell_word(grid, cell));
+                noted[(size_t)letter] = true;
+            }
+        }
+    }
+    return text;
+}
+
+double gm_stability_limit(const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    double limit = 0;
+    for (size_t s = 0; s < grid->steps.count; s++) {
+        bool open = false;
+        for (size_t v = 0; v < grid->values.count; v++) {
+            const struct gm_grid_cell *cell = &line->cells[s * grid->values.count + v];
+            if (cell->tried && cell->verdict != GM_BOUNDED) {
+                return limit;
+            }
+            open = open || !cell->tried;
+        }
+        if (open) {
+            return NAN;
+        }
+        limit = grid->steps.values[s];
+    }
+    return limit;
 }
 
 /* ---- runs ---- */
@@ -184,10 +271,56 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
                cell->step, cell->dt, gm_cell_word(grid, cell), gm_status_name(cell->status), cell->t,
                isfinite(cell->ratio) ? cell->ratio : NAN, isfinite(cell->error) ? cell->error : NAN);
     if (row->form != GM_ROW_JSON) {
-        snprintf(judge, sizeof judge, grid->accuracy < INFINITY ? "%s=%.9g" : "%s", gm_stability_judge(grid),
+        snprintf(judge, sizeof judge, grid->accuracy < INFINITY ? "%s=%.9g" : "%s", judge_of(grid),
                  grid->accuracy);
         gm_row_put(row, "judge %s", judge);
     }
+}
+
+/* ---- tables ---- */
+
+static void print(const struct gm_grid *grid)
+{
+    const struct gm_stability *plan = grid->plan;
+    char letters[128], question[GM_TEXT_SIZE];
+    letters_of(grid, letters, sizeof letters);
+    printf("%s, which step is %s, after t = %.6g: . %s%s%s\n", grid->request.scene->name,
+           gm_stability_question(grid, question, sizeof question), gm_grid_timing(grid)->until,
+           judge_of(grid), letters[0] ? ", " : "", letters);
+    if (plan->told) {
+        printf("%s: %.4g here\n", plan->told, 1 / plan->unit(gm_grid_timing(grid)));
+    }
+    for (size_t i = 0; i < grid->count; i++) {
+        const struct gm_grid_line *line = &grid->lines[i];
+        printf("\n%-20s %s\n%12s", line->scheme->name, plan->parameter, plan->label);
+        for (size_t v = 0; v < grid->values.count; v++) {
+            printf(" %7.4g", grid->values.values[v]);
+        }
+        printf("\n");
+        for (size_t s = grid->steps.count; s-- > 0;) {
+            printf("%12.4g", grid->steps.values[s]);
+            for (size_t v = 0; v < grid->values.count; v++) {
+                printf(" %7c", gm_cell_letter(&line->cells[s * grid->values.count + v]));
+            }
+            printf("\n");
+        }
+        const double limit = gm_stability_limit(grid, line);
+        if (isnan(limit)) {
+            printf("  how far it is %s is open: not every step was tried\n", judge_of(grid));
+        } else if (limit > 0) {
+            printf("  %s for all values up to %.4g\n", judge_of(grid), limit);
+        } else {
+            printf("  at no step %s for all values\n", judge_of(grid));
+        }
+    }
+}
+
+static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)
+{
+    const double limit = gm_stability_limit(grid, line);
+    gm_row_put(row, "parameter %s, unit %s, until %.17g, judge %s, accuracy %.17g, limit %.17g",
+               grid->parameter->key, grid->plan->label, gm_grid_timing(grid)->until, judge_of(grid),
+               grid->accuracy, limit > 0 ? limit : NAN);
 }
 
 /* ---- maps: a cell for every step and value, with a letter, so that colour is not needed ---- */
@@ -219,7 +352,7 @@ static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line
     const struct gm_axis up = gm_chart_edges("", steps->values, steps->count, true, y);
     struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_STATE, line->scheme->title, &across, &up);
     const double limit = gm_stability_limit(grid, line);
-    panel->note = limit > 0 ? gm_picture_text(picture, "%s up to %.3g", gm_stability_judge(grid), limit) : "";
+    panel->note = limit > 0 ? gm_picture_text(picture, "%s up to %.3g", judge_of(grid), limit) : "";
     for (size_t s = 0; s < steps->count; s++) {
         for (size_t v = 0; v < values->count; v++) {
             const struct gm_grid_cell *cell = &line->cells[s * values->count + v];
@@ -254,9 +387,9 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
                                      gm_stability_question(grid, question, sizeof question));
     picture->subtitle = gm_picture_text(picture, "up: %s;  after t = %s", grid->plan->label,
                                         gm_step_text(picture, gm_grid_timing(grid)->until));
-    gm_stability_letters(grid, letters, sizeof letters);
-    picture->caption = gm_picture_text(picture, "Without a letter: %s.  %s%s", gm_stability_judge(grid),
-                                       letters, letters[0] ? "." : "");
+    letters_of(grid, letters, sizeof letters);
+    picture->caption = gm_picture_text(picture, "Without a letter: %s.  %s%s", judge_of(grid), letters,
+                                       letters[0] ? "." : "");
     picture->clock = "";
     for (size_t i = 0; i < grid->count; i++) {
         draw_map(grid, &grid->lines[i], picture);
@@ -266,6 +399,9 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
 const struct gm_study_row gm_study_stability = {.name = "stability",
                                                 .refusal = GM_EXIT_USAGE,
                                                 .draw = draw,
+                                                .print = print,
+                                                .cells = "cells",
+                                                .put_front = put_front,
                                                 .which = "stability of which scene? Or --region SCHEME",
                                                 .schemes = GM_RUN_SCHEMES,
                                                 .usual = usual,

@@ -101,9 +101,8 @@ static void edit(struct gm_grid *grid, struct gm_arguments *words)
                                         list + name.begin);
             }
         }
-        if (grid->best && !*others) {
-            gm_arena_refuse(grid->arena, "best are those to compare a scheme with: scheme=my.scheme,best");
-        }
+        gm_arena_refuse_if(grid->arena, grid->best && !*others,
+                           "best are those to compare a scheme with: scheme=my.scheme,best");
         if (grid->best) {
             strcpy(list + sizeof key - 1, others);
         }
@@ -193,10 +192,8 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
             }
         }
     }
-    if (!best[0]) {
-        gm_arena_refuse(grid->arena, "best: of the family of %s, %s, no other scheme fits", like->name,
-                        like->family->title);
-    }
+    gm_arena_refuse_if(grid->arena, !best[0], "best: of the family of %s, %s, no other scheme fits",
+                       like->name, like->family->title);
     for (int k = 0; k < BEST && best[k]; k++) {
         add_scheme(grid, best[k]);
     }
@@ -317,9 +314,7 @@ static void choose_measure(struct gm_grid *grid, const struct gm_lane *lane)
         grid->measure_title = observable->title;
         return;
     }
-    if (requested) {
-        gm_arena_refuse(grid->arena, "%s is undefined with these parameters", requested);
-    }
+    gm_arena_refuse_if(grid->arena, requested, "%s is undefined with these parameters", requested);
     grid->measure = solution_error;
     grid->observed = false;
 }
@@ -335,15 +330,13 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     grid->errors = work && work->errors ? work->errors : usual_errors;
     grid->ratio = ratio && is_typed(grid, ratio) ? gm_scene_parameter(scene, ratio) : NULL;
     gm_arena_check(grid->arena, gm_request_ends_together(&grid->request, message), message);
-    if (!is_one_problem(grid)) {
-        gm_arena_refuse(
-            grid->arena, "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
-            resolution ? ", " : "", resolution ? resolution : "", ratio ? ", " : "", ratio ? ratio : "");
-    }
+    gm_arena_refuse_if(grid->arena, !is_one_problem(grid),
+                       "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+                       resolution ? ", " : "", resolution ? resolution : "", ratio ? ", " : "",
+                       ratio ? ratio : "");
     note_settings(grid, words);
-    if (!(timing->until > gm_scene_t0(scene, timing))) {
-        gm_arena_refuse(grid->arena, "until=%g is the start: there is nothing to measure", timing->until);
-    }
+    gm_arena_refuse_if(grid->arena, !(timing->until > gm_scene_t0(scene, timing)),
+                       "until=%g is the start: there is nothing to measure", timing->until);
     choose_steps(grid);
     choose_resolutions(grid);
     /* one open lane shows which measure has a number and which schemes fit */
@@ -352,9 +345,7 @@ static void lay_out(struct gm_grid *grid, const struct gm_arguments *words)
     choose_measure(grid, lane);
     choose_schemes(grid, lane, is_typed(grid, "scheme"));
     gm_arena_drop(grid->arena, lane);
-    if (grid->count == 0) {
-        gm_arena_refuse(grid->arena, "no scheme that is compared here fits %s", scene->name);
-    }
+    gm_arena_refuse_if(grid->arena, grid->count == 0, "no scheme that is compared here fits %s", scene->name);
 }
 
 /* ---- runs ---- */
@@ -388,10 +379,8 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
         /* the carried rounding errors are worth their cost here */
         gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
     }
-    if (lane->run->status != GM_OK || gm_listener_stops(grid->listener)) {
-        gm_arena_refuse(grid->arena, "the reference, %s, failed: %s", grid->reference,
-                        gm_status_name(lane->run->status));
-    }
+    gm_arena_refuse_if(grid->arena, lane->run->status != GM_OK || gm_listener_stops(grid->listener),
+                       "the reference, %s, failed: %s", grid->reference, gm_status_name(lane->run->status));
     return lane;
 }
 
@@ -441,12 +430,10 @@ static void find_solution(struct gm_grid *grid, const struct gm_lane *lane)
         return;
     }
     grid->trusted = trusted_of(grid, problem);
-    if (!grid->trusted) {
-        gm_arena_refuse(
-            grid->arena,
-            "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
-            "make a reference with; --measure KEY compares an observable of the scene instead");
-    }
+    gm_arena_refuse_if(
+        grid->arena, !grid->trusted,
+        "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
+        "make a reference with; --measure KEY compares an observable of the scene instead");
     /* a quarter of the shortest step that halving the ladder a few times less gives: beyond, rounding rules */
     const size_t middle = grid->steps.count > 3 ? grid->steps.count - 3 : grid->steps.count - 1;
     grid->reference_step = grid->steps.values[middle] / 4;
@@ -652,6 +639,10 @@ static void put(struct gm_row *row, const struct gm_grid *grid, const struct gm_
 const struct gm_study_row gm_study_work = {.name = "work-precision",
                                            .refusal = GM_EXIT_NUMERICAL,
                                            .draw = gm_work_draw,
+                                           .print = gm_work_print,
+                                           .cells = "points",
+                                           .put_front = gm_work_put_front,
+                                           .put_end = gm_work_put_end,
                                            .which = "work-precision of which scene? See geomint list scenes",
                                            .schemes = 1,
                                            .usual = usual,

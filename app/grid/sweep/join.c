@@ -29,18 +29,15 @@ void gm_sweep_note(const struct gm_sweep *sweep, const char *path)
     gm_arena_check(sweep->arena, gm_folder_make_for(path, message), message);
     if (access(note, F_OK) != 0) {
         const int error = gm_temporary_write(note, text, strlen(text));
-        if (error != 0) {
-            gm_arena_refuse(sweep->arena, "%.360s could not be written: %s", note, strerror(error));
-        }
+        gm_arena_refuse_if(sweep->arena, error != 0, "%.360s could not be written: %s", note,
+                           strerror(error));
         return;
     }
     char *before = gm_regular_read(note, LONGEST_NOTE, &size, reason);
     const bool same = before && strcmp(before, text) == 0;
     free(before);
-    if (!same) {
-        gm_arena_refuse(sweep->arena, "%.360s describes another sweep; its tables are left as they are",
-                        note);
-    }
+    gm_arena_refuse_if(sweep->arena, !same, "%.360s describes another sweep; its tables are left as they are",
+                       note);
 }
 
 /* The text after a word that begins a line, or NULL. */
@@ -61,11 +58,11 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
     }
     char *words = find(note, "\nsweep: "), *measure = find(note, "\nmeasure: "),
          *shards = find(note, "\nshares: ");
-    if (!words || !measure || !shards || strncmp(note, "geomint: 1\n", 11) != 0 ||
-        strtoul(shards, NULL, 10) == 0) {
-        gm_arena_refuse(arena, "%.300s.sweep, which describes the sweep, could not be read%s%s", path,
-                        note ? "" : ": ", note ? "" : reason);
-    }
+    gm_arena_refuse_if(arena,
+                       !words || !measure || !shards || strncmp(note, "geomint: 1\n", 11) != 0 ||
+                           strtoul(shards, NULL, 10) == 0,
+                       "%.300s.sweep, which describes the sweep, could not be read%s%s", path,
+                       note ? "" : ": ", note ? "" : reason);
     words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
     gm_sweep_open(arena, sweep, gm_arguments_of(arena, words), measure[0] ? measure : NULL, &status);
     sweep->shards = strtoul(shards, NULL, 10);
@@ -98,13 +95,11 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
     if (!table->stream && errno != ENOENT) {
         gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));
     }
-    if (table->stream && flock(fileno(table->stream), LOCK_SH | LOCK_NB) != 0) {
-        gm_arena_refuse(arena, "%.360s is being written by another process", path);
-    }
+    gm_arena_refuse_if(arena, table->stream && flock(fileno(table->stream), LOCK_SH | LOCK_NB) != 0,
+                       "%.360s is being written by another process", path);
     gm_csv_next(table);
-    if (table->line && table->line[0] && strcmp(table->line, sweep->head) != 0) {
-        gm_arena_refuse(arena, "%.360s is %s", path, other);
-    }
+    gm_arena_refuse_if(arena, table->line && table->line[0] && strcmp(table->line, sweep->head) != 0,
+                       "%.360s is %s", path, other);
 }
 
 struct joining {
@@ -156,10 +151,8 @@ size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
     open_table(sweep, path, "the table of another sweep; it is left as it is", &tables[0]);
     if (!gm_temporary_make(path, merge, &self)) {
         const int error = errno;
-        if (joining.other > 0) {
-            gm_arena_refuse(arena, "shard %zu has a row that is not that of run %zu",
-                            (joining.other - 1) % sweep->shards + 1, joining.other - 1);
-        }
+        gm_arena_refuse_if(arena, joining.other > 0, "shard %zu has a row that is not that of run %zu",
+                           (joining.other - 1) % sweep->shards + 1, joining.other - 1);
         gm_arena_refuse(arena, "%.360s could not be written: %s", path, strerror(error));
     }
     return joining.missing_count;

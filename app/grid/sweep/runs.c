@@ -153,9 +153,8 @@ static void check(const struct gm_sweep *sweep, int *status)
     char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
     for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
-        if (strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0) {
-            gm_arena_refuse(sweep->arena, "%s= is of lanes beside each other; a sweep has none", word->key);
-        }
+        gm_arena_refuse_if(sweep->arena, strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0,
+                           "%s= is of lanes beside each other; a sweep has none", word->key);
         for (size_t k = 0; strcmp(word->key, "scheme") == 0 && k < word->count; k++) {
             try_some(sweep, "scheme", gm_word_value(word, k, first), status);
         }
@@ -223,9 +222,7 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
                                .shard = 1,
                                .shards = 1};
     gm_arena_keep(arena, sweep, close_sweep);
-    if (arguments->count == 0) {
-        gm_arena_refuse(arena, "sweep of which scene? See geomint list scenes");
-    }
+    gm_arena_refuse_if(arena, arguments->count == 0, "sweep of which scene? See geomint list scenes");
     sweep->scene = gm_request_scene(arguments->count, arguments->words, status, message);
     gm_arena_check(arena,
                    sweep->scene &&

@@ -96,13 +96,11 @@ static void refuse_row(const struct gm_sweep_table *table, const char *line)
     while (later < runs && !is_row_of(sweep, gm_sweep_run(sweep, later), line)) {
         later++;
     }
-    if (later < runs) {
-        gm_arena_refuse(
-            table->arena,
-            "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shards "
-            "gets its rows by its shards and --join)",
-            table->path, row + 1, gm_sweep_run(sweep, later));
-    }
+    gm_arena_refuse_if(
+        table->arena, later < runs,
+        "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shards "
+        "gets its rows by its shards and --join)",
+        table->path, row + 1, gm_sweep_run(sweep, later));
     gm_arena_refuse(
         table->arena,
         "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
@@ -193,12 +191,9 @@ static void open_file(struct gm_sweep_table *table, const char *retry)
     if (table->fd < 0 || fstat(table->fd, &found) != 0) {
         gm_arena_refuse(table->arena, "%.360s could not be written: %s", table->path, strerror(errno));
     }
-    if (!S_ISREG(found.st_mode)) {
-        gm_arena_refuse(table->arena, "%.360s is not a regular file", table->path);
-    }
-    if (flock(table->fd, LOCK_EX | LOCK_NB) != 0) {
-        gm_arena_refuse(table->arena, "%.360s is being written by another process", table->path);
-    }
+    gm_arena_refuse_if(table->arena, !S_ISREG(found.st_mode), "%.360s is not a regular file", table->path);
+    gm_arena_refuse_if(table->arena, flock(table->fd, LOCK_EX | LOCK_NB) != 0,
+                       "%.360s is being written by another process", table->path);
     const int copy = dup(table->fd);
     table->old.stream = copy >= 0 ? fdopen(copy, "r") : NULL;
     if (!table->old.stream) {

@@ -39,15 +39,11 @@ static void open_grid(struct gm_grid *grid)
     }
     gm_sweep_open(grid->arena, &grid->sweep, others, measure, &status);
     grid->chart = gm_sweep_chart_open(grid->arena, &grid->sweep);
-    if (grid->sweep.count > MOST_RUNS) {
-        gm_arena_refuse(grid->arena,
-                        "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
-                        grid->sweep.count, MOST_RUNS);
-    }
+    gm_arena_refuse_if(grid->arena, grid->sweep.count > MOST_RUNS,
+                       "these are %zu runs, and %d are the most here: `geomint sweep` makes them",
+                       grid->sweep.count, MOST_RUNS);
     grid->table = memfd_create("sweep", MFD_CLOEXEC);
-    if (grid->table < 0) {
-        gm_arena_refuse(grid->arena, "no room for a table: %s", strerror(errno));
-    }
+    gm_arena_refuse_if(grid->arena, grid->table < 0, "no room for a table: %s", strerror(errno));
     gm_arena_keep(grid->arena, grid, close_table);
 }
 

@@ -3,29 +3,26 @@
    certification. */
 #include "core/field/field.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/certify/runs.h"
-#include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
-#include "core/field/families/heat.h"
-#include "core/field/families/kdv_moving_frames.h"
+#include "core/field/families/frames.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
+#include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
 #include "core/field/user/equation.h"
 #include "core/field/user/form.h"
+#include "core/field/user/potential.h"
 #include "core/files/files.h"
 #include "core/model/equations.h"
 #include "core/quantity.h"
 #include "core/run.h"
-
-static const struct gm_settings no_settings;
 
 static unsigned facets(const struct gm_problem *problem)
 {
@@ -47,40 +44,334 @@ static const struct gm_facet_words words[] = {
     {0},
 };
 
-static void note_kept(struct gm_certificate *certificate, enum gm_claim claim,
-                      struct gm_field_subject *subject, const double *y,
-                      double (*value)(const struct gm_problem *problem, const double *y))
+/* ---- short runs: forward and back, for conserved quantities, and on finer and finer grids ---- */
+
+static const struct gm_settings no_settings;
+
+enum { RUN_STEPS = 61 }; /* most steps of a run from a system's own start */
+
+/* An equation on which a scheme is certified. */
+struct subject {
+    struct gm_problem problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    struct gm_run *run; /* opened by begin_run; the caller closes it */
+};
+
+/* The number of values of the field in a state: u, or all components, without those that only a two-step
+   scheme holds. */
+static size_t numbers_of(const struct gm_problem *problem)
+{
+    return problem->n == gm_wave_size(problem->line.points) ? problem->line.points : problem->n;
+}
+
+/* The largest magnitude of the field; 1 if it is less. */
+static double field_size(const struct gm_problem *problem, const double *y)
+{
+    double size = 1;
+    for (size_t i = 0; i < numbers_of(problem); i++) {
+        size = fmax(size, fabs(y[i]));
+    }
+    return size;
+}
+
+/* Opens a run from the state y at time 0. Returns false when out of memory. */
+static bool begin_run(struct subject *subject, const double *y)
+{
+    subject->run = gm_run_open(&subject->problem, subject->scheme, &no_settings, 0, subject->dt, y);
+    return subject->run != NULL;
+}
+
+/* Returns true if a component has a rate of its own. The others follow by slopes and sums, with round-off
+   and, if they begin as sums, with the errors of these. */
+static bool moves(const struct gm_problem *problem, size_t component)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    const bool all = form && form->hessians;
+    bool rate = !all;
+    for (size_t row = 0; all && row < form->dimension; row++) {
+        rate = rate || form->m[row * form->dimension + component] != 0;
+    }
+    for (size_t k = 0; all && k < form->potential_count; k++) {
+        rate = rate && form->potentials[k].component != component;
+    }
+    return rate;
+}
+
+/* The largest difference of two states at common nodes: `other` has `finer` nodes for each of the
+   problem's. */
+static double apart(const struct gm_problem *problem, const double *y, const double *other, size_t finer)
+{
+    const size_t points = problem->line.points, components = numbers_of(problem) / points;
+    double largest = 0;
+    for (size_t c = 0; c < components; c++) {
+        for (size_t i = 0; i < points && moves(problem, c); i++) {
+            largest = gm_larger(fabs(y[c * points + i] - other[finer * (c * points + i)]), largest);
+        }
+    }
+    return largest;
+}
+
+/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
+   levels. */
+static double return_defect(struct subject *subject, const double *y)
+{
+    const size_t numbers = numbers_of(&subject->problem);
+    double *first = malloc(numbers * sizeof *first), largest = INFINITY;
+    if (first && begin_run(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        memcpy(first, gm_run_state(subject->run), numbers * sizeof *first);
+        gm_run_advance(subject->run, 7);
+        gm_run_set_step(subject->run, -subject->dt);
+        if (gm_run_advance(subject->run, 7) == GM_OK) {
+            largest = apart(&subject->problem, gm_run_state(subject->run), first, 1);
+        }
+        gm_run_close(subject->run);
+    }
+    free(first);
+    return largest;
+}
+
+/* The factor of a number in slopes in space and time. */
+static double slopes_of(const struct subject *subject)
+{
+    return 1 + 1 / fabs(subject->dt) + 1 / subject->problem.line.dx;
+}
+
+/* A bound of the round-off in slopes in space and time of a state, multiplied by a scheme's equations. */
+static double round_off(const struct subject *subject, const double *y)
+{
+    enum { MULTIPLIED = 100 };
+    return MULTIPLIED * DBL_EPSILON * field_size(&subject->problem, y) * slopes_of(subject);
+}
+
+/* Notes a defect; one below `hidden`, the round-off, refutes no claim. */
+static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, double hidden,
+                 const char *name)
+{
+    if (defect > gm_certificate_claim(certificate, claim)->tolerance && defect < hidden) {
+        gm_certificate_withhold(
+            certificate, claim,
+            "round-off hides it: the numbers are too large for so short a dt or so fine a grid");
+    } else {
+        gm_certificate_note(certificate, claim, defect, name);
+    }
+}
+
+/* Notes the defects of symmetry, after 8 steps forth and 7 back, of numbers of this size, and of the
+   multisymplectic law after 25 steps, where the scheme has one. */
+static void note_form(struct gm_certificate *certificate, struct subject *subject, const double *y,
+                      double size)
+{
+    /* tangents are differences over so much of a unit wave, of which the law takes slopes again; solves of
+       steps that are long beside dx add as much as ten times that */
+    const double over = 0.05 / 8 / 10;
+    const char *const name = subject->problem.name;
+    note(certificate, GM_SYMMETRIC, return_defect(subject, y) / size, round_off(subject, y) / size, name);
+    if (!begin_run(subject, y)) {
+        return;
+    }
+    gm_run_advance(subject->run, 25);
+    const double *const now = gm_run_state(subject->run);
+    const double defect =
+        gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
+    if (!isnan(defect)) {
+        gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
+        note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes_of(subject) / over,
+             name);
+    } else if (subject->scheme->family->form) {
+        gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
+                                "the step could not be differentiated at this state");
+    }
+    gm_run_close(subject->run);
+}
+
+/* Notes the relative change of a quantity from the state after one step over 60 more, INFINITY if a step
+   fails, under the name of what is kept. Like the law it is withheld where round-off alone may have made
+   it. */
+static void note_change(struct gm_certificate *certificate, enum gm_claim claim, struct subject *subject,
+                        const double *y, const struct gm_kept *kept, const char *name)
+{
+    double change = INFINITY;
+    if (begin_run(subject, y)) {
+        gm_run_advance(subject->run, 1);
+        const double before =
+            kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
+        if (gm_run_advance(subject->run, RUN_STEPS - 1) == GM_OK) {
+            const double after =
+                kept->value(kept->data, gm_run_state(subject->run), gm_run_memory(subject->run));
+            change = fabs(after - before) / fmax(1, fabs(before));
+        }
+        gm_run_close(subject->run);
+    }
+    note(certificate, claim, change, round_off(subject, y), name);
+}
+
+/* The order in time on one grid from the differences between runs with dt, dt/2 and dt/4; NaN: one fails. */
+static double order_in_time(const struct subject *subject, const double *y, double until)
+{
+    const size_t n = subject->problem.n;
+    double *end = calloc(3 * n, sizeof *end), change[2] = {0};
+    bool good = end != NULL;
+    for (int k = 0; good && k < 3; k++) {
+        const struct gm_trial trial = {&subject->problem, subject->scheme, &no_settings,
+                                       ldexp(subject->dt, -k), (int64_t)lround(until / subject->dt) << k};
+        good = gm_trial_advance(&trial, y, end + (size_t)k * n);
+    }
+    for (size_t k = 0; good && k < 2; k++) {
+        change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
+    }
+    free(end);
+    return good ? log2(change[0] / change[1]) : NAN;
+}
+
+enum { LEVELS = 4, STEPS = 16 };
+
+/* The errors of runs, and by how much each differs from the next finer one. */
+struct refined {
+    double dt[LEVELS], error[LEVELS], change[LEVELS]; /* error: NaN without an exact solution */
+    size_t count;
+};
+
+/* Adds a level; returns its state, which the caller frees. NULL if a step fails or when out of memory. */
+static double *refine(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                      struct refined *refined)
+{
+    const size_t k = refined->count;
+    const int64_t steps = (int64_t)STEPS << k;
+    const struct gm_trial trial = {system->problem, scheme, &no_settings, system->dt, steps};
+    double *end = malloc(system->problem->n * sizeof *end);
+    if (!end || !gm_trial_advance(&trial, system->start, end)) {
+        free(end);
+        return NULL;
+    }
+    refined->dt[k] = system->dt;
+    refined->error[k] =
+        system->error ? system->error(system->error_data, (double)steps * system->dt, end) : NAN;
+    refined->count++;
+    return end;
+}
+
+/* An exact solution closes on its ring up to a thousandth of its size. If that hides the remaining error,
+   differences give the order. */
+static double tell(const struct refined *refined, double by_differences, double wanted, double size,
+                   struct gm_ladder *ladder, const char **reason)
+{
+    const size_t last = refined->count - 1;
+    const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
+    const bool exactly =
+        by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
+    ladder->count = exactly ? last + 1 : last;
+    for (size_t k = 0; k < ladder->count; k++) {
+        ladder->dt[k] = refined->dt[k];
+        ladder->error[k] = exactly ? refined->error[k] : refined->change[k];
+    }
+    ladder->settled = true;
+    *reason = exactly && by_errors < wanted && by_differences > by_errors + 0.5
+                  ? "runs agree with one another, but not with the solution of exact:"
+                  : NULL;
+    return exactly ? by_errors : by_differences;
+}
+
+/* The largest difference of this order of the start around the ring. */
+static double largest_difference(const struct gm_certified_system *system, int order)
+{
+    const struct gm_grid1 *grid = &system->problem->line;
+    const size_t points = grid->points;
+    double largest = 0;
+    for (size_t c = 0; c < system->problem->n / points; c++) {
+        for (size_t i = 0; i < points && moves(system->problem, c); i++) {
+            double sum = 0, weight = 1;
+            for (int j = 0; j <= order; j++) {
+                const size_t node = i + (size_t)j;
+                sum += weight *
+                       (system->start[c * points + node % points] + grid->jump * (double)(node / points));
+                weight *= -(double)(order - j) / (j + 1);
+            }
+            largest = fmax(fabs(sum), largest);
+        }
+    }
+    return largest;
+}
+
+/* Returns true if a start has the derivatives that an order needs: if one jumps, differences fall by less
+   from grid to grid. */
+static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_certified_system *fine,
+                      int order)
+{
+    const int differences = order + 2;
+    const double on_coarse = largest_difference(coarse, differences),
+                 on_fine = largest_difference(fine, differences),
+                 round_off = ldexp(8 * DBL_EPSILON, differences) * field_size(fine->problem, fine->start);
+    return on_fine <= round_off || log2(on_coarse / on_fine) > differences - 0.5;
+}
+
+/* The order over 16 steps, from a system and its refinements: the slope of the error if the exact solution
+   closes on the ring, else of the differences between a run and the next finer one. NaN with *reason if it
+   cannot be measured, or is low because the start lacks derivatives. *reason is also set if the exact
+   solution alone refutes it; else NULL. */
+static double order_on_finer_grids(const struct gm_certified_system *system, const struct gm_scheme *scheme,
+                                   struct gm_ladder *ladder, const char **reason)
+{
+    const double wanted = scheme->order - 0.15;
+    struct refined refined = {.count = 0};
+    double *before = NULL, size = 1, order = NAN, slope_before = NAN;
+    const struct gm_certified_system *coarse = NULL;
+    bool smooth = true;
+    *reason =
+        "differences between runs on finer and finer grids do not fall by one power: take more points and a "
+        "shorter dt, or a start that closes better on its ring";
+    for (; system && refined.count < LEVELS && isnan(order); system = system->finer) {
+        const size_t k = refined.count;
+        double *state = refine(system, scheme, &refined);
+        if (!state) {
+            *reason = "a run on a finer grid fails";
+            break;
+        }
+        if (k == 0) {
+            size = field_size(system->problem, system->start);
+        } else {
+            const double change = apart(coarse->problem, before, state, 2);
+            const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
+            refined.change[k - 1] = change;
+            if (change < 1e-11 * size) {
+                *reason = "differences between runs on finer grids do not exceed round-off";
+                free(state);
+                break;
+            }
+            /* an order above that which is claimed may be one of grids that are too coarse for it */
+            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
+                              fabs(slope - slope_before) < 0.15 ||
+                              (slope > wanted && (k + 1 == LEVELS || !system->finer));
+            if (told) {
+                order = tell(&refined, slope, wanted, size, ladder, reason);
+                smooth = !(order < wanted) || is_smooth(coarse, system, scheme->order);
+            }
+            slope_before = slope;
+        }
+        coarse = system;
+        free(before);
+        before = state;
+    }
+    free(before);
+    if (!smooth) {
+        *reason = "the start, or the way it closes on its ring, is not as smooth as the order asks for";
+        *ladder = (struct gm_ladder){0};
+        return NAN;
+    }
+    return order;
+}
+
+static void note_kept(struct gm_certificate *certificate, enum gm_claim claim, struct subject *subject,
+                      const double *y, double (*value)(const struct gm_problem *problem, const double *y))
 {
     const struct gm_invariant invariant = {value, &subject->problem};
     const struct gm_kept kept = {.value = gm_invariant_value, .data = &invariant};
-    gm_field_note_kept(certificate, claim, subject, y, &kept, subject->problem.name);
+    note_change(certificate, claim, subject, y, &kept, subject->problem.name);
 }
 
 /* ---- on the program's own equations ---- */
-
-static void exact_breather(const struct gm_problem *problem, double x, double t, double *values)
-{
-    const double w = 0.6, g = sqrt((1 - w) * (1 + w));
-    (void)problem;
-    values[0] = 4 * atan(g * sin(w * t) / (w * cosh(g * x)));
-}
-
-/* A soliton of velocity 1. */
-static void exact_kdv(const struct gm_problem *problem, double x, double t, double *values)
-{
-    const double lambda = gm_kdv_of(problem)->framed.lambda,
-                 period = problem->line.dx * (double)problem->line.points;
-    const double along = x - (1 + lambda) * t, away = along - period * floor(along / period + 0.5);
-    values[0] = 3 / (cosh(away / 2) * cosh(away / 2)) + lambda;
-}
-
-static void exact_nls(const struct gm_problem *problem, double x, double t, double *values)
-{
-    (void)problem;
-    const double size = sqrt(2) / cosh(x - t), phase = (x - t) / 2 + 1.25 * t;
-    values[0] = size * cos(phase);
-    values[1] = size * sin(phase);
-}
 
 /* dx sum of u in the original frame */
 static double kdv_mass(const struct gm_problem *problem, const double *y)
@@ -103,29 +394,8 @@ static double nls_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static void exact_of_file(const struct gm_problem *problem, double x, double t, double *values)
-{
-    for (size_t c = 0; c < gm_field_of(problem)->form->dimension; c++) {
-        values[c] = gm_user_line_exact(problem->parameters, c, x, t);
-    }
-}
-
-/* On nodes that move with their frame. */
-static void exact_in_frame(const struct gm_problem *problem, double x, double t, double *values)
-{
-    values[0] = gm_frame_exact(gm_framed_of(problem), gm_framed_of(problem)->lambda, x, t);
-}
-
-/* Frames of reference: the same solution from a moving one, the value at node i that the original frame
-   sees of a run, and the defect of one step under a symmetry, NaN without one. */
-struct frames {
-    const void *parameters; /* of an equation without a file */
-    double (*seen)(const struct gm_run *run, size_t i);
-    double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const double *y);
-};
-
-/* Nodes that rest in the frame have travelled over whole nodes of the original one. */
+/* The values at node i that the original frame sees of a run. Nodes that rest in the frame have travelled over whole nodes
+   of the original one. */
 static double seen_kdv(const struct gm_run *run, size_t i)
 {
     const struct gm_kdv *kdv = gm_kdv_of(run->problem);
@@ -135,43 +405,15 @@ static double seen_kdv(const struct gm_run *run, size_t i)
     return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->framed.lambda / kdv->eta;
 }
 
-static double defect_kdv(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                         const double *y)
-{
-    static const struct gm_kdv_symmetry symmetry = {.boost = 0.5, .scale = 1.3};
-    return gm_kdv_defect(problem, scheme, dt, &symmetry, y);
-}
-
 static double seen_burgers(const struct gm_run *run, size_t i)
 {
     return gm_run_state(run)[i] - gm_framed_of(run->problem)->lambda;
 }
 
-/* Three nodes do not determine an implicit step: its claim is of boosts alone. */
-static double defect_burgers(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                             const double *y)
-{
-    (void)problem;
-    (void)dt;
-    (void)y;
-    static const double u[3] = {0.4, 0.3, 0.15};
-    static const struct gm_burgers burgers = {.viscosity = 0.005, .a = -0.3, .d = 0.2};
-    static const struct gm_burgers_symmetry symmetry = {.a4 = 0.5, .a5 = 0.4, .scale = 1.3};
-    return gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &symmetry, 0.3, u);
-}
-
 static double seen_heat(const struct gm_run *run, size_t i)
 {
     const double x = gm_grid1_node(&run->problem->line, i);
-    return gm_run_state(run)[i] / gm_heat_factor(gm_heat_of(run->problem), false, x, run->t);
-}
-
-static double defect_heat(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                          const double *y)
-{
-    const double projection = gm_heat_keeps(scheme) & GM_HEAT_PROJECTIONS ? 0.5 : 0;
-    const struct gm_heat_symmetry symmetry = {.boost = 0.5, .projection = projection, .scale = 1.3};
-    return gm_heat_defect(problem, scheme, dt, &symmetry, y);
+    return gm_run_state(run)[i] / gm_heat_factor(gm_framed_of(run->problem), false, x, run->t);
 }
 
 static bool is_above_second_order(const struct gm_scheme *scheme)
@@ -186,7 +428,7 @@ static bool is_pseudospectral(const struct gm_scheme *scheme)
 
 static bool is_explicit_for_kdv(const struct gm_scheme *scheme)
 {
-    return scheme->needs & GM_NEEDS_KDV && !gm_kdv_solves(scheme);
+    return scheme->needs & GM_NEEDS_KDV && !gm_frames_of_kdv.are_special(scheme);
 }
 
 static bool is_explicit_for_nls(const struct gm_scheme *scheme)
@@ -197,13 +439,9 @@ static bool is_explicit_for_nls(const struct gm_scheme *scheme)
 /* An equation with an exact solution to start from, the runs that the order is measured by, and what else is
    measured; of several rows for an equation a scheme takes the first that is meant for it. */
 struct equation {
-    const struct gm_problem *problem;
-    const char
-        *file; /* instead of `problem`: of share/subjects with a multisymplectic form, or of share/systems */
-    struct gm_system_value given[3]; /* of its values; its frame moves with the velocity lambda = 2 */
-    const void *parameters;
-    void (*exact)(const struct gm_problem *problem, double x, double t, double *values);
-    size_t numbers; /* numbers of the exact solution at a node; 0: one, with two levels in the state */
+    const char *file;                /* of share/systems, or of share/subjects with a multisymplectic form */
+    const char *name;                /* in certificates; NULL: the problem has it */
+    struct gm_system_value given[3]; /* of the file's values */
     bool (*meant)(const struct gm_scheme *scheme); /* NULL: for every scheme that fits */
     struct gm_grid1 line;
     double dt, until;
@@ -211,26 +449,20 @@ struct equation {
                   alone */
     enum gm_claim claim;
     double (*kept)(const struct gm_problem *problem, const double *y);
-    const struct frames *frames;
+    double (*seen)(const struct gm_run *run, size_t i); /* NULL: there are no frames of reference */
 };
 
 #define SINE_GORDON                                                                                          \
-    .problem = &gm_problem_sine_gordon, .exact = exact_breather, .until = 4, .power = 1,                     \
+    .file = "sine-gordon", .name = "sine-Gordon", .given = {{"frequency", "0.6"}}, .until = 4, .power = 1,   \
     .claim = GM_KEEPS_ENERGY, .kept = gm_wave_energy
-
-#define KDV_SOLITON .eta = 1, .mu = 1
 #define KDV                                                                                                  \
-    .problem = &gm_problem_kdv, .parameters = &(const struct gm_kdv){KDV_SOLITON}, .exact = exact_kdv,       \
+    .file = "kdv", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
     .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
-    .kept = kdv_mass, .frames = &(const struct frames)                                                       \
-    {                                                                                                        \
-        &(const struct gm_kdv){KDV_SOLITON, .framed.lambda = 2}, seen_kdv, defect_kdv                        \
-    }
-
+    .kept = kdv_mass, .seen = seen_kdv
 #define NLS                                                                                                  \
-    .problem = &gm_problem_nls, .parameters = &(const struct gm_nls){.k = 1}, .exact = exact_nls,            \
-    .numbers = 2, .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1,                       \
-    .claim = GM_KEEPS_QUADRATIC, .kept = nls_charge
+    .file = "nls", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
+    .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1, .claim = GM_KEEPS_QUADRATIC,        \
+    .kept = nls_charge
 
 /* Two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a ring
    that the breather's ends do not reach around. An explicit scheme for Korteweg-de Vries follows dx^3, by
@@ -246,80 +478,115 @@ static const struct equation equations[] = {
     {NLS, .meant = is_explicit_for_nls, .dt = 0.005},
     {NLS, .dt = 0.02, .power = 1},
     {.file = "dirac",
-     .exact = exact_of_file,
-     .numbers = 4,
+     .name = "nonlinear Dirac",
      .line = {.points = 361, .dx = 60.0 / 361, .first = -30},
      .dt = 0.05,
      .until = 4,
      .power = 1},
     {.file = "burgers",
      .given = {{"viscosity", "0.1"}, {"a", "-0.3"}, {"d", "0.2"}},
-     .exact = exact_in_frame,
-     .numbers = 1,
      .line = {.points = 81, .dx = 0.05, .first = -2},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_burgers, .defect = defect_burgers}},
+     .seen = seen_burgers},
     {.file = "heat",
-     .exact = exact_in_frame,
-     .numbers = 1,
      .line = {.points = 81, .dx = 0.1, .first = -4},
      .dt = 0.002,
      .until = 0.2,
-     .frames = &(const struct frames){.seen = seen_heat, .defect = defect_heat}},
+     .seen = seen_heat},
 };
 
-/* The problem of an equation with these parameters, on a grid that is twice as fine `finer` times. */
-static struct gm_problem problem_of(const struct equation *equation, const void *parameters, int finer)
+/* The problem of a file and its start. */
+struct opened {
+    struct gm_user_system system;
+    struct gm_user_wave wave; /* only the member of the system's kind is used */
+    struct gm_user_form form;
+    struct gm_user_equation equation;
+    struct gm_problem problem;
+    double *start;
+};
+
+static void close_equation(struct opened *opened)
 {
-    struct gm_problem problem = *equation->problem;
-    problem.parameters = parameters;
-    problem.line = equation->line;
-    problem.line.points <<= finer;
-    problem.line.dx = ldexp(problem.line.dx, -finer);
-    const size_t points = problem.line.points;
-    if (equation->numbers == 0) {
-        problem.n = gm_wave_size(points);
-    } else if (gm_field_of(&problem)->equation == GM_NEEDS_BURGERS) {
-        problem.n = gm_burgers_size(parameters, points);
-    } else {
-        problem.n = equation->numbers * points;
+    const enum gm_system_kind kind = opened->system.kind;
+    if (opened->problem.kind) {
+        (kind == GM_FIELD      ? gm_user_wave_close
+         : kind == GM_MATRICES ? gm_user_form_close
+                               : gm_user_equation_close)(&opened->problem);
     }
-    return problem;
+    gm_system_close(&opened->system);
+    free(opened->start);
 }
 
-/* The exact state at 0, or the levels 0 and dt, which the caller frees; NULL when out of memory. */
-static double *start_of(const struct equation *equation, const struct gm_problem *problem, double dt)
+static bool open_problem(struct opened *opened, const struct gm_grid1 *line, const double *values)
 {
-    const size_t points = problem->line.points;
-    double *y = calloc(problem->n, sizeof *y), values[4];
-    for (size_t i = 0; y && i < points; i++) {
-        const double x = gm_grid1_node(&problem->line, i);
-        equation->exact(problem, x, 0, values);
-        y[i] = values[0];
-        for (size_t c = 1; c < equation->numbers; c++) {
-            y[c * points + i] = values[c];
-        }
-        if (equation->numbers == 0) {
-            equation->exact(problem, x, dt, &y[points + i]);
-        }
+    struct gm_user_system *system = &opened->system;
+    switch (system->kind) {
+    case GM_FIELD:
+        return gm_user_wave_derive(&opened->wave, system) &&
+               gm_user_wave_open(&opened->problem, &opened->wave, values, line);
+    case GM_MATRICES:
+        return gm_user_form_derive(&opened->form, system) &&
+               gm_user_form_open(&opened->problem, &opened->form, values, line);
+    default:
+        return gm_user_equation_derive(&opened->equation, system) &&
+               gm_user_equation_open(&opened->problem, &opened->equation, values, line);
     }
-    if (y && equation->numbers == 0) {
-        y[2 * points] = dt;
+}
+
+/* Opens an equation on a grid that is twice as fine `finer` times, in a frame with the velocity lambda if it has such
+   frames, with the exact state at 0, or at 0 and dt. Returns false when out of memory; the caller closes it in both cases. */
+static bool open_equation(struct opened *opened, const struct equation *equation, const char *lambda,
+                          int finer)
+{
+    struct gm_system_value values[GM_COUNT(equation->given) + 1];
+    struct gm_grid1 line = equation->line;
+    size_t count = 0;
+    for (; count < GM_COUNT(equation->given) && equation->given[count].name; count++) {
+        values[count] = equation->given[count];
     }
-    return y;
+    values[count] = (struct gm_system_value){"lambda", lambda};
+    line.points <<= finer;
+    line.dx = ldexp(line.dx, -finer);
+    *opened = (struct opened){.start = NULL};
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, equation->file);
+    file = file ? file : gm_built_in_find(GM_FILE_SUBJECT, equation->file);
+    struct gm_fault fault;
+    struct gm_problem *problem = &opened->problem;
+    if (!gm_equations_open(&opened->system, file->text, file->length, values, count + (lambda != NULL),
+                           &fault)) {
+        return false;
+    }
+    double *numbers = gm_equations_start(&opened->system, NULL);
+    const bool good = numbers && open_problem(opened, &line, numbers);
+    free(numbers);
+    opened->start = good ? calloc(problem->n, sizeof *opened->start) : NULL;
+    if (!opened->start) {
+        return false;
+    }
+    problem->name = equation->name ? equation->name : problem->name;
+    if (gm_field_of(problem)->wave || gm_field_of(problem)->equation == GM_NEEDS_KDV) {
+        gm_user_line_levels(problem->parameters, &line, ldexp(equation->dt, -finer * equation->power),
+                            opened->start);
+    } else {
+        gm_user_line_start(problem->parameters, &line, opened->start);
+    }
+    if (equation->seen && gm_field_of(problem)->equation != GM_NEEDS_KDV) {
+        ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
+    }
+    return true;
 }
 
 /* The largest difference of the field from the exact solution; INFINITY for a failure. */
-static double error_of(const struct equation *equation, struct gm_field_subject *subject, const double *y)
+static double error_of(const struct equation *equation, struct subject *subject, const double *y)
 {
-    double largest = INFINITY, values[4];
-    if (gm_field_begin(subject, y)) {
+    double largest = INFINITY;
+    if (begin_run(subject, y)) {
         largest = gm_run_until(subject->run, equation->until) == GM_OK ? 0 : INFINITY;
         for (size_t i = 0; i < subject->problem.line.points; i++) {
-            equation->exact(&subject->problem, gm_grid1_node(&subject->problem.line, i), equation->until,
-                            values);
-            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - values[0]));
+            const double x = gm_grid1_node(&subject->problem.line, i),
+                         exact = gm_user_line_exact(subject->problem.parameters, 0, x, equation->until);
+            largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - exact));
         }
         gm_run_close(subject->run);
     }
@@ -328,29 +595,32 @@ static double error_of(const struct equation *equation, struct gm_field_subject 
 
 /* The difference between a run and one from the moving frame, or the defect of a step under a symmetry if
    it is larger; INFINITY for a failure. */
-static double frame_defect(const struct equation *equation, const struct gm_field_subject *subject,
-                           const double *y)
+static double frame_defect(const struct equation *equation, const struct subject *subject, const double *y)
 {
-    struct gm_field_subject rest = *subject, moving = *subject;
-    moving.problem = problem_of(equation, equation->frames->parameters, 0);
-    double *start = start_of(equation, &moving.problem, subject->dt), largest = INFINITY;
-    const bool begun = gm_field_begin(&rest, y);
-    if (start && begun && gm_field_begin(&moving, start)) {
+    const struct gm_moving_frames *frames = gm_moving_frames_of(&subject->problem);
+    const bool projects = frames != &gm_frames_of_heat || frames->are_special(subject->scheme);
+    const struct gm_point_symmetry symmetry = {.boost = 0.5, .projection = projects ? 0.5 : 0, .scale = 1.3};
+    struct opened boosted;
+    const bool opened = open_equation(&boosted, equation, "2", 0);
+    struct subject rest = *subject, moving = *subject;
+    moving.problem = boosted.problem;
+    double largest = INFINITY;
+    const bool begun = begin_run(&rest, y);
+    if (opened && begun && begin_run(&moving, boosted.start)) {
         if (gm_run_until(rest.run, equation->until) == GM_OK &&
             gm_run_until(moving.run, equation->until) == GM_OK) {
             largest = 0;
             for (size_t i = 0; i < subject->problem.line.points; i++) {
-                const double apart =
-                    fabs(equation->frames->seen(moving.run, i) - equation->frames->seen(rest.run, i));
-                largest = gm_larger(apart, largest);
+                largest =
+                    gm_larger(fabs(equation->seen(moving.run, i) - equation->seen(rest.run, i)), largest);
             }
             largest =
-                fmax(largest, equation->frames->defect(&subject->problem, subject->scheme, subject->dt, y));
+                fmax(largest, frames->defect(&subject->problem, subject->scheme, subject->dt, &symmetry, y));
         }
         gm_run_close(moving.run);
     }
     gm_run_close(rest.run);
-    free(start);
+    close_equation(&boosted);
     return largest;
 }
 
@@ -366,126 +636,59 @@ static void note_order(struct gm_certificate *certificate, double *farthest, dou
     }
 }
 
-static void measure(struct gm_certificate *certificate, const struct equation *equation, double *farthest)
+static void measure_claims(struct gm_certificate *certificate, const struct equation *equation,
+                           struct subject *subject, const double *y)
 {
-    const struct gm_scheme *scheme = certificate->scheme;
-    const char *const name = equation->problem->name;
-    double error[2] = {NAN, NAN}, order = NAN;
-    for (int k = 0; k < (equation->power > 0 ? 2 : 1); k++) {
-        struct gm_field_subject subject = {.problem = problem_of(equation, equation->parameters, k),
-                                           .scheme = scheme,
-                                           .dt = ldexp(equation->dt, -k * equation->power)};
-        double *y = start_of(equation, &subject.problem, subject.dt);
-        if (!y) {
-            return;
-        }
-        if (k == 0 && equation->kept) {
-            note_kept(certificate, equation->claim, &subject, y, equation->kept);
-        }
-        if (k == 0 && gm_field_of(&subject.problem)->form) {
-            gm_field_note_form(certificate, &subject, y, 1);
-        }
-        if (k == 0) {
-            gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
-        }
-        if (k == 0 && equation->frames) {
-            gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, &subject, y), name);
-        }
-        if (equation->power > 0) {
-            error[k] = error_of(equation, &subject, y);
-        } else {
-            order = gm_field_order_in_time(&subject, y, equation->until);
-        }
-        free(y);
+    if (equation->kept) {
+        note_kept(certificate, equation->claim, subject, y, equation->kept);
     }
-    note_order(certificate, farthest, equation->power > 0 ? log2(error[0] / error[1]) : order, name);
+    if (gm_field_of(&subject->problem)->form) {
+        note_form(certificate, subject, y, 1);
+    }
+    gm_certificate_note_same(certificate, &subject->problem, &no_settings, subject->dt, y);
+    if (equation->seen) {
+        gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, subject, y),
+                            subject->problem.name);
+    }
 }
 
-/* The equation of a file, and the same from a moving frame. */
-struct read {
-    struct gm_user_system system;
-    struct gm_user_form form;
-    struct gm_user_equation equation;
-    struct gm_problem problem, moving;
-    struct frames frames;
-};
-
-/* Opens an equation with frames, at rest or moving. */
-static bool open_framed(const struct read *read, const struct equation *equation, const char *lambda,
-                        struct gm_problem *problem)
+static void measure(struct gm_certificate *certificate, const struct equation *equation,
+                    const struct opened *opened, double *farthest)
 {
-    const struct gm_user_system *system = &read->system;
-    double *given = malloc(system->variable_count * sizeof *given);
-    for (size_t i = 0; given && i < system->variable_count; i++) {
-        const struct gm_system_value set[] = {
-            equation->given[0], equation->given[1], equation->given[2], {"lambda", lambda}};
-        given[i] = NAN;
-        for (size_t k = 0; k < GM_COUNT(set); k++) {
-            const bool is = set[k].name && strcmp(set[k].name, system->variables[i].name) == 0;
-            given[i] = is ? strtod(set[k].text, NULL) : given[i];
+    struct subject subject = {.problem = opened->problem, .scheme = certificate->scheme, .dt = equation->dt};
+    measure_claims(certificate, equation, &subject, opened->start);
+    double order = NAN;
+    if (equation->power > 0) {
+        const double coarse = error_of(equation, &subject, opened->start);
+        struct opened finer;
+        if (open_equation(&finer, equation, "0", 1)) {
+            subject.problem = finer.problem;
+            subject.dt = ldexp(equation->dt, -equation->power);
+            order = log2(coarse / error_of(equation, &subject, finer.start));
         }
-    }
-    double *values = given ? gm_equations_start(system, given) : NULL;
-    const bool good = values && gm_user_equation_open(problem, &read->equation, values, &equation->line);
-    if (good) {
-        ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
-    }
-    free(given);
-    free(values);
-    return good;
-}
-
-/* Returns false when out of memory; the caller closes it in both cases. */
-static bool open_file(struct read *read, struct equation *equation)
-{
-    const bool framed = equation->frames != NULL;
-    const struct gm_built_in *file =
-        gm_built_in_find(framed ? GM_FILE_SYSTEM : GM_FILE_SUBJECT, equation->file);
-    struct gm_fault fault;
-    double *values = NULL;
-    bool good = gm_equations_open(&read->system, file->text, file->length, NULL, 0, &fault);
-    if (framed) {
-        good = good && gm_user_equation_derive(&read->equation, &read->system) &&
-               open_framed(read, equation, "0", &read->problem) &&
-               open_framed(read, equation, "2", &read->moving);
-        read->frames = *equation->frames;
-        read->frames.parameters = read->moving.parameters;
-        equation->frames = &read->frames;
+        close_equation(&finer);
     } else {
-        good = good && gm_user_form_derive(&read->form, &read->system) &&
-               (values = gm_equations_start(&read->system, NULL)) != NULL &&
-               gm_user_form_open(&read->problem, &read->form, values, &equation->line);
-        read->problem.name = file->title;
+        order = order_in_time(&subject, opened->start, equation->until);
     }
-    free(values);
-    equation->problem = &read->problem;
-    equation->parameters = read->problem.parameters;
-    return good;
+    note_order(certificate, farthest, order, opened->problem.name);
 }
 
 /* Measures the claims of a scheme for fields on a line, on every equation that it fits. */
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
-    const struct gm_problem *measured = NULL;
+    const char *measured = "";
     double farthest = -1;
     for (size_t i = 0; i < GM_COUNT(equations); i++) {
-        struct equation equation = equations[i];
-        struct read read = {0};
-        const bool opened = !equation.file || open_file(&read, &equation);
-        const struct gm_problem problem =
-            opened ? problem_of(&equation, equation.parameters, 0) : (struct gm_problem){0};
-        if (opened && equation.problem != measured && gm_scheme_fits(scheme, &problem) &&
-            (!equation.meant || equation.meant(scheme))) {
-            measured = equation.problem;
-            measure(certificate, &equation, &farthest);
+        const struct equation *equation = &equations[i];
+        struct opened opened;
+        if (strcmp(equation->file, measured) == 0 || (equation->meant && !equation->meant(scheme))) {
+            continue;
         }
-        if (equation.file && equation.frames) {
-            gm_user_equation_close(&read.problem);
-            gm_user_equation_close(&read.moving);
-        } else {
-            gm_user_form_close(&read.problem);
+        if (open_equation(&opened, equation, "0", 0) && gm_scheme_fits(scheme, &opened.problem)) {
+            measured = equation->file;
+            measure(certificate, equation, &opened, &farthest);
         }
-        gm_system_close(&read.system);
+        close_equation(&opened);
     }
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
@@ -495,21 +698,21 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
 /* The energy of a form, which is of a scheme's own kind. */
 static double form_energy(const void *subject, const double *y, const double *memory)
 {
-    const struct gm_field_subject *of = subject;
+    const struct subject *of = subject;
     (void)y; /* the memory holds the stages that lead to it */
     return gm_form_energy(&of->problem, of->scheme, memory);
 }
 
 /* The reason why steps of this length cannot test a claim, or NULL. */
-static const char *no_steps(struct gm_field_subject *subject, const double *y)
+static const char *no_steps(struct subject *subject, const double *y)
 {
     const struct gm_step_limit *limit = subject->scheme->limit;
     if (limit && fabs(subject->dt) > limit->longest(&subject->problem, y)) {
         return "dt is beyond the longest step of linear theory (longest_step): take a shorter one";
     }
-    bool good = gm_field_begin(subject, y);
+    bool good = begin_run(subject, y);
     if (good) {
-        good = gm_run_advance(subject->run, GM_FIELD_STEPS) == GM_OK;
+        good = gm_run_advance(subject->run, RUN_STEPS) == GM_OK;
         gm_run_close(subject->run);
     }
     return good ? NULL : "a run of steps of this dt fails: take a shorter one";
@@ -520,9 +723,9 @@ static const char *no_steps(struct gm_field_subject *subject, const double *y)
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
-    struct gm_field_subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
+    struct subject subject = {.problem = *system->problem, .scheme = scheme, .dt = system->dt};
     const struct gm_field *field = gm_field_of(system->problem);
-    const double *const y = system->start, size = gm_field_size(system->problem, y);
+    const double *const y = system->start, size = field_size(system->problem, y);
     const size_t n = system->problem->n,
                  levels = n % 2 == 1 && n == gm_wave_size(system->problem->line.points);
     const char *const name = system->problem->name;
@@ -531,22 +734,22 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     certificate->order_problem = name;
     certificate->order_reason = failing;
     if (!failing) {
-        certificate->order = gm_field_order(system, scheme, &certificate->ladder, &certificate->order_reason);
-        gm_field_note_form(certificate, &subject, y, size);
+        certificate->order =
+            order_on_finer_grids(system, scheme, &certificate->ladder, &certificate->order_reason);
+        note_form(certificate, &subject, y, size);
         gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
         } else if (field->form && field->form->hessians) {
             const struct gm_kept energy = {.value = form_energy, .data = &subject};
-            gm_field_note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
+            note_change(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
         }
         for (size_t i = 0; i < system->kept_count; i++) {
             /* along directions that a scheme's own last number takes no part in */
             const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size);
             if (claims & (GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC)) {
-                gm_field_note_kept(certificate,
-                                   claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC, &subject,
-                                   y, &system->kept[i], system->kept[i].name);
+                note_change(certificate, claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC,
+                            &subject, y, &system->kept[i], system->kept[i].name);
             }
         }
     }

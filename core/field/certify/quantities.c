@@ -2,16 +2,14 @@
 /* A state of a field on a line by names. */
 #include <stdio.h>
 
-#include "core/field/problems/moving_frames.h"
+#include "core/field/families/frames.h"
 #include "core/quantity.h"
 #include "core/run.h"
 
 /* Returns the velocity of nodes that move with their frame of reference; 0 if they do not. */
 static double speed_of(const struct gm_run *run)
 {
-    const unsigned framed = GM_NEEDS_HEAT | GM_NEEDS_KDV | GM_NEEDS_BURGERS;
-    const bool has_frames = (gm_field_of(run->problem)->equation & framed) != 0;
-    return has_frames && !gm_frame_rests(gm_framed_of(run->problem), run->scheme)
+    return gm_moving_frames_of(run->problem) && !gm_frame_rests(gm_framed_of(run->problem), run->scheme)
                ? gm_framed_of(run->problem)->lambda
                : 0;
 }

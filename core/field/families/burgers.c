@@ -23,21 +23,38 @@
    There D0 u + a4 = (a + 1/2) h D2 u: what is left of the convection diffuses by (u - sigma/k)(a + 1/2) h,
    which only a = -1/2, the frame above, turns into second order in h; d then has no effect.
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
-#include "core/field/families/burgers.h"
+#include "core/field/families/frames.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
-GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progress *progress)
+/* One step of length k on nodes h apart, each displaced by sigma. u and out have `points` entries; out[0] and
+   out[points - 1] hold the boundary values of the new level already. */
+struct step {
+    const struct gm_burgers *burgers;
+    size_t points;
+    double h, k, sigma;
+    const double *u;
+    double *out;
+    double *constant, *above, *right; /* [points], of implicit schemes */
+};
+
+struct method {
+    enum gm_status (*make)(const struct step *step, struct gm_progress *progress);
+    bool implicit;
+    bool family; /* the frame depends on a and d */
+};
+
+GM_CLONES static enum gm_status ftcs(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, h = step->h, viscosity = step->burgers->viscosity;
+    const double k = step->k, h = step->h, viscosity = step->burgers->framed.viscosity;
     const double convection = k / (2 * h), diffusion = viscosity * k / (h * h);
     progress->evaluations++;
     if (step->burgers->printed) {
@@ -55,12 +72,12 @@ GM_CLONES static enum gm_status ftcs(const struct gm_burgers_step *step, struct 
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double ratio = step->k / step->h;
-    const double diffusion = step->burgers->viscosity * step->k / (step->h * step->h);
+    const double diffusion = step->burgers->framed.viscosity * step->k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
         const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
@@ -71,13 +88,12 @@ GM_CLONES static enum gm_status lax_wendroff(const struct gm_burgers_step *step,
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_invariant(const struct gm_burgers_step *step,
-                                               struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_invariant(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double k = step->k, sigma = step->sigma, over_2h = 1 / (2 * step->h);
-    const double diffusion = step->burgers->viscosity * k / (step->h * step->h);
+    const double diffusion = step->burgers->framed.viscosity * k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
         v[j] = (u[j] + sigma * slope + diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]) / m) / m;
@@ -86,11 +102,11 @@ GM_CLONES static enum gm_status ftcs_invariant(const struct gm_burgers_step *ste
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_family(const struct gm_burgers_step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_family(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->viscosity;
+    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->framed.viscosity;
     const double a = step->burgers->a, d = step->burgers->d;
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double bend = u[j + 1] - 2 * u[j] + u[j - 1];
@@ -102,12 +118,12 @@ GM_CLONES static enum gm_status ftcs_family(const struct gm_burgers_step *step, 
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff_invariant(const struct gm_burgers_step *step,
-                                                       struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff_invariant(const struct step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, a5 = -sigma / k, viscosity = step->burgers->viscosity;
+    const double k = step->k, sigma = step->sigma, a5 = -sigma / k,
+                 viscosity = step->burgers->framed.viscosity;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), over_m = 1 / (1 + k * slope);
@@ -125,10 +141,10 @@ struct row {
 };
 
 /* Crank-Nicolson; the constant `old` is its part at the old level. */
-static struct row row_standard(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+static struct row row_standard(const struct step *step, const double *v, size_t j, double old)
 {
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->viscosity / 2;
+    const double nu = step->burgers->framed.viscosity / 2;
     const double second = over_square * (v[j + 1] - 2 * v[j] + v[j - 1]);
     struct row row = {-nu * over_square, 1 / step->k + 2 * nu * over_square, -nu * over_square, 0};
     if (step->burgers->printed) {
@@ -146,7 +162,7 @@ static struct row row_standard(const struct gm_burgers_step *step, const double 
     return row;
 }
 
-static double old_standard(const struct gm_burgers_step *step, size_t j)
+static double old_standard(const struct step *step, size_t j)
 {
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
@@ -154,15 +170,15 @@ static double old_standard(const struct gm_burgers_step *step, size_t j)
                                   ? u[j] * over_2h * (u[j + 1] - u[j - 1])
                                   : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
     return -u[j] / step->k + convection / 2 -
-           step->burgers->viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
+           step->burgers->framed.viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
 }
 
-static struct row row_invariant(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+static struct row row_invariant(const struct step *step, const double *v, size_t j, double old)
 {
     (void)old;
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->viscosity / 2;
+    const double nu = step->burgers->framed.viscosity / 2;
     const double a4 = -over_2h * (u[j + 1] - u[j - 1]), m = 1 - a4 * step->k;
     const double shift = step->sigma * a4, a5 = -step->sigma / step->k;
     const double value = m * v[j] + shift + a5, slope = m * (m * over_2h * (v[j + 1] - v[j - 1]) + a4);
@@ -177,20 +193,19 @@ static struct row row_invariant(const struct gm_burgers_step *step, const double
     };
 }
 
-static double nothing(const struct gm_burgers_step *step, size_t j)
+static double nothing(const struct step *step, size_t j)
 {
     return (void)step, (void)j, 0;
 }
 
 /* Newton's method; the tridiagonal systems by elimination. */
-static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progress *progress,
-                            double (*old)(const struct gm_burgers_step *, size_t),
-                            struct row (*row_at)(const struct gm_burgers_step *, const double *, size_t,
-                                                 double))
+static enum gm_status solve(const struct step *step, struct gm_progress *progress,
+                            double (*old)(const struct step *, size_t),
+                            struct row (*row_at)(const struct step *, const double *, size_t, double))
 {
     enum { MOST = 60 };
     const size_t points = step->points;
-    double *v = step->out, *constant = step->scratch, *above = constant + points, *right = above + points;
+    double *v = step->out, *constant = step->constant, *above = step->above, *right = step->right;
     double last = INFINITY;
     for (size_t j = 1; j + 1 < points; j++) {
         constant[j] = old(step, j);
@@ -224,38 +239,14 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
     return GM_NO_CONVERGENCE;
 }
 
-static enum gm_status crank_nicolson(const struct gm_burgers_step *step, struct gm_progress *progress)
+static enum gm_status crank_nicolson(const struct step *step, struct gm_progress *progress)
 {
     return solve(step, progress, old_standard, row_standard);
 }
 
-static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *step,
-                                               struct gm_progress *progress)
+static enum gm_status crank_nicolson_invariant(const struct step *step, struct gm_progress *progress)
 {
     return solve(step, progress, nothing, row_invariant);
-}
-
-struct work {
-    size_t points;
-    double *level[2], *companion[2], *scratch;
-};
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    enum { ARRAYS = 4 + 3 };
-    const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work + ARRAYS * points * sizeof(double));
-    if (work) {
-        double *memory = (double *)(work + 1);
-        work->points = points;
-        for (size_t k = 0; k < 2; k++) {
-            work->level[k] = memory + k * points;
-            work->companion[k] = memory + (2 + k) * points;
-        }
-        work->scratch = memory + 4 * points;
-    }
-    return work;
 }
 
 GM_CLONES static bool within(const double *u, size_t points, double lambda, double limit)
@@ -269,7 +260,7 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
 
 /* A level and its other half, and what its ends hold after the next steps. */
 struct run {
-    double **level, *scratch;
+    double **level;
     double lambda, speed, shift; /* of the frame and of its nodes; what the exact values are larger by */
     double ends[2 * GM_ENDS_BLOCK];
 };
@@ -278,10 +269,11 @@ struct run {
 static enum gm_status make_step(const struct gm_task *task, struct run *run, size_t made, size_t some,
                                 struct gm_progress *progress)
 {
-    const struct gm_burgers_row *row = task->scheme->coefficients;
+    const struct gm_two_step_work *work = task->workspace;
+    const struct method *method = task->scheme->coefficients;
     const struct gm_grid1 *grid = &task->problem->line;
     double **level = run->level;
-    const struct gm_burgers_step step = {
+    const struct step step = {
         .burgers = gm_burgers_of(task->problem),
         .points = grid->points,
         .h = grid->dx,
@@ -289,11 +281,13 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
         .sigma = run->speed * task->dt,
         .u = level[0],
         .out = level[1],
-        .scratch = run->scratch,
+        .constant = work->right,
+        .above = work->guess,
+        .right = work->cells,
     };
     level[1][0] = run->ends[made] - run->shift;
     level[1][grid->points - 1] = run->ends[some + made] - run->shift;
-    enum gm_status status = row->method(&step, progress);
+    enum gm_status status = method->make(&step, progress);
     if (status == GM_OK && !within(level[1], grid->points, run->lambda, task->limit)) {
         status = GM_BLOW_UP;
     }
@@ -307,19 +301,19 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, siz
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct work *work = task->workspace;
+    struct gm_two_step_work *work = task->workspace;
     const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t points = work->points, size = points * sizeof(double);
     const double lambda = framed->lambda, speed = gm_frame_rests(framed, task->scheme) ? 0 : lambda;
-    struct run run = {.level = work->level, .scratch = work->scratch, .lambda = lambda, .speed = speed};
-    struct run companion = {.level = work->companion, .scratch = work->scratch, .shift = lambda};
+    struct run run = {.level = work->level, .lambda = lambda, .speed = speed};
+    struct run companion = {.level = work->rate, .shift = lambda};
     const bool has_companion = lambda != 0;
     bool accompanied = has_companion && task->y[2 * points] != 0;
     struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
     size_t made = 0, some = 0;
     memcpy(work->level[0], task->y, size);
     if (has_companion) {
-        memcpy(work->companion[0], task->y + points, size);
+        memcpy(companion.level[0], task->y + points, size);
     }
     for (int64_t k = 0; k < task->steps; k++, made++) {
         if (made == some) {
@@ -340,148 +334,115 @@ static struct gm_progress advance(const struct gm_task *task)
     }
     memcpy(task->out, work->level[0], size);
     if (has_companion) {
-        memcpy(task->out + points, work->companion[0], size);
+        memcpy(task->out + points, companion.level[0], size);
         task->out[2 * points] = accompanied;
     }
     return progress;
 }
 
-struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, struct gm_event event)
+/* (t, x, u) -> (t/m, (x + b t)/m, m u + p x + b),   m = 1 - p t (eq. 98: a4 = p, a5 = b)
+   (t, x, u) -> (s^2 t, s x, u/s) */
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
+                             struct gm_event event)
 {
-    const double s = symmetry->scale, m = 1 - symmetry->a4 * event.t;
+    (void)framed;
+    const double s = symmetry->scale, m = 1 - symmetry->projection * event.t;
     return (struct gm_event){
         .t = s * s * event.t / m,
-        .x = s * (event.x + symmetry->a5 * event.t) / m,
-        .u = (m * event.u + symmetry->a4 * event.x + symmetry->a5) / s,
+        .x = s * (event.x + symmetry->boost * event.t) / m,
+        .u = (m * event.u + symmetry->projection * event.x + symmetry->boost) / s,
     };
 }
 
-struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
-                                            double h, const double u[3])
+static bool is_of_family(const struct gm_scheme *scheme)
 {
-    const struct gm_burgers_row *row = scheme->coefficients;
-    const double a = row->family ? burgers->a : -0.5, d = row->family ? burgers->d : 0;
-    return (struct gm_burgers_symmetry){
-        .a4 = (a * u[2] - (1 + 2 * a) * u[1] + (1 + a) * u[0]) / h,
-        .a5 = d * (u[2] - 2 * u[1] + u[0]) - u[1],
+    return ((const struct method *)scheme->coefficients)->family;
+}
+
+/* Schemes without frames have one too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
+static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
+                 size_t j, struct gm_point_symmetry *frame)
+{
+    const struct gm_burgers *burgers = gm_burgers_of(problem);
+    const bool family = is_of_family(scheme);
+    const double a = family ? burgers->a : -0.5, d = family ? burgers->d : 0;
+    *frame = (struct gm_point_symmetry){
+        .boost = d * (u[j + 1] - 2 * u[j] + u[j - 1]) - u[j],
+        .projection = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / problem->line.dx,
         .scale = 1,
     };
+    return frame->projection * k < 1;
 }
 
-double gm_burgers_defect(const struct gm_scheme *scheme, const struct gm_burgers *burgers, double h, double k,
-                         const struct gm_burgers_symmetry *symmetry, double x, const double u[3])
+/* On three nodes about x = 0.3 with the values 0.4, 0.3, 0.15, which do not determine an implicit step. */
+static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                     const struct gm_point_symmetry *symmetry, const double *unused)
 {
-    const struct gm_burgers_row *row = scheme->coefficients;
-    if (row->implicit) {
-        return NAN;
-    }
+    (void)unused;
+    static const double u[3] = {0.4, 0.3, 0.15};
+    const struct method *method = scheme->coefficients;
+    const double x = 0.3, h = problem->line.dx;
+    const struct gm_framed *framed = gm_framed_of(problem);
     struct gm_progress progress = {.status = GM_OK};
     double before[3], plain[3] = {0}, carried[3] = {0};
-    for (int j = 0; j < 3; j++) {
-        before[j] = gm_burgers_carried(symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
+    if (method->implicit) {
+        return NAN;
     }
-    struct gm_burgers_step step = {.burgers = burgers, .points = 3, .h = h, .k = k, .u = u, .out = plain};
-    row->method(&step, &progress);
-    const struct gm_event arrival =
-        gm_burgers_carried(symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
+    for (int j = 0; j < 3; j++) {
+        before[j] = carry(framed, symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
+    }
+    struct step step = {.burgers = gm_burgers_of(problem), .points = 3, .h = h, .k = k, .u = u, .out = plain};
+    method->make(&step, &progress);
+    const struct gm_event arrival = carry(framed, symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
     step.h = symmetry->scale * h;
     step.k = arrival.t;
     step.sigma = arrival.x - symmetry->scale * x;
     step.u = before;
     step.out = carried;
-    row->method(&step, &progress);
+    method->make(&step, &progress);
     return fabs(carried[1] - arrival.u);
 }
 
-static const struct gm_burgers_row rows[] = {
-    {ftcs, false, false},
-    {lax_wendroff, false, false},
-    {crank_nicolson, true, false},
-    {ftcs_invariant, false, false},
-    {lax_wendroff_invariant, false, false},
-    {crank_nicolson_invariant, true, false},
-    {ftcs_family, false, true},
-};
+const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, is_of_family};
 
-#define BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
+#define OF_BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "ftcs",
-        .title = "FTCS",
-        .formula = "v = u − k u D₀u + kν D₂u,  or D₀(u²/2) for u D₀u",
-        .reference = "forward in time, centred in space; Razafindralandy et al. (2018), eq. 97",
-        .coefficients = &rows[0],
-        .order = 1,
-        BURGERS,
-    },
-    {
-        .name = "lax-wendroff",
-        .title = "Lax-Wendroff",
-        .formula = "v = u − k D₀f + k²/2h² [A₊(fⱼ₊₁ − fⱼ) − A₋(fⱼ − fⱼ₋₁)] + kν D₂u,  f = u²/2",
-        .reference = "P. Lax & B. Wendroff, Comm. Pure Appl. Math. 13 (1960) 217",
-        .coefficients = &rows[1],
-        .order = 1,
-        BURGERS,
-    },
-    {
-        .name = "crank-nicolson",
-        .title = "Crank-Nicolson",
-        .formula = "(v − u)/k + (v D₀v + u D₀u)/2 = ν/2 (D₂u + D₂v)",
-        .reference = "J. Crank & P. Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50",
-        .coefficients = &rows[2],
-        .order = 2,
-        BURGERS,
-    },
-    {
-        .name = "ftcs-invariant",
-        .title = "FTCS, invariant",
-        .formula = "v = [u − σa₄ + kν D₂u/m]/m,  a₄ = −D₀u,  m = 1 + k D₀u,  σ the node's displacement",
-        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-        .coefficients = &rows[3],
-        .order = 1,
-        .claims = GM_EQUIVARIANT,
-        BURGERS,
-    },
-    {
-        .name = "lax-wendroff-invariant",
-        .title = "Lax-Wendroff, invariant",
-        .formula = "v = [u − σa₄ + k/m (ν + ka²/2m) D₂u]/m,  a = (uⱼ₊₁ + 2uⱼ + uⱼ₋₁)/4 − σ/k",
-        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-        .coefficients = &rows[4],
-        .order = 1,
-        .claims = GM_EQUIVARIANT,
-        BURGERS,
-    },
-    {
-        .name = "crank-nicolson-invariant",
-        .title = "Crank-Nicolson, invariant",
-        .formula = "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
-        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-        .coefficients = &rows[5],
-        .order = 2,
-        .claims = GM_EQUIVARIANT,
-        BURGERS,
-    },
-    {
-        .name = "ftcs-family",
-        .title = "FTCS, family",
-        .formula = "v = [u − σa₄ + k/m (ν D₂u − (u + a₅)(D₀u + a₄))]/m,  m = 1 − k a₄\n"
-                   "a₄ = [a uⱼ₊₁ − (1 + 2a) uⱼ + (1 + a) uⱼ₋₁]/h,  a₅ = d h² D₂u − u",
-        .reference = "Razafindralandy et al. (2018), eqs. 111 and 117 to 119",
-        .coefficients = &rows[6],
-        .order = 1,
-        .claims = GM_EQUIVARIANT,
-        BURGERS,
-    },
+    GM_FIELD_SCHEME("ftcs", "FTCS", 1, 0, "v = u − k u D₀u + kν D₂u,  or D₀(u²/2) for u D₀u",
+                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 97", OF_BURGERS,
+                    .coefficients = &(const struct method){.make = ftcs}),
+    GM_FIELD_SCHEME("lax-wendroff", "Lax-Wendroff", 1, 0,
+                    "v = u − k D₀f + k²/2h² [A₊(fⱼ₊₁ − fⱼ) − A₋(fⱼ − fⱼ₋₁)] + kν D₂u,  f = u²/2",
+                    "P. Lax & B. Wendroff, Comm. Pure Appl. Math. 13 (1960) 217", OF_BURGERS,
+                    .coefficients = &(const struct method){.make = lax_wendroff}),
+    GM_FIELD_SCHEME("crank-nicolson", "Crank-Nicolson", 2, 0,
+                    "(v − u)/k + (v D₀v + u D₀u)/2 = ν/2 (D₂u + D₂v)",
+                    "J. Crank & P. Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50", OF_BURGERS,
+                    .coefficients = &(const struct method){.make = crank_nicolson, .implicit = true}),
+    GM_FIELD_SCHEME("ftcs-invariant", "FTCS, invariant", 1, GM_EQUIVARIANT,
+                    "v = [u − σa₄ + kν D₂u/m]/m,  a₄ = −D₀u,  m = 1 + k D₀u,  σ the node's displacement",
+                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
+                    OF_BURGERS, .coefficients = &(const struct method){.make = ftcs_invariant}),
+    GM_FIELD_SCHEME("lax-wendroff-invariant", "Lax-Wendroff, invariant", 1, GM_EQUIVARIANT,
+                    "v = [u − σa₄ + k/m (ν + ka²/2m) D₂u]/m,  a = (uⱼ₊₁ + 2uⱼ + uⱼ₋₁)/4 − σ/k",
+                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
+                    OF_BURGERS, .coefficients = &(const struct method){.make = lax_wendroff_invariant}),
+    GM_FIELD_SCHEME(
+        "crank-nicolson-invariant", "Crank-Nicolson, invariant", 2, GM_EQUIVARIANT,
+        "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
+        "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)", OF_BURGERS,
+        .coefficients = &(const struct method){.make = crank_nicolson_invariant, .implicit = true}),
+    GM_FIELD_SCHEME("ftcs-family", "FTCS, family", 1, GM_EQUIVARIANT,
+                    "v = [u − σa₄ + k/m (ν D₂u − (u + a₅)(D₀u + a₄))]/m,  m = 1 − k a₄\n"
+                    "a₄ = [a uⱼ₊₁ − (1 + 2a) uⱼ + (1 + a) uⱼ₋₁]/h,  a₅ = d h² D₂u − u",
+                    "Razafindralandy et al. (2018), eqs. 111 and 117 to 119", OF_BURGERS,
+                    .coefficients = &(const struct method){.make = ftcs_family, .family = true}),
 };
 
 const struct gm_family gm_family_burgers = {
-    .kind = &gm_kind_field,
     .title = "Burgers, standard and invariantised",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
 };

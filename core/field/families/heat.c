@@ -15,14 +15,14 @@
 
    Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers'
    equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
-#include "core/field/families/heat.h"
+#include "core/field/families/frames.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
    and the last of v hold the boundary values of the new level already. */
@@ -35,7 +35,7 @@ struct step {
 
 struct row {
     void (*make)(const struct step *step);
-    unsigned keeps; /* enum gm_heat_group */
+    bool projects; /* it commutes with projections too */
 };
 
 static void ordinary(const struct step *step)
@@ -68,39 +68,49 @@ static void by_projections(const struct step *step)
     }
 }
 
-struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetry *symmetry,
-                                struct gm_event event)
+/* (t, x, u) -> (t, x + b t, u exp(-b x/(2 nu) - b^2 t/(4 nu)))
+   (t, x, u) -> (t, x, sqrt(1 - p t) u exp(-p x^2/(4 nu (1 - p t)))) / (1 - p t, 1 - p t, 1)
+   (t, x, u) -> (s^2 t, s x, u);   u is NaN if the projection does not exist */
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
+                             struct gm_event event)
 {
     const double b = symmetry->boost, p = symmetry->projection, s = symmetry->scale;
     const double m = 1 - p * event.t, x = event.x + b * event.t;
     const double power = b * (2 * event.x + b * event.t) + p * x * x / m;
-    return (struct gm_event){
-        .t = s * s * event.t / m, .x = s * x / m, .u = event.u * exp(-power / (4 * diffusivity)) * sqrt(m)};
+    return (struct gm_event){.t = s * s * event.t / m,
+                             .x = s * x / m,
+                             .u = event.u * exp(-power / (4 * framed->viscosity)) * sqrt(m)};
 }
 
-unsigned gm_heat_keeps(const struct gm_scheme *scheme)
+static bool projects(const struct gm_scheme *scheme)
 {
-    return ((const struct row *)scheme->coefficients)->keeps;
+    return ((const struct row *)scheme->coefficients)->projects;
 }
 
-struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
-                                      const double u[3])
+/* The boost that makes both neighbours equal, of schemes without frames too, and of those that preserve projections the
+   one after which all three are. */
+static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
+                 size_t j, struct gm_point_symmetry *frame)
 {
-    const double right = log(u[2] / u[1]), left = log(u[0] / u[1]);
-    return (struct gm_heat_symmetry){
-        .boost = diffusivity / h * (right - left),
-        .projection =
-            gm_heat_keeps(scheme) & GM_HEAT_PROJECTIONS ? 2 * diffusivity / (h * h) * (right + left) : 0,
+    const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
+    const double nu = gm_framed_of(problem)->viscosity, h = problem->line.dx;
+    *frame = (struct gm_point_symmetry){
+        .boost = nu / h * (right - left),
+        .projection = projects(scheme) ? 2 * nu / (h * h) * (right + left) : 0,
         .scale = 1,
     };
+    return isfinite(frame->boost) && frame->projection * k < 1;
 }
 
-double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                      const struct gm_heat_symmetry *symmetry, const double *u)
+/* About the middle of the nodes, the largest over all, divided by the value there. The carried nodes move, which only
+   invariant schemes take into account. */
+static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                     const struct gm_point_symmetry *symmetry, const double *u)
 {
     const struct row *row = scheme->coefficients;
     const struct gm_grid1 *grid = &problem->line;
-    const double nu = gm_heat_of(problem)->diffusivity;
+    const struct gm_framed *framed = gm_framed_of(problem);
+    const double nu = framed->viscosity;
     double largest = 0;
     for (size_t j = 1; j + 1 < grid->points; j++) {
         const double here = gm_grid1_node(grid, j) - gm_grid1_node(grid, (grid->points - 1) / 2);
@@ -109,53 +119,36 @@ double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *
         row->make(&step);
         for (int i = 0; i < 3; i++) {
             const struct gm_event event = {.x = here + (i - 1) * grid->dx, .u = u[j - 1 + (size_t)i]};
-            carried[i] = gm_heat_carried(nu, symmetry, event).u;
+            carried[i] = carry(framed, symmetry, event).u;
         }
         const struct gm_event arrival =
-            gm_heat_carried(nu, symmetry, (struct gm_event){.t = k, .x = here, .u = v[1]});
+            carry(framed, symmetry, (struct gm_event){.t = k, .x = here, .u = v[1]});
         step.h *= symmetry->scale;
         step.k = arrival.t;
         step.sigma = arrival.x - symmetry->scale * here;
         step.u = carried;
         step.v = w;
         row->make(&step);
-        const double defect = fabs(w[1] / arrival.u - 1);
-        largest = gm_larger(largest, defect);
+        largest = gm_larger(largest, fabs(w[1] / arrival.u - 1));
     }
     return largest;
 }
 
-struct work {
-    size_t points;
-    double *level[2];
-};
-
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    const size_t points = problem->line.points;
-    struct work *work = malloc(sizeof *work + 2 * points * sizeof(double));
-    if (work) {
-        work->points = points;
-        work->level[0] = (double *)(work + 1);
-        work->level[1] = work->level[0] + points;
-    }
-    return work;
-}
+const struct gm_moving_frames gm_frames_of_heat = {carry, find, defect, projects};
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct work *work = task->workspace;
+    struct gm_two_step_work *work = task->workspace;
     const struct row *row = task->scheme->coefficients;
-    const struct gm_heat *heat = gm_heat_of(task->problem);
+    const struct gm_framed *framed = gm_framed_of(task->problem);
     const size_t last = work->points - 1;
-    const double speed = gm_frame_rests(&heat->framed, task->scheme) ? 0 : heat->framed.lambda;
+    const double speed = gm_frame_rests(framed, task->scheme) ? 0 : framed->lambda;
     double ends[2 * GM_ENDS_BLOCK];
     size_t made = 0, some = 0;
     struct gm_progress progress = {.status = GM_OK};
     struct step step = {
         .points = work->points,
-        .viscosity = heat->diffusivity,
+        .viscosity = framed->viscosity,
         .h = task->problem->line.dx,
         .k = task->dt,
         .sigma = speed * task->dt,
@@ -181,50 +174,27 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-static const struct row rows[] = {
-    {ordinary, GM_HEAT_SCALINGS},
-    {by_boosts, GM_HEAT_SCALINGS | GM_HEAT_BOOSTS},
-    {by_projections, GM_HEAT_SCALINGS | GM_HEAT_BOOSTS | GM_HEAT_PROJECTIONS},
-};
-
-#define HEAT .family = &gm_family_heat, .order = 1, .needs = GM_NEEDS_HEAT
+#define OF_HEAT .family = &gm_family_heat, .needs = GM_NEEDS_HEAT
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "heat-ftcs",
-        .title = "FTCS",
-        .formula = "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
-        .reference = "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83",
-        .coefficients = &rows[0],
-        HEAT,
-    },
-    {
-        .name = "heat-boosts",
-        .title = "FTCS, boosts",
-        .formula = "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
-        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
-        .coefficients = &rows[1],
-        .claims = GM_EQUIVARIANT,
-        HEAT,
-    },
-    {
-        .name = "heat-projections",
-        .title = "FTCS, projections",
-        .formula = "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
-                   "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
-        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
-        .coefficients = &rows[2],
-        .claims = GM_EQUIVARIANT,
-        HEAT,
-    },
+    GM_FIELD_SCHEME("heat-ftcs", "FTCS", 1, 0, "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
+                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83", OF_HEAT,
+                    .coefficients = &(const struct row){.make = ordinary}),
+    GM_FIELD_SCHEME("heat-boosts", "FTCS, boosts", 1, GM_EQUIVARIANT,
+                    "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
+                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
+                    .coefficients = &(const struct row){.make = by_boosts}),
+    GM_FIELD_SCHEME("heat-projections", "FTCS, projections", 1, GM_EQUIVARIANT,
+                    "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
+                    "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
+                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
+                    .coefficients = &(const struct row){.make = by_projections, .projects = true}),
 };
 
 const struct gm_family gm_family_heat = {
-    .kind = &gm_kind_field,
     .title = "Heat equation, standard and invariantised",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
-    .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes for u_t + eta u u_x + mu u_xxx = 0 that step in a moving frame, and so commute with its boosts and
-   scalings (kdv_moving_frames.h). The time step is k, the nodes are h apart and move by sigma per step, which
+   scalings (frames.h). The time step is k, the nodes are h apart and move by sigma per step, which
    the boost of velocity b turns into sigma + b k;
        D0 u = (u_{j+1} - u_{j-1})/(2h),   D3 u = (u_{j+2} - 2 u_{j+1} + 2 u_{j-1} - u_{j-2})/(2 h^3)
 
@@ -21,15 +21,14 @@
    Both preserve scalings, as does every scheme whose terms are all of one degree in h^-1, k^-1/3 and u^1/2.
    After A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose schemes are of first
    order in time, and explicit; the frames as those of Razafindralandy et al. (2018), eqs. 86 to 91. */
-#include "core/field/families/kdv_moving_frames.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/field/families/families.h"
-#include "core/field/problems/moving_frames.h"
+#include "core/field/families/frames.h"
+#include "core/field/problems/dispersive.h"
 #include "core/linear/ring/ring.h"
 #include "core/linear/settled.h"
 
@@ -279,31 +278,33 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-struct gm_event gm_kdv_carried(const struct gm_kdv *kdv, const struct gm_kdv_symmetry *symmetry,
-                               struct gm_event event)
+/* (t, x, u) -> (t, x + b t, u + b/eta)
+   (t, x, u) -> (s^3 t, s x, u/s^2) */
+static struct gm_event carry(const struct gm_framed *framed, const struct gm_point_symmetry *symmetry,
+                             struct gm_event event)
 {
-    const double b = symmetry->boost, s = symmetry->scale;
+    const double b = symmetry->boost, s = symmetry->scale, eta = ((const struct gm_kdv *)framed)->eta;
     return (struct gm_event){
-        .t = s * s * s * event.t, .x = s * (event.x + b * event.t), .u = (event.u + b / kdv->eta) / (s * s)};
+        .t = s * s * s * event.t, .x = s * (event.x + b * event.t), .u = (event.u + b / eta) / (s * s)};
 }
 
-bool gm_kdv_has_frames(const struct gm_scheme *scheme)
+static bool solves(const struct gm_scheme *scheme)
 {
-    return scheme->family == &gm_family_kdv_moving_frames;
+    return scheme->family == &gm_family_kdv_moving_frames &&
+           ((const struct row *)scheme->coefficients)->solves;
 }
-
-bool gm_kdv_solves(const struct gm_scheme *scheme)
-{
-    return gm_kdv_has_frames(scheme) && ((const struct row *)scheme->coefficients)->solves;
-}
-
-static const struct gm_kdv_symmetry identity = {.scale = 1};
 
 /* A first step of length k from values at nodes, each as a symmetry carries it; the next level is in
-   work->level[2]. */
-static bool make_carried(struct work *work, const struct gm_problem *problem, const struct gm_scheme *scheme,
-                         double k, const struct gm_kdv_symmetry *symmetry, const double *y)
+   level[2] of the workspace, which the caller closes. Returns NULL if the scheme has no frames or the step fails, or when
+   out of memory. */
+static struct work *make_carried(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                                 const struct gm_point_symmetry *symmetry, const double *y)
 {
+    const bool has_frames = scheme->family == &gm_family_kdv_moving_frames;
+    struct work *work = has_frames ? open_work(problem, scheme) : NULL;
+    if (!work) {
+        return NULL;
+    }
     const struct gm_kdv *kdv = gm_kdv_of(problem);
     const double s = symmetry->scale,
                  sigma = gm_frame_rests(&kdv->framed, scheme) ? 0 : kdv->framed.lambda * k;
@@ -314,44 +315,43 @@ static bool make_carried(struct work *work, const struct gm_problem *problem, co
                               .first = true};
     struct gm_progress uncounted = {.status = GM_OK};
     for (size_t j = 0; j < work->points; j++) {
-        work->level[1][j] = gm_kdv_carried(kdv, symmetry, (struct gm_event){.u = y[j]}).u;
+        work->level[1][j] = carry(&kdv->framed, symmetry, (struct gm_event){.u = y[j]}).u;
     }
     close_ring(work->level[1], work->points);
-    return ((const struct row *)scheme->coefficients)->make(work, &step, &uncounted) == GM_OK;
+    if (((const struct row *)scheme->coefficients)->make(work, &step, &uncounted) != GM_OK) {
+        close_work(work);
+        return NULL;
+    }
+    return work;
 }
 
-bool gm_kdv_moving_frames(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                          const double *y, double *boosts)
+static const struct gm_point_symmetry identity = {.scale = 1};
+
+static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *y,
+                 size_t j, struct gm_point_symmetry *frame)
 {
-    struct work *work = open_work(problem, scheme);
-    const bool good = work && make_carried(work, problem, scheme, k, &identity, y);
-    for (size_t j = 0; good && j < work->points; j++) {
-        const double *u = work->level[1] + j;
-        boosts[j] =
-            -gm_kdv_of(problem)->eta * (gm_kdv_solves(scheme) ? work->mean[j] : (u[-1] + u[0] + u[1]) / 3);
-    }
+    struct work *work = make_carried(problem, scheme, k, &identity, y);
+    *frame = identity;
     if (work) {
+        const double *u = work->level[1] + j;
+        const double mean = solves(scheme) ? work->mean[j] : (u[-1] + u[0] + u[1]) / 3;
+        frame->boost = -gm_kdv_of(problem)->eta * mean;
         close_work(work);
     }
-    return good;
+    return work != NULL;
 }
 
-double gm_kdv_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
-                     const struct gm_kdv_symmetry *symmetry, const double *y)
+/* The largest over all nodes, in units of the carried u. */
+static double defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                     const struct gm_point_symmetry *symmetry, const double *y)
 {
-    if (!gm_kdv_has_frames(scheme)) {
-        return NAN;
-    }
-    struct work *plain = open_work(problem, scheme), *carried = open_work(problem, scheme);
-    double largest = NAN;
-    if (plain && carried && make_carried(plain, problem, scheme, k, &identity, y) &&
-        make_carried(carried, problem, scheme, k, symmetry, y)) {
-        largest = 0;
-        for (size_t j = 0; j < plain->points; j++) {
-            const struct gm_event event = {.t = k, .u = plain->level[2][j]};
-            const double moved = gm_kdv_carried(gm_kdv_of(problem), symmetry, event).u;
-            largest = gm_larger(fabs(carried->level[2][j] - moved), largest);
-        }
+    struct work *plain = make_carried(problem, scheme, k, &identity, y),
+                *carried = plain ? make_carried(problem, scheme, k, symmetry, y) : NULL;
+    double largest = carried ? 0 : NAN;
+    for (size_t j = 0; carried && j < plain->points; j++) {
+        const struct gm_event event = {.t = k, .u = plain->level[2][j]};
+        const double moved = carry(gm_framed_of(problem), symmetry, event).u;
+        largest = gm_larger(fabs(carried->level[2][j] - moved), largest);
     }
     if (plain) {
         close_work(plain);
@@ -362,40 +362,29 @@ double gm_kdv_defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-static const struct row leapfrog_row = {leapfrog, false}, projection_row = {evolve_and_project, true};
+const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, solves};
 
-#define KDV_FRAMES .family = &gm_family_kdv_moving_frames, .order = 2, .needs = GM_NEEDS_KDV
+#define OF_KDV_MOVING_FRAMES .family = &gm_family_kdv_moving_frames, .needs = GM_NEEDS_KDV
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "zabusky-kruskal-invariant",
-        .title = "Zabusky-Kruskal, invariant",
-        .formula = "v = uⁿ⁻¹ + 2k [(σ/k − η Au) D₀u − μ D₃u],  Au = (uⱼ₋₁ + uⱼ + uⱼ₊₁)/3",
-        .reference = "Zabusky & Kruskal (1965) in the frame of Razafindralandy et al. (2018), eq. 91; "
-                     "A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201",
-        .coefficients = &leapfrog_row,
-        .claims = GM_EQUIVARIANT | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-        KDV_FRAMES,
-    },
-    {
-        .name = "evolution-projection",
-        .title = "Evolution-projection",
-        .formula = "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
-                   "P: the polynomial through six nodes",
-        .reference =
-            "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
-            "is explicit",
-        .coefficients = &projection_row,
-        .claims = GM_EQUIVARIANT,
-        KDV_FRAMES,
-    },
+    GM_FIELD_SCHEME("zabusky-kruskal-invariant", "Zabusky-Kruskal, invariant", 2,
+                    GM_EQUIVARIANT | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+                    "v = uⁿ⁻¹ + 2k [(σ/k − η Au) D₀u − μ D₃u],  Au = (uⱼ₋₁ + uⱼ + uⱼ₊₁)/3",
+                    "Zabusky & Kruskal (1965) in the frame of Razafindralandy et al. (2018), eq. 91; "
+                    "A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201",
+                    OF_KDV_MOVING_FRAMES, .coefficients = &(const struct row){.make = leapfrog}),
+    GM_FIELD_SCHEME("evolution-projection", "Evolution-projection", 2, GM_EQUIVARIANT,
+                    "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
+                    "P: the polynomial through six nodes",
+                    "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
+                    "is explicit",
+                    OF_KDV_MOVING_FRAMES,
+                    .coefficients = &(const struct row){.make = evolve_and_project, .solves = true}),
 };
 
 const struct gm_family gm_family_kdv_moving_frames = {
-    .kind = &gm_kind_field,
     .title = "Korteweg-de Vries, invariantised",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .memory = memory,
     .start = start,

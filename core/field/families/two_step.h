@@ -50,6 +50,9 @@ struct gm_two_step_row {
 struct gm_progress gm_two_step_advance(const struct gm_task *task);
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void gm_two_step_close(void *workspace);
+/* The fields of a family that advances so. */
+#define GM_TWO_STEP_LOOP                                                                                     \
+    .loop = gm_two_step_advance, .workspace_open = gm_two_step_open, .workspace_close = gm_two_step_close
 
 /* Sets the two end points of a level, or of anything that is periodic up to `jump`. */
 static inline void gm_grid1_close(double *level, size_t points, double jump)

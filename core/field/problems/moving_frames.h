@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equations with frames of reference that move with the velocity lambda: Korteweg and de Vries' (dispersive.h), and
+   on nodes between two ends, of which the first and the last hold exact values,
+       Burgers   u_t + u u_x = nu u_xx        (t, x, u) -> (t, x + lambda t, u + lambda)
+       heat      u_t = nu u_xx for u > 0      (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu)))
+   with t from the start on. */
 #ifndef GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
 #define GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
 
@@ -14,21 +19,37 @@ enum gm_frame_nodes {
     GM_FRAME_MOVING,
 };
 
-/* First in the parameters of every equation with frames of reference. */
+/* First in the parameters of every equation with frames of reference; the heat equation has no others. */
 struct gm_framed {
     struct gm_user_line line; /* first; of a file, else empty. The exact solution is that in the frame */
     double lambda;
-    int frame; /* enum gm_frame_nodes */
+    int frame;        /* enum gm_frame_nodes */
+    double viscosity; /* nu */
 };
 static inline const struct gm_framed *gm_framed_of(const struct gm_problem *problem)
 {
     return problem->parameters;
 }
 
-/* A point of space and time with the value of the field there: what a symmetry moves. */
-struct gm_event {
-    double t, x, u;
+struct gm_burgers {
+    struct gm_framed framed; /* first */
+    int printed;             /* the convection is u D u, not D(u^2/2) */
+    double a, d;             /* parameters of the family of moving frames (core/field/families/burgers.c) */
 };
+static inline const struct gm_burgers *gm_burgers_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+/* State of Burgers' equation: u at the nodes; where lambda is not 0 a companion follows, the same run in the frame
+   lambda = 0 on as many nodes, and a number, 1 while it is well. Other equations between ends have u alone. */
+static inline size_t gm_burgers_size(const struct gm_burgers *burgers, size_t points)
+{
+    return burgers->framed.lambda != 0 ? 2 * points + 1 : points;
+}
+
+/* The caller sets parameters (struct gm_burgers, struct gm_framed), line and n. */
+extern const struct gm_problem gm_problem_burgers, gm_problem_heat;
 
 /* Returns true if the nodes rest in the frame when this scheme runs. */
 static inline bool gm_frame_rests(const struct gm_framed *framed, const struct gm_scheme *scheme)
@@ -44,5 +65,9 @@ double gm_frame_exact(const struct gm_framed *framed, double speed, double x, do
    on, at most GM_ENDS_BLOCK, if they move with this speed: the exact values. */
 enum { GM_ENDS_BLOCK = 64 };
 void gm_frame_ends(const struct gm_task *task, double speed, int64_t first, size_t count, double *values);
+
+/* The heat equation: the divisor of the value at time t, in the new frame, at the node that was at x at the start and
+   rests there (fixed) or moves, which gives the value in the original frame. */
+double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t);
 
 #endif

@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/problems/burgers.h"
 #include "core/field/problems/dispersive.h"
-#include "core/field/problems/heat.h"
 
 /* The parameters of every equation. */
 union equation {
@@ -14,7 +12,6 @@ union equation {
     struct gm_framed framed;  /* first of all but the nonlinear Schroedinger equation */
     struct gm_kdv kdv;
     struct gm_nls nls;
-    struct gm_heat heat;
     struct gm_burgers burgers;
 };
 
@@ -111,11 +108,11 @@ bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equa
         problem->n = 2 * line->points;
         break;
     case GM_NEEDS_HEAT:
-        parameters->heat.diffusivity = constants[0];
+        parameters->framed.viscosity = constants[0];
         problem->n = line->points;
         break;
     default:
-        parameters->burgers.viscosity = constants[0];
+        parameters->framed.viscosity = constants[0];
         parameters->burgers.a = gm_frames_number(system, values, "a", -0.5);
         parameters->burgers.d = gm_frames_number(system, values, "d", 0);
         problem->n = gm_burgers_size(&parameters->burgers, line->points);

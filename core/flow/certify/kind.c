@@ -11,8 +11,7 @@
 #include "core/certify.h"
 #include "core/flow/boundary.h"
 #include "core/flow/families/families.h"
-#include "core/flow/start.h"
-#include "core/form/rectangle.h"
+#include "core/form/generators.h"
 #include "core/quantity.h"
 #include "core/run.h"
 

@@ -12,21 +12,18 @@
    Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155. The steady scheme takes C(F)
    omega + nu K omega = 0 by Newton's method, a correction a step. */
 #include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
 #include <string.h>
 
 #include "core/basics.h"
 #include "core/flow/families/families.h"
-#include "core/flow/second_thread.h"
 #include "core/flow/solver.h"
-#include "core/flow/tracers.h"
 #include "core/flow_scheme_texts.h"
 
 /* A row: the share of the new time in convection and diffusion; 0 for the steady state. */
-struct row {
-    double share;
-};
-
-static const struct row backward = {1}, centred = {0.5}, steady = {0};
+static const double backward = 1, centred = 0.5, steady = 0;
 
 static double *block(const struct gm_flow *flow, double *y, enum gm_flow_block which)
 {
@@ -111,14 +108,14 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
 
 /* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step
    assembled. */
-static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt, double *y)
+static void make_equation(struct gm_flow_solver *solver, double share, double dt, double *y)
 {
     const double *omega = block(solver->flow, y, GM_FLOW_OMEGA);
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     struct gm_transport *transport = &solver->transport;
-    if (row->share < 1) {
-        gm_transport_assemble(transport, solver->flux, 0, 1 - row->share, flow->viscosity, GM_BACKFLOW_ZERO);
+    if (share < 1) {
+        gm_transport_assemble(transport, solver->flux, 0, 1 - share, flow->viscosity, GM_BACKFLOW_ZERO);
         gm_transport_apply(transport, omega, solver->rate);
     } else {
         memset(solver->rate, 0, complex->vertices * sizeof *solver->rate);
@@ -129,17 +126,17 @@ static void make_equation(struct gm_flow_solver *solver, const struct row *row, 
     if (flow->heat) {
         gm_flow_add_lift(flow, block(solver->flow, y, GM_FLOW_TEMPERATURE), 1, solver->rate);
     }
-    gm_transport_assemble(transport, solver->flux, 1 / dt, row->share, flow->viscosity, GM_BACKFLOW_ZERO);
+    gm_transport_assemble(transport, solver->flux, 1 / dt, share, flow->viscosity, GM_BACKFLOW_ZERO);
 }
 
 /* The step for omega itself, where boundary values of psi do not enter it. */
-static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
+static bool advance_vorticity(struct gm_flow_solver *solver, double share, double dt, double *y,
                               struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
-    make_equation(solver, row, dt, y);
+    make_equation(solver, share, dt, y);
     memcpy(solver->field, omega, complex->vertices * sizeof *omega);
     if (!gm_transport_solve(&solver->transport, solver->held, solver->rate, solver->field, solver->bicgstab,
                             &progress->iterations)) {
@@ -147,7 +144,7 @@ static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *r
     }
     double *used = block(flow, y, GM_FLOW_OMEGA_USED);
     for (size_t v = 0; v < complex->vertices; v++) {
-        used[v] = row->share * solver->field[v] + (1 - row->share) * omega[v];
+        used[v] = share * solver->field[v] + (1 - share) * omega[v];
         omega[v] = solver->field[v];
         solver->rate[v] = complex->star0[v] * omega[v];
     }
@@ -201,14 +198,14 @@ static void correct(const struct gm_flow_solver *solver, double *y)
 
 /* The step for psi, and for omega at vertices without a formula. The first guess extrapolates the last
    step. */
-static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
+static bool advance_stream(struct gm_flow_solver *solver, double share, double dt, double *y,
                            const double *psi_before, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     double *omega = block(flow, y, GM_FLOW_OMEGA), *used = block(flow, y, GM_FLOW_OMEGA_USED);
     const double last = gm_flow_step(flow, y), ratio = last != 0 ? dt / last : 0;
-    make_equation(solver, row, dt, y);
+    make_equation(solver, share, dt, y);
     memcpy(used, omega, complex->vertices * sizeof *used);
     for (int i = 0; i < solver->unknowns.start[solver->unknowns.count]; i++) {
         const int v = solver->unknowns.vertex[i];
@@ -221,7 +218,7 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     }
     correct(solver, y);
     for (size_t v = 0; v < complex->vertices; v++) {
-        used[v] = row->share * omega[v] + (1 - row->share) * used[v];
+        used[v] = share * omega[v] + (1 - share) * used[v];
     }
     progress->solves += 2;
     return true;
@@ -259,15 +256,17 @@ static bool advance_temperature(struct gm_flow_solver *solver, double dt, double
                            flow->temperature_fixed, flow->heating, &progress->iterations);
 }
 
-/* The scalar's part of a step, which needs only the previous fluxes of the flow. */
+/* The scalar's part of a step, which needs only the previous fluxes of the flow: on another core, if there is
+   one. It writes nothing that the flow uses in the meantime, so no bit depends on the core. */
 struct scalar_part {
     struct gm_flow_solver *solver;
     double dt, *theta;
     unsigned long iterations;
-    bool good;
+    bool good, beside;
+    pthread_t thread;
 };
 
-static void advance_scalar(void *data)
+static void *advance_scalar(void *data)
 {
     struct scalar_part *part = data;
     struct gm_flow_solver *solver = part->solver;
@@ -275,10 +274,35 @@ static void advance_scalar(void *data)
     part->good =
         !flow->scalar || advance_carried(solver, &solver->carried, solver->carried_rate, part->dt,
                                          part->theta, flow->theta_fixed, flow->source, &part->iterations);
+    return NULL;
 }
 
+/* Begins the part, in a thread that leaves signals to this one; `alone`: does it at once. */
+static void begin_scalar(struct scalar_part *part, bool alone)
+{
+    cpu_set_t cores;
+    if (!alone && (sched_getaffinity(0, sizeof cores, &cores) != 0 || CPU_COUNT(&cores) > 1)) {
+        static const int own[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+        sigset_t others, before;
+        sigfillset(&others);
+        for (size_t i = 0; i < GM_COUNT(own); i++) {
+            sigdelset(&others, own[i]);
+        }
+        pthread_sigmask(SIG_BLOCK, &others, &before);
+        part->beside = pthread_create(&part->thread, NULL, advance_scalar, part) == 0;
+        pthread_sigmask(SIG_SETMASK, &before, NULL);
+    }
+    if (!part->beside) {
+        advance_scalar(part);
+    }
+}
+
+/* Waits for the part. */
 static bool take_scalar(const struct scalar_part *part, struct gm_progress *progress)
 {
+    if (part->beside) {
+        pthread_join(part->thread, NULL);
+    }
     progress->solves += part->solver->flow->scalar;
     progress->iterations += part->iterations;
     return part->good;
@@ -314,8 +338,8 @@ static void take_given(const struct gm_flow_solver *solver, double *y)
 enum { WORTH_A_THREAD = 1500 };
 
 /* From the time t on. */
-static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double t, double dt,
-                           int64_t number, double *y, struct gm_progress *progress)
+static enum gm_status step(struct gm_flow_solver *solver, double share, double t, double dt, int64_t number,
+                           double *y, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
@@ -325,7 +349,7 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     if (!gm_flow_solver_give(solver, t + dt / 2)) {
         return GM_BLOW_UP;
     }
-    if (!gm_flow_solver_factor(solver, 1 / dt, row->share * flow->viscosity)) {
+    if (!gm_flow_solver_factor(solver, 1 / dt, share * flow->viscosity)) {
         return GM_NO_CONVERGENCE;
     }
     half_step(solver, dt, y);
@@ -339,11 +363,9 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
         return GM_NO_CONVERGENCE;
     }
     struct scalar_part scalar = {.solver = solver, .dt = dt, .theta = block(flow, y, GM_FLOW_THETA)};
-    struct gm_beside beside = {.work = advance_scalar, .data = &scalar};
-    gm_beside_begin(&beside, !flow->scalar || solver->vorticity_form || n < WORTH_A_THREAD);
-    const bool moved = solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
-                                              : advance_stream(solver, row, dt, y, psi_before, progress);
-    gm_beside_end(&beside);
+    begin_scalar(&scalar, !flow->scalar || solver->vorticity_form || n < WORTH_A_THREAD);
+    const bool moved = solver->vorticity_form ? advance_vorticity(solver, share, dt, y, progress)
+                                              : advance_stream(solver, share, dt, y, psi_before, progress);
     if (!take_scalar(&scalar, progress) || !moved) {
         return GM_NO_CONVERGENCE;
     }
@@ -446,19 +468,19 @@ static bool within(const double *y, size_t n, double limit)
 static struct gm_progress loop(const struct gm_task *task)
 {
     const struct gm_flow *flow = gm_flow_of(task->problem);
-    const struct row *row = task->scheme->coefficients;
+    const double *share = task->scheme->coefficients;
     struct gm_progress progress = {.status = GM_OK};
     struct gm_flow_solver *solver = task->workspace;
     const unsigned long factor_solves = solver->factor_solves;
     memcpy(task->out, task->y, task->problem->n * sizeof *task->y);
-    if (row == &steady) {
+    if (share == &steady) {
         memcpy(task->memory_out, task->memory, MEMORY * sizeof *task->memory);
     }
     while (progress.done < task->steps) {
         progress.status =
-            row == &steady
+            share == &steady
                 ? step_steady(solver, task->memory_out, task->out, &progress)
-                : step(solver, row,
+                : step(solver, *share,
                        (task->t0 + task->dt * (double)(task->n + progress.done)) * flow->time_unit,
                        task->dt * flow->time_unit, task->steps_before + progress.done, task->out, &progress);
         if (progress.status == GM_OK && !within(task->out, task->problem->n, task->limit)) {

@@ -19,38 +19,35 @@ enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
 /* The derivative of one step at the start, and the derivative of its initial state: the identity, or under
    constraints that of the nearest state on the manifold. */
 struct derivative {
+    const struct gm_subject *subject;
+    double dt;
     double at[TANGENTS][TANGENTS], start[TANGENTS][TANGENTS];
     double largest;
-};
-
-struct step {
-    const struct gm_subject *subject;
-    const struct gm_scheme *scheme;
-    double dt;
 };
 
 /* Writes the initial state of a step, followed by its final state. */
 static bool make_step(const void *context, const double *from, double *to)
 {
-    const struct step *step = context;
-    const struct gm_problem *problem = &step->subject->problem;
-    const size_t n = gm_subject_components(step->subject, step->scheme);
+    const struct derivative *derivative = context;
+    const struct gm_problem *problem = &derivative->subject->problem;
+    const size_t n = gm_subject_components(derivative->subject);
     memcpy(to, from, n * sizeof *to);
     return (gm_action_constraints(problem) == 0 || gm_manifold_project(problem, to)) &&
-           gm_subject_advance(step->subject, step->scheme, step->dt, 1, to, to + n);
+           gm_subject_advance(derivative->subject, derivative->dt, 1, to, to + n);
 }
 
-static bool differentiate(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                          double length, struct derivative *derivative)
+static bool differentiate(const struct gm_subject *subject, double dt, double length,
+                          struct derivative *derivative)
 {
-    const size_t n = gm_subject_components(subject, scheme);
+    const size_t n = gm_subject_components(subject);
     double from[MOST], along[TANGENTS] = {0}, slope[2 * TANGENTS];
-    gm_subject_start(subject, scheme, from);
+    gm_subject_start(subject, from);
+    derivative->subject = subject;
+    derivative->dt = dt;
     derivative->largest = 0;
     for (size_t column = 0; column < n; column++) {
         along[column] = length;
-        if (!gm_differentiate(make_step, &(const struct step){subject, scheme, dt}, n, from, along, 2 * n,
-                              slope)) {
+        if (!gm_differentiate(make_step, derivative, n, from, along, 2 * n, slope)) {
             return false;
         }
         along[column] = 0;
@@ -69,8 +66,7 @@ struct defect {
     bool clear;
 };
 
-typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                         const struct derivative *derivative);
+typedef double defect_of(const struct derivative *derivative);
 
 /* mean := the mean of `count` derivatives; before, it is the mean of all but `next`. */
 static void average(struct derivative *mean, const struct derivative *next, size_t n, int count)
@@ -85,27 +81,27 @@ static void average(struct derivative *mean, const struct derivative *next, size
 /* Returns a defect that is a polynomial of this degree in the entries of the derivative. It is clear if
    shorter differences give nearly the same entries. A defect near the tolerance is measured again with the
    mean of several derivatives, in which round-off is less. */
-static struct defect of_derivative(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                   double dt, double tolerance, int degree, defect_of *defect)
+static struct defect of_derivative(const struct gm_subject *subject, double dt, double tolerance, int degree,
+                                   defect_of *defect)
 {
     enum { AVERAGED = 16 };
-    const size_t n = gm_subject_components(subject, scheme);
+    const size_t n = gm_subject_components(subject);
     struct derivative derivative, closer;
     struct defect found = {.size = NAN};
     for (double length = 0.4 * subject->scale;
          length > 2e-3 * subject->scale && !found.clear && !(found.size <= tolerance / 10); length /= 4) {
-        if (!differentiate(subject, scheme, dt, length, &derivative)) {
+        if (!differentiate(subject, dt, length, &derivative)) {
             continue;
         }
-        double size = defect(subject, scheme, dt, &derivative);
+        double size = defect(&derivative);
         for (int k = 1; k < AVERAGED && size > tolerance / 10 && size < 10 * tolerance &&
-                        differentiate(subject, scheme, dt, length * (1 - k / 32.), &closer);
+                        differentiate(subject, dt, length * (1 - k / 32.), &closer);
              k++) {
             average(&derivative, &closer, n, k + 1);
-            size = defect(subject, scheme, dt, &derivative);
+            size = defect(&derivative);
         }
         found.size = fmin(size, found.size);
-        if (size > tolerance && differentiate(subject, scheme, dt, length / 3, &closer)) {
+        if (size > tolerance && differentiate(subject, dt, length / 3, &closer)) {
             double error = 0;
             for (size_t row = 0; row < n; row++) {
                 error = fmax(error, gm_distance(derivative.at[row], closer.at[row], n));
@@ -118,9 +114,10 @@ static struct defect of_derivative(const struct gm_subject *subject, const struc
 }
 
 /* form + dq ^ dp, summed over the copies of phase space, of two columns */
-static double add_form(double form, const double (*tangent)[TANGENTS], size_t all, size_t n, size_t a,
-                       size_t b)
+static double add_form(double form, const double (*tangent)[TANGENTS], const struct gm_subject *subject,
+                       size_t a, size_t b)
 {
+    const size_t all = gm_subject_components(subject), n = subject->problem.n;
     for (size_t copy = 0; copy < all; copy += n) {
         for (size_t q = copy; q < copy + n / 2; q++) {
             form += tangent[q][a] * tangent[q + n / 2][b] - tangent[q + n / 2][a] * tangent[q][b];
@@ -130,43 +127,39 @@ static double add_form(double form, const double (*tangent)[TANGENTS], size_t al
 }
 
 /* Returns how far areas differ from `area` times their value before the step. */
-static double areas_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                           const struct derivative *derivative, double area)
+static double areas_defect(const struct derivative *derivative, double area)
 {
-    const size_t all = gm_subject_components(subject, scheme), n = subject->problem.n;
+    const struct gm_subject *subject = derivative->subject;
+    const size_t all = gm_subject_components(subject);
     double defect = 0;
     for (size_t a = 0; a < all; a++) {
         for (size_t b = 0; b < all; b++) {
-            const double wanted = area * add_form(0, derivative->start, all, n, a, b);
-            defect = fmax(defect, fabs(add_form(-wanted, derivative->at, all, n, a, b)));
+            const double wanted = area * add_form(0, derivative->start, subject, a, b);
+            defect = fmax(defect, fabs(add_form(-wanted, derivative->at, subject, a, b)));
         }
     }
     return defect;
 }
 
-static double form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                          const struct derivative *derivative)
+static double form_defect(const struct derivative *derivative)
 {
-    (void)dt;
-    return areas_defect(subject, scheme, derivative, 1);
+    return areas_defect(derivative, 1);
 }
 
-static double conformal_form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                    double dt, const struct derivative *derivative)
+static double conformal_form_defect(const struct derivative *derivative)
 {
-    return areas_defect(subject, scheme, derivative, exp(-gm_subject_friction(subject) * dt));
+    return areas_defect(derivative, exp(-gm_subject_friction(derivative->subject) * derivative->dt));
 }
 
-static double bracket_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                             const struct derivative *derivative)
+static double bracket_defect(const struct derivative *derivative)
 {
+    const struct gm_subject *subject = derivative->subject;
     const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
     const size_t n = subject->problem.n;
-    double start[MOST], end[MOST], *before = malloc(2 * n * n * sizeof *before),
-                                   *after = before ? before + n * n : NULL, defect = 0;
-    gm_subject_start(subject, scheme, start);
-    if (!before || !gm_subject_advance(subject, scheme, dt, 1, start, end)) {
-        free(before);
+    double start[MOST], end[MOST], defect = 0, before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
+                                   after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
+    gm_subject_start(subject, start);
+    if (!gm_subject_advance(subject, derivative->dt, 1, start, end)) {
         return NAN;
     }
     poisson->bracket(&subject->problem, start, before);
@@ -180,17 +173,14 @@ static double bracket_defect(const struct gm_subject *subject, const struct gm_s
             defect = fmax(defect, fabs(carried - after[a * n + b]));
         }
     }
-    free(before);
     return defect;
 }
 
-static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                 const struct derivative *derivative)
+static double determinant_defect(const struct derivative *derivative)
 {
-    const size_t n = gm_subject_components(subject, scheme);
+    const size_t n = gm_subject_components(derivative->subject);
     struct derivative rest = *derivative; /* what elimination leaves */
     double determinant = 1;
-    (void)dt;
     for (size_t i = 0; i < n; i++) {
         size_t pivot = i;
         for (size_t row = i + 1; row < n; row++) {
@@ -214,20 +204,19 @@ static double determinant_defect(const struct gm_subject *subject, const struct 
 
 /* Returns the distance of a reversed run's end from its start. An adaptive scheme makes 3 steps, so that its
    control has acted. */
-static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                                 bool reflected)
+static struct defect of_way_back(const struct gm_subject *subject, double dt, bool reflected)
 {
-    const int64_t steps = scheme->family->adaptive ? 3 : 1;
-    const size_t n = gm_subject_components(subject, scheme);
+    const int64_t steps = subject->scheme->family->adaptive ? 3 : 1;
+    const size_t n = gm_subject_components(subject);
     const double push = 1e-12 * subject->scale;
     double start[MOST], back[MOST], pushed[MOST];
-    gm_subject_start(subject, scheme, start);
-    if (!gm_subject_turn(subject, scheme, dt, steps, reflected, 0, back)) {
+    gm_subject_start(subject, start);
+    if (!gm_subject_turn(subject, dt, steps, reflected, 0, back)) {
         return (struct defect){.size = NAN};
     }
     const double size = gm_distance(back, start, n) / subject->scale;
     /* the size must exceed round-off times its growth on the return */
-    const bool told = gm_subject_turn(subject, scheme, dt, steps, reflected, push, pushed);
+    const bool told = gm_subject_turn(subject, dt, steps, reflected, push, pushed);
     return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
@@ -244,34 +233,34 @@ static const struct {
     {GM_KEEPS_VOLUME, 0, determinant_defect},
 };
 
-static struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               enum gm_claim claim, double dt, double tolerance)
+static struct defect defect_at(const struct gm_subject *subject, enum gm_claim claim, double dt,
+                               double tolerance)
 {
     for (size_t i = 0; i < GM_COUNT(of_step); i++) {
         if (of_step[i].claim == claim) {
             const int degree =
-                of_step[i].degree > 0 ? of_step[i].degree : (int)gm_subject_components(subject, scheme);
-            return of_derivative(subject, scheme, dt, tolerance, degree, of_step[i].defect);
+                of_step[i].degree > 0 ? of_step[i].degree : (int)gm_subject_components(subject);
+            return of_derivative(subject, dt, tolerance, degree, of_step[i].defect);
         }
     }
-    return of_way_back(subject, scheme, dt, claim == GM_REVERSIBLE);
+    return of_way_back(subject, dt, claim == GM_REVERSIBLE);
 }
 
 /* Decides by steps of length dt, dt / 4, dt / 16. The defect of a scheme falls like a power of dt: a defect
    that vanishes suddenly came from another solution of the solver, or from a step that is far too large. */
-static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
-                     double tolerance)
+static double decide(const struct gm_subject *subject, enum gm_claim claim, double tolerance)
 {
     enum { SHORTER = 2, POWERS = 5 };
-    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
-    double dt = scheme->family->adaptive ? subject->dt / 4 : subject->dt;
+    const double steepest = pow(4, (subject->scheme->order ? subject->scheme->order : 8) + POWERS),
+                 roundoff = 1e-15;
+    double dt = subject->scheme->family->adaptive ? subject->dt / 4 : subject->dt;
     for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
-        const struct defect here = defect_at(subject, scheme, claim, dt, tolerance);
+        const struct defect here = defect_at(subject, claim, dt, tolerance);
         if (here.size <= tolerance) {
             return here.size;
         }
         if (here.clear) {
-            const struct defect next = defect_at(subject, scheme, claim, dt / 4, tolerance);
+            const struct defect next = defect_at(subject, claim, dt / 4, tolerance);
             if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
                 return here.size;
             }
@@ -281,14 +270,14 @@ static double decide(const struct gm_subject *subject, const struct gm_scheme *s
 }
 
 /* The state after many smaller steps; false: they fail. */
-static bool go_on(const struct gm_subject *subject, const struct gm_scheme *scheme, double *end)
+static bool go_on(const struct gm_subject *subject, double *end)
 {
     /* An adaptive scheme may end when no step is possible: the steps before count. */
-    const bool adaptive = scheme->family->adaptive;
+    const bool adaptive = subject->scheme->family->adaptive;
     const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
     double whole[MOST];
-    gm_subject_start(subject, scheme, whole);
-    return gm_subject_advance(subject, scheme, dt, adaptive ? 1000 : 100, whole, end) || adaptive;
+    gm_subject_start(subject, whole);
+    return gm_subject_advance(subject, dt, adaptive ? 1000 : 100, whole, end) || adaptive;
 }
 
 static double change_of(const struct gm_kept *kept, const double *from, const double *to)
@@ -297,10 +286,10 @@ static double change_of(const struct gm_kept *kept, const double *from, const do
     return fabs(after - before) / fmax(1, fabs(before));
 }
 
-double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept)
+double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     double end[MOST];
-    return go_on(subject, scheme, end) ? change_of(kept, subject->start, end) : NAN;
+    return go_on(subject, end) ? change_of(kept, subject->start, end) : NAN;
 }
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
@@ -312,34 +301,33 @@ double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *k
     return change_of(kept, subject->start, near);
 }
 
-static double energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme)
+static double energy_drift(const struct gm_subject *subject)
 {
     const struct gm_ode *ode = gm_ode_of(&subject->problem);
     const struct gm_invariant energy = {ode->hamiltonian ? gm_energy : ode->poisson->energy,
                                         &subject->problem};
-    return gm_drift(subject, scheme, &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
+    return gm_drift(subject, &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
 }
 
-static double constraint_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, bool hidden)
+static double constraint_defect(const struct gm_subject *subject, bool hidden)
 {
     double end[MOST];
-    if (!go_on(subject, scheme, end)) {
+    if (!go_on(subject, end)) {
         return NAN;
     }
     const struct gm_manifold_defects defects = gm_manifold_defects(&subject->problem, end);
     return hidden ? defects.hidden : defects.constraint;
 }
 
-double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
-                 double tolerance)
+double gm_defect(const struct gm_subject *subject, enum gm_claim claim, double tolerance)
 {
     switch (claim) {
     case GM_KEEPS_ENERGY:
-        return energy_drift(subject, scheme);
+        return energy_drift(subject);
     case GM_KEEPS_CONSTRAINTS:
     case GM_KEEPS_HIDDEN:
-        return constraint_defect(subject, scheme, claim == GM_KEEPS_HIDDEN);
+        return constraint_defect(subject, claim == GM_KEEPS_HIDDEN);
     default:
-        return decide(subject, scheme, claim, tolerance);
+        return decide(subject, claim, tolerance);
     }
 }

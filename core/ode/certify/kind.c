@@ -214,7 +214,7 @@ static bool is_even(const struct gm_subject *subject)
 static void measure_order(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
     struct gm_ladder ladder;
-    const double order = gm_measure_order(subject, certificate->scheme, &ladder);
+    const double order = gm_measure_order(subject, &ladder);
     const bool first = !certificate->order_problem[0] || isnan(certificate->order);
     if (first ||
         (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
@@ -235,7 +235,7 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
     }
     const unsigned claims = gm_kept_claims(kept, subject->start, n, n, subject->scale) |
                             (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
-    const double drift = claims ? gm_drift(subject, certificate->scheme, kept) : 0;
+    const double drift = claims ? gm_drift(subject, kept) : 0;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const enum gm_claim claim = (enum gm_claim)(1u << bit);
         const bool changes = drift > certificate->claims[bit].tolerance;
@@ -285,7 +285,7 @@ static void measure_held(struct gm_certificate *certificate, const struct gm_sub
         const struct gm_kept kept = {.value = value_of_held, .data = &held};
         row->name = holding->names[held.number];
         row->verdict.tolerance = gm_certificate_claim(certificate, GM_KEEPS_ENERGY)->tolerance;
-        gm_verdict_note(&row->verdict, gm_drift(subject, certificate->scheme, &kept), subject->problem.name);
+        gm_verdict_note(&row->verdict, gm_drift(subject, &kept), subject->problem.name);
     }
     gm_conserved_close(&held.conserved);
 }
@@ -293,14 +293,13 @@ static void measure_held(struct gm_certificate *certificate, const struct gm_sub
 /* Measures the order and every claim that means something on a system; the others get the reason why not. */
 static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
-    const struct gm_scheme *scheme = certificate->scheme;
     const struct gm_ode *ode = gm_ode_of(&subject->problem);
     const size_t n = subject->problem.n;
     const bool hamiltonian = ode->hamiltonian && !ode->hamiltonian->partial && n % 2 == 0,
                even = hamiltonian && is_even(subject), poisson = ode->poisson != NULL,
                damped = gm_subject_friction(subject) != 0,
                held = gm_action_constraints(&subject->problem) > 0,
-               differentiable = !scheme->family->adaptive && n <= GM_SUBJECT_TANGENTS,
+               differentiable = !subject->scheme->family->adaptive && n <= GM_SUBJECT_TANGENTS,
                on_a_grid = subject->problem.line.points > 0;
     const char *const no_energy = "the system has no Hamiltonian of the whole state";
     const char *const no_bracket = "the system has no bracket";
@@ -343,7 +342,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         const enum gm_claim claim = claims[i].claim;
         const double tolerance = gm_certificate_claim(certificate, claim)->tolerance;
         if (claims[i].measured) {
-            note(certificate, claim, gm_defect(subject, scheme, claim, tolerance), subject->problem.name);
+            note(certificate, claim, gm_defect(subject, claim, tolerance), subject->problem.name);
         } else {
             gm_certificate_withhold(certificate, claim, claims[i].otherwise);
         }
@@ -434,6 +433,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                        struct gm_certificate *certificate)
 {
     struct gm_subject subject = {.problem = *system->problem,
+                                 .scheme = scheme,
                                  .start = system->start,
                                  .dt = system->dt,
                                  .unit = 16 * fabs(system->dt),

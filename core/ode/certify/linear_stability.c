@@ -104,10 +104,8 @@ static double complex stability_function(const struct gm_tableau *tableau, doubl
 }
 
 /* A composition of shears of the oscillator of frequency w, step 1. */
-static double splitting_radius(const struct gm_splitting_row *row, double w)
+static double splitting_radius(const struct gm_splitting *table, double w)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(row, &made);
     double columns[2][2] = {{1, 0}, {0, 1}}; /* (q, p) of the two starts */
     for (int i = 0; i < table->count; i++) {
         const double c = table->pieces[i].fraction * w;

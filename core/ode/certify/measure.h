@@ -11,7 +11,8 @@
 enum { GM_SUBJECT_COMPONENTS = 4096, GM_SUBJECT_TANGENTS = 64, GM_SUBJECT_INVARIANTS = 3 };
 
 struct gm_subject {
-    struct gm_problem problem; /* m = 1 */
+    struct gm_problem problem;      /* m = 1 */
+    const struct gm_scheme *scheme; /* that is measured */
     const double *start;
     double dt;                  /* step size; large enough that RK4 shows a symplecticity defect above 1e-6 */
     double unit;                /* unit of the times at which the order is measured */
@@ -30,9 +31,9 @@ bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_s
 void gm_subject_close(struct gm_subject *subject);
 
 /* The components that a scheme maps: the state, or with a second copy of phase space both. */
-size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme);
+size_t gm_subject_components(const struct gm_subject *subject);
 /* Writes the start of the components that a scheme maps. */
-void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole);
+void gm_subject_start(const struct gm_subject *subject, double *whole);
 
 /* Returns the rate c of a friction -c p; 0: no friction. */
 double gm_subject_friction(const struct gm_subject *subject);
@@ -41,18 +42,17 @@ double gm_subject_friction(const struct gm_subject *subject);
 struct gm_settings gm_subject_settings(double dt);
 
 /* gm_trial_advance, of the components that the scheme maps. */
-bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        int64_t steps, const double *whole, double *end);
+bool gm_subject_advance(const struct gm_subject *subject, double dt, int64_t steps, const double *whole,
+                        double *end);
 
 /* gm_trial_turn, with p reflected in every copy of phase space. */
-bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                     int64_t steps, bool reflected, double push, double *end);
+bool gm_subject_turn(const struct gm_subject *subject, double dt, int64_t steps, bool reflected, double push,
+                     double *end);
 
 /* The order: the slope of log error against log dt, against GSL's Prince-Dormand stepper at its tightest
    tolerance; dt of a scheme by tolerance is the mean length of its own steps. NaN if it cannot be measured: then
    nothing is settled. */
-double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                        struct gm_ladder *ladder);
+double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladder);
 
 /* Returns the defect of a claim; NaN if a step fails, or if a defect beyond the tolerance does not exceed the
    error of its measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
@@ -65,11 +65,10 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
        GM_REVERSIBLE         |R step R step y0 - y0|, R: p -> -p
        GM_KEEPS_ENERGY       gm_drift
        GM_KEEPS_CONSTRAINTS, _HIDDEN  the constraints after as many steps */
-double gm_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, enum gm_claim claim,
-                 double tolerance);
+double gm_defect(const struct gm_subject *subject, enum gm_claim claim, double tolerance);
 
 /* Returns the relative change of a quantity over many smaller steps; NaN if they fail. */
-double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme, const struct gm_kept *kept);
+double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept);
 /* Returns a quantity's change by a hundred times the round-off of the start's largest number, in some
    direction. */
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_fit.h>
 
 #include "core/certify.h"
 #include "core/ode/certify/measure.h"
@@ -48,11 +49,10 @@ struct trial {
     double step;  /* mean length of a scheme's own steps by a tolerance */
 };
 
-static struct trial make_trial(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                               const struct gm_settings *settings, double dt, int64_t steps_between,
-                               double exact[TIMES][GM_SUBJECT_COMPONENTS])
+static struct trial make_trial(const struct gm_subject *subject, const struct gm_settings *settings,
+                               double dt, int64_t steps_between, double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
+    struct gm_run *run = gm_run_open(&subject->problem, subject->scheme, settings, 0, dt, subject->start);
     if (!run) {
         return (struct trial){.error = NAN};
     }
@@ -67,10 +67,10 @@ static struct trial make_trial(const struct gm_subject *subject, const struct gm
 }
 
 /* Returns the error of an adaptive scheme against the solution at the time that it reached. */
-static double error_at_own_time(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                                const struct gm_settings *settings, double dt, double until)
+static double error_at_own_time(const struct gm_subject *subject, const struct gm_settings *settings,
+                                double dt, double until)
 {
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
+    struct gm_run *run = gm_run_open(&subject->problem, subject->scheme, settings, 0, dt, subject->start);
     if (!run) {
         return NAN;
     }
@@ -83,23 +83,15 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
     return error;
 }
 
-/* the slope by least squares */
-static double slope(const double *x, const double *y, int count)
+static double slope(const double *x, const double *y, size_t count)
 {
-    double mean_x = 0, mean_y = 0, above = 0, below = 0;
-    for (int i = 0; i < count; i++) {
-        mean_x += x[i] / count;
-        mean_y += y[i] / count;
-    }
-    for (int i = 0; i < count; i++) {
-        above += (x[i] - mean_x) * (y[i] - mean_y);
-        below += (x[i] - mean_x) * (x[i] - mean_x);
-    }
-    return above / below;
+    double at_0, slope, variances[3], squares;
+    gsl_fit_linear(x, 1, y, 1, count, &at_0, &slope, &variances[0], &variances[1], &variances[2], &squares);
+    return slope;
 }
 
 /* Returns the slope against the tolerance or, for a scheme with an order, against the mean step. */
-static double measure_by_tolerance(const struct gm_subject *subject, const struct gm_scheme *scheme)
+static double measure_by_tolerance(const struct gm_subject *subject)
 {
     enum { LADDER = 4 };
     const double until = 10 * subject->unit;
@@ -109,20 +101,20 @@ static double measure_by_tolerance(const struct gm_subject *subject, const struc
     }
     for (int i = 0; i < LADDER; i++) {
         const struct gm_settings settings = {.tolerance = pow(10, -4 - 2 * i)};
-        const struct trial trial = make_trial(subject, scheme, &settings, until / TIMES, 1, exact);
-        x[i] = log(scheme->family->by_tolerance ? trial.step : settings.tolerance);
+        const struct trial trial = make_trial(subject, &settings, until / TIMES, 1, exact);
+        x[i] = log(subject->scheme->family->by_tolerance ? trial.step : settings.tolerance);
         e[i] = log(trial.error);
     }
     return slope(x, e, LADDER);
 }
 
-double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                        struct gm_ladder *ladder)
+double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladder)
 {
     enum { PER_OCTAVE = 4, COARSER = 2 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
+    const struct gm_scheme *scheme = subject->scheme;
     *ladder = (struct gm_ladder){.count = 0};
     if (scheme->order == 0 || scheme->family->by_tolerance) {
-        const double order = measure_by_tolerance(subject, scheme);
+        const double order = measure_by_tolerance(subject);
         ladder->settled = !isnan(order);
         return order;
     }
@@ -151,8 +143,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
         }
         const double dt = until / (TIMES * (adaptive ? finer : (double)between));
         const struct gm_settings settings = gm_subject_settings(dt);
-        const double error = adaptive ? error_at_own_time(subject, scheme, &settings, dt, until)
-                                      : make_trial(subject, scheme, &settings, dt, between, exact).error;
+        const double error = adaptive ? error_at_own_time(subject, &settings, dt, until)
+                                      : make_trial(subject, &settings, dt, between, exact).error;
         if (error < plateau) {
             break;
         }

@@ -148,8 +148,8 @@ static bool read_problem(struct gm_subject *subject, const struct row *row)
 bool gm_subject_open(struct gm_subject *subject, size_t index, const struct gm_scheme *scheme)
 {
     const struct row *row = &rows[index];
-    *subject =
-        (struct gm_subject){.start = row->start, .dt = row->dt, .unit = 1, .scale = 1, .kept = row->kept};
+    *subject = (struct gm_subject){
+        .scheme = scheme, .start = row->start, .dt = row->dt, .unit = 1, .scale = 1, .kept = row->kept};
     while (subject->kept_count < GM_SUBJECT_INVARIANTS && row->kept[subject->kept_count].value) {
         subject->kept_count++;
     }
@@ -183,15 +183,15 @@ void gm_subject_close(struct gm_subject *subject)
     gm_system_close(&subject->system);
 }
 
-size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme)
+size_t gm_subject_components(const struct gm_subject *subject)
 {
-    return (scheme->family->doubled ? 2 : 1) * subject->problem.n;
+    return (subject->scheme->family->doubled ? 2 : 1) * subject->problem.n;
 }
 
-void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole)
+void gm_subject_start(const struct gm_subject *subject, double *whole)
 {
     const size_t n = subject->problem.n;
-    for (size_t c = 0; c < gm_subject_components(subject, scheme); c++) {
+    for (size_t c = 0; c < gm_subject_components(subject); c++) {
         whole[c] = subject->start[c % n] + (c < n ? 0 : 0.01); /* the copies need not agree */
     }
 }
@@ -199,7 +199,7 @@ void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *
 double gm_subject_friction(const struct gm_subject *subject)
 {
     const struct gm_action *action = gm_ode_of(&subject->problem)->action;
-    return action && action->friction ? action->friction(&subject->problem) : 0;
+    return action && action->friction ? *action->friction : 0;
 }
 
 struct gm_settings gm_subject_settings(double dt)
@@ -207,20 +207,20 @@ struct gm_settings gm_subject_settings(double dt)
     return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt), .newmark_beta = 0.15};
 }
 
-bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                        int64_t steps, const double *whole, double *end)
+bool gm_subject_advance(const struct gm_subject *subject, double dt, int64_t steps, const double *whole,
+                        double *end)
 {
     const struct gm_settings settings = gm_subject_settings(dt);
-    return gm_trial_advance(&(const struct gm_trial){&subject->problem, scheme, &settings, dt, steps}, whole,
-                            end);
+    return gm_trial_advance(
+        &(const struct gm_trial){&subject->problem, subject->scheme, &settings, dt, steps}, whole, end);
 }
 
-bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                     int64_t steps, bool reflected, double push, double *end)
+bool gm_subject_turn(const struct gm_subject *subject, double dt, int64_t steps, bool reflected, double push,
+                     double *end)
 {
     const struct gm_settings settings = gm_subject_settings(dt);
     double start[2 * GM_SUBJECT_COMPONENTS];
-    gm_subject_start(subject, scheme, start);
-    return gm_trial_turn(&(const struct gm_trial){&subject->problem, scheme, &settings, dt, steps}, start,
-                         reflected, push, end);
+    gm_subject_start(subject, start);
+    return gm_trial_turn(&(const struct gm_trial){&subject->problem, subject->scheme, &settings, dt, steps},
+                         start, reflected, push, end);
 }

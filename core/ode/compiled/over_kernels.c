@@ -79,39 +79,25 @@ GM_DISPATCH(implicit_runge_kutta)
 GM_DISPATCH(splitting)
 #endif
 
-static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
-{
-    for (size_t i = 0; i < m; i++) {
-        double state[GM_COMPONENTS], slope[GM_COMPONENTS];
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            state[c] = y[(size_t)c * m + i];
-        }
-        field_scalar(state, slope, problem->parameters);
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            f[(size_t)c * m + i] = slope[c];
-        }
-    }
-}
-
-#if defined(GM_SEPARABLE) && defined(GM_LOOP_NONE)
-/* The components from `first` on of m members through one of the two kernels. */
-#define GM_HALF_OF(name, first)                                                                              \
+/* The components [first, first + count) of m members through a kernel, which returns as many. */
+#define GM_OVER_MEMBERS(name, first, count)                                                                  \
     static void name(const struct gm_problem *problem, const double *y, double *f, size_t m)                 \
     {                                                                                                        \
-        enum { HALF = GM_COMPONENTS / 2 };                                                                   \
         for (size_t i = 0; i < m; i++) {                                                                     \
-            double state[HALF], slope[HALF];                                                                 \
-            for (int c = 0; c < HALF; c++) {                                                                 \
-                state[c] = y[(size_t)(first + c) * m + i];                                                   \
+            double state[count], slope[count];                                                               \
+            for (int c = 0; c < (count); c++) {                                                              \
+                state[c] = y[(size_t)((first) + c) * m + i];                                                 \
             }                                                                                                \
             name##_scalar(state, slope, problem->parameters);                                                \
-            for (int c = 0; c < HALF; c++) {                                                                 \
+            for (int c = 0; c < (count); c++) {                                                              \
                 f[(size_t)c * m + i] = slope[c];                                                             \
             }                                                                                                \
         }                                                                                                    \
     }
-GM_HALF_OF(velocity, HALF)
-GM_HALF_OF(force, 0)
+GM_OVER_MEMBERS(field, 0, GM_COMPONENTS)
+#if defined(GM_SEPARABLE) && defined(GM_LOOP_NONE)
+GM_OVER_MEMBERS(velocity, GM_COMPONENTS / 2, GM_COMPONENTS / 2)
+GM_OVER_MEMBERS(force, 0, GM_COMPONENTS / 2)
 #endif
 
 #ifndef GM_WITHOUT_JACOBIAN

@@ -4,12 +4,7 @@
    with the loops of these schemes. The family has no rows: they are user-defined. Hairer, Lubich & Wanner (2006), sections II.4, V.3. */
 #include "core/ode/families/composition.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/kind.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
+#include "core/ode/families/family.h"
 
 /* The states between two substeps go back and forth between the run's and this one. */
 struct workspace {

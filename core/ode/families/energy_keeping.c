@@ -10,16 +10,7 @@
    The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15. Both are solved for d
    to round-off by fixed-point iteration, and if that does not contract by Newton's method with the
    Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/compositions.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { NODES = 8 };
 

@@ -12,26 +12,52 @@
    J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; S.M. Cox & P.C. Matthews, J. Comput. Phys. 176 (2002) 430;
    M. Hochbruck & A. Ostermann, Acta Numerica 19 (2010) 209. */
 #include <complex.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
 #include "core/linear/complex_matrix.h"
-#include "core/linear/modes.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/linear/fourier.h"
+#include "core/ode/families/family.h"
 
 enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
 
-/* A stage, or the end, is F y0 + h sum_j M_j N_j: of a mode the matrices F, M_0 .. M_(stages - 1). */
+/* A stage, or the end, is F y0 + h sum_j M_j N_j: of a mode the matrices F, M_0 .. M_(stages - 1). They are sums of
+   multiples of the unit matrix and of phi_k of z = h L, WHOLE + k, and of z/2, HALF + k. */
 enum { PER_STAGE = STAGES + 1 };
+enum { UNIT, WHOLE, HALF = WHOLE + GM_PHI_MOST, MATRICES = HALF + GM_PHI_MOST };
 struct exponential {
     size_t stages; /* evaluations of N */
-    /* Computes the n * n matrices of row 1 .. stages (the end) on one mode; matrices that stay 0 are not
-       touched. whole: exp(z) and phi_1 .. phi_3 of z = h L; half: of z/2. */
-    void (*rows)(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
-                 double complex (*row)[PER_STAGE][SIZE]);
+    const struct term {
+        double factor; /* 0: the end of the list */
+        size_t of, row, column;
+    } * terms;
+};
+
+static const struct term euler_terms[] = {{1, WHOLE, 0, 0}, {1, WHOLE + 1, 0, 1}, {0}};
+static const struct term lawson_terms[] = {
+    {1, HALF, 0, 0},      {0.5, HALF, 0, 1},    {1, HALF, 1, 0},      {0.5, UNIT, 1, 2},
+    {1, WHOLE, 2, 0},     {1, HALF, 2, 3},      {1, WHOLE, 3, 0},     {1. / 6, WHOLE, 3, 1},
+    {1. / 3, HALF, 3, 2}, {1. / 3, HALF, 3, 3}, {1. / 6, UNIT, 3, 4}, {0},
+};
+/* psi (E - 1) = phi_1(h L) - phi_1(h L/2), as E phi_1(h L/2) = 2 phi_1(h L) - phi_1(h L/2) */
+static const struct term etd_terms[] = {
+    {1, HALF, 0, 0},
+    {0.5, HALF + 1, 0, 1},
+    {1, HALF, 1, 0},
+    {0.5, HALF + 1, 1, 2},
+    {1, WHOLE, 2, 0},
+    {1, WHOLE + 1, 2, 1},
+    {-1, HALF + 1, 2, 1},
+    {1, HALF + 1, 2, 3},
+    {1, WHOLE, 3, 0},
+    {1, WHOLE + 1, 3, 1},
+    {-3, WHOLE + 2, 3, 1},
+    {4, WHOLE + 3, 3, 1},
+    {2, WHOLE + 2, 3, 2},
+    {-4, WHOLE + 3, 3, 2},
+    {2, WHOLE + 2, 3, 3},
+    {-4, WHOLE + 3, 3, 3},
+    {-1, WHOLE + 2, 3, 4},
+    {4, WHOLE + 3, 3, 4},
+    {0},
 };
 
 /* to += factor from, for `size` numbers */
@@ -39,65 +65,6 @@ static void add_vector(size_t size, double factor, const double complex *from, d
 {
     for (size_t i = 0; i < size; i++) {
         to[i] += factor * from[i];
-    }
-}
-
-/* to += factor from, of n * n matrices */
-static void add(size_t n, double factor, const double complex *from, double complex *to)
-{
-    add_vector(n * n, factor, from, to);
-}
-
-/* to += factor times the unit matrix */
-static void add_unit(size_t n, double factor, double complex *to)
-{
-    for (size_t i = 0; i < n; i++) {
-        to[i * (n + 1)] += factor;
-    }
-}
-
-static void euler_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
-                       double complex (*row)[PER_STAGE][SIZE])
-{
-    (void)half;
-    add(n, 1, whole[0], row[0][0]);
-    add(n, 1, whole[1], row[0][1]);
-}
-
-static void lawson_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
-                        double complex (*row)[PER_STAGE][SIZE])
-{
-    add(n, 1, half[0], row[0][0]);
-    add(n, 0.5, half[0], row[0][1]);
-    add(n, 1, half[0], row[1][0]);
-    add_unit(n, 0.5, row[1][2]);
-    add(n, 1, whole[0], row[2][0]);
-    add(n, 1, half[0], row[2][3]);
-    add(n, 1, whole[0], row[3][0]);
-    add(n, 1. / 6, whole[0], row[3][1]);
-    add(n, 1. / 3, half[0], row[3][2]);
-    add(n, 1. / 3, half[0], row[3][3]);
-    add_unit(n, 1. / 6, row[3][4]);
-}
-
-/* psi (E - 1) = phi_1(h L) - phi_1(h L/2), as E phi_1(h L/2) = 2 phi_1(h L) - phi_1(h L/2) */
-static void etd_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
-                     double complex (*row)[PER_STAGE][SIZE])
-{
-    add(n, 1, half[0], row[0][0]);
-    add(n, 0.5, half[1], row[0][1]);
-    add(n, 1, half[0], row[1][0]);
-    add(n, 0.5, half[1], row[1][2]);
-    add(n, 1, whole[0], row[2][0]);
-    add(n, 1, whole[1], row[2][1]);
-    add(n, -1, half[1], row[2][1]);
-    add(n, 1, half[1], row[2][3]);
-    static const double weights[STAGES][3] = {{1, -3, 4}, {0, 2, -4}, {0, 2, -4}, {0, -1, 4}};
-    add(n, 1, whole[0], row[3][0]);
-    for (size_t j = 0; j < STAGES; j++) {
-        for (size_t k = 0; k < 3; k++) {
-            add(n, weights[j][k], whole[k + 1], row[3][j + 1]);
-        }
     }
 }
 
@@ -109,68 +76,48 @@ struct work {
     double complex *state, *rest, *stage;
 };
 
-static void workspace_close(void *workspace)
+static void close_modes(void *modes)
 {
-    struct gm_members *members = workspace;
-    struct work *work = members->family;
-    if (work) {
-        gm_modes_close(&work->modes);
-        free(work->matrices);
-        free(work->state);
-    }
-    free(work);
-    free(members);
+    gm_modes_close(modes);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void *open_work(struct gm_members *members, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme)
 {
     const struct exponential *row = scheme->coefficients;
     const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields, points = n / fields;
-    struct gm_members *members = gm_members_open(problem, 0, n);
-    struct work *work = calloc(1, sizeof *work);
-    if (!members || !work) {
-        free(members);
-        free(work);
-        return NULL;
-    }
-    members->family = work;
+    struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
+    gm_arena_keep(members->arena, &work->modes, close_modes);
+    gm_arena_need(members->arena, gm_modes_open(&work->modes, points, fields));
     work->matrices =
-        malloc(gm_modes_half(points) * row->stages * PER_STAGE * fields * fields * sizeof *work->matrices);
-    work->state = malloc((2 + row->stages) * n * sizeof *work->state);
-    if (!gm_modes_open(&work->modes, points, fields) || !work->matrices || !work->state) {
-        workspace_close(members);
-        return NULL;
-    }
+        gm_arena_take(members->arena, gm_modes_half(points) * row->stages * PER_STAGE * fields * fields,
+                      sizeof *work->matrices);
+    work->state = gm_arena_take(members->arena, (2 + row->stages) * n, sizeof *work->state);
     work->stage = work->state + n;
     work->rest = work->stage + n;
-    return members;
+    return work;
 }
 
 static void make_matrices(const struct gm_task *task, struct work *work)
 {
     const struct exponential *row = task->scheme->coefficients;
     const struct gm_semilinear *semilinear = gm_ode_of(task->problem)->semilinear;
-    const size_t fields = work->modes.fields, size = fields * fields;
+    const size_t fields = work->modes.fields, size = fields * fields, each = row->stages * PER_STAGE * size;
     double complex *to = work->matrices;
-    for (size_t mode = 0; mode < gm_modes_half(work->modes.points); mode++) {
-        double complex z[2][SIZE], packed[GM_PHI_MOST * SIZE], phi[2][GM_PHI_MOST][SIZE];
-        double complex made[STAGES][PER_STAGE][SIZE] = {0};
+    for (size_t mode = 0; mode < gm_modes_half(work->modes.points); mode++, to += each) {
+        double complex z[2][SIZE], of[MATRICES * SIZE] = {0};
         semilinear->symbol(task->problem, mode, z[0]);
         for (size_t i = 0; i < size; i++) {
+            of[UNIT * size + i] = i % (fields + 1) == 0;
             z[0][i] *= task->dt;
             z[1][i] = z[0][i] / 2;
         }
-        for (size_t part = 0; part < 2; part++) {
-            gm_complex_phi(fields, z[part], GM_PHI_MOST, packed);
-            for (size_t k = 0; k < GM_PHI_MOST; k++) {
-                memcpy(phi[part][k], packed + k * size, size * sizeof *packed);
-            }
-        }
-        row->rows(fields, phi[0], phi[1], made);
-        for (size_t stage = 0; stage < row->stages; stage++) {
-            for (size_t j = 0; j < PER_STAGE; j++, to += size) {
-                memcpy(to, made[stage][j], size * sizeof *to);
-            }
+        gm_complex_phi(fields, z[0], GM_PHI_MOST, of + WHOLE * size);
+        gm_complex_phi(fields, z[1], GM_PHI_MOST, of + HALF * size);
+        memset(to, 0, each * sizeof *to);
+        for (const struct term *term = row->terms; term->factor != 0; term++) {
+            add_vector(size, term->factor, of + term->of * size,
+                       to + (term->row * PER_STAGE + term->column) * size);
         }
     }
     work->dt = task->dt;
@@ -219,7 +166,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static const struct exponential euler = {1, euler_rows}, lawson = {4, lawson_rows}, etd = {4, etd_rows};
+static const struct exponential euler = {1, euler_terms}, lawson = {4, lawson_terms}, etd = {4, etd_terms};
 
 #define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR
 
@@ -230,12 +177,6 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_exponential = {
-    .kind = &gm_kind_ode,
     .title = "exponential Runge-Kutta",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_members_loop,
-    .members = &(const struct gm_member_family){.step = step},
-    .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    GM_MEMBERS(.step = step, .open = open_work, .vectors = 1),
 };

@@ -6,18 +6,11 @@
    The multistep methods choose order and step themselves, so for them 0 means 1e-8; they store their past,
    and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
    equations". */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "core/basics.h"
 #include "core/memory.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 /* default tolerance of the multistep methods */
 #define STANDARD_TOLERANCE 1e-8
@@ -236,10 +229,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_gsl_steppers = {
-    .kind = &gm_kind_ode,
     .title = "GSL steppers",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_tolerance,
     .loop = loop,
     .workspace_open = workspace_open,

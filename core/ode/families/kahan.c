@@ -4,13 +4,7 @@
    Products u v of the field become (u0 v1 + u1 v0)/2, which is linearly implicit and its own adjoint.
    W. Kahan, Unconventional numerical methods for trajectory calculations (1993); E. Celledoni,
    R.I. McLachlan, B. Owren & G.R.W. Quispel, J. Phys. A 46 (2013) 025201. */
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)

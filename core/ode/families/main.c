@@ -17,7 +17,7 @@
 #include "core/expression/lines.h"
 #include "core/files/generated.h"
 #include "core/scheme.h"
-#include "core/theory/written_scheme.h"
+#include "core/model/written_scheme.h"
 
 static void put_numbers(FILE *out, const struct gm_written_number *numbers, int count)
 {
@@ -40,21 +40,37 @@ static void put_tableau(FILE *out, const struct gm_written_scheme *scheme)
     fputs(", .composition = &gm_composition_none", out);
 }
 
+static void put_piece(FILE *out, int i, bool kick, double fraction)
+{
+    fprintf(out, "%s{%s, %a}", i ? ", " : "", kick ? "GM_KICK" : "GM_DRIFT", fraction);
+}
+
 static void put_pieces(FILE *out, const struct gm_written_scheme *scheme)
 {
     const struct gm_written_line *drifts = &scheme->lines[GM_SCHEME_WORD_DRIFTS],
                                  *kicks = &scheme->lines[GM_SCHEME_WORD_KICKS];
     const int count = drifts->columns + kicks->columns;
-    fprintf(out, ".splitting = {%d, {", count);
+    fprintf(out, "%d, {", count);
     for (int i = 0; i < count; i++) {
         const bool kick = (i % 2 == 0) == scheme->kick_first;
-        fprintf(out, "%s{%s, %a}", i ? ", " : "", kick ? "GM_KICK" : "GM_DRIFT",
-                (kick ? kicks : drifts)->numbers[i / 2].value);
+        put_piece(out, i, kick, (kick ? kicks : drifts)->numbers[i / 2].value);
     }
-    fputs("}}", out);
-    if (scheme->lines[GM_SCHEME_WORD_CORRECTOR].said) {
-        fprintf(out, ", .corrector = %a", scheme->lines[GM_SCHEME_WORD_CORRECTOR].numbers[0].value);
+    fputs("}", out);
+}
+
+/* A composition of Verlet's method (kick, drift, kick) with neighbouring kicks merged. */
+static void put_pieces_of_verlet(FILE *out, const struct gm_written_line *steps)
+{
+    double before = 0;
+    fprintf(out, "%d, {", 2 * steps->columns + 1);
+    for (int i = 0; i < steps->columns; i++) {
+        const double fraction = steps->numbers[i].value;
+        put_piece(out, i, true, (before + fraction) / 2);
+        put_piece(out, 1, false, fraction);
+        before = fraction;
     }
+    put_piece(out, 1, true, before / 2);
+    fputs("}", out);
 }
 
 /* The steps of a symmetric composition, as far as the middle one. */
@@ -156,12 +172,15 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
     }
     fprintf(out, "GM_SCHEME_ROW(%s, ", identifier);
     if (of_verlet) {
-        fprintf(out, ".of_verlet = &gm_composition_%s", identifier);
+        put_pieces_of_verlet(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
     } else if (of_midpoint) {
         fputs(".stages = 1, .a = {{0.5}}, .b = {1}, .composition = &(const struct gm_composition)", out);
         put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
+    } else if (corrector->said) {
+        fputs(".splitting = {", out);
+        put_pieces(out, scheme);
+        fprintf(out, "}, .corrector = %a", corrector->numbers[0].value);
     } else if (splitting) {
-        fputs(corrector->said ? ".row" : "", out);
         put_pieces(out, scheme);
     } else {
         put_tableau(out, scheme);

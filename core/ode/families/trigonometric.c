@@ -8,13 +8,7 @@
        Gautschi                     1          sinc^2(x/2) / sinc(x)    sinc^2(x/2)
    The memory is g(phi q) at the end of the step, which the next one begins with. Hairer, Lubich & Wanner
    (2006), sections XIII.1 to XIII.2. */
-#include <math.h>
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum filter { MOLLIFIED, GAUTSCHI };
 static const enum filter mollified = MOLLIFIED, gautschi = GAUTSCHI;

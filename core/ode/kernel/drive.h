@@ -6,13 +6,16 @@
                         mask step(const GM_ROW *, struct block *, double h, const void *parameters,
                                   bool compensated, bool stiff, struct counts *)
        GM_ABREAST   number of blocks that make their steps side by side, so that their chains of operations
-                    do not wait for each other
+                    do not wait for each other; 1 if it is not defined
        GM_PRIME     optional: the preparation of a block before its first step:
                         void prime(struct block *, const void *parameters, struct counts *)
        GM_QUICK     defined if a step is short: few steps of an ensemble then have their own function
    Each block makes all steps in registers. Failures are tested every GM_BURST steps only; then the burst is
    repeated step by step, so the step that failed is found exactly, however the calls divide the run. */
 
+#ifndef GM_ABREAST
+#define GM_ABREAST 1
+#endif
 #ifndef GM_PRIME
 #define GM_PRIME(block, parameters, counts)
 #endif

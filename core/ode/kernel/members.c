@@ -8,20 +8,6 @@
 
 #include "core/ode/kernel/loops.h"
 
-struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch)
-{
-    struct gm_members *members =
-        calloc(1, sizeof *members + (2 * problem->n + remembered + scratch) * sizeof(double));
-    if (members) {
-        members->n = problem->n;
-        members->remembered = remembered;
-        members->y = members->storage;
-        members->memory = members->y + problem->n;
-        members->scratch = members->memory + remembered + problem->n; /* a carry between */
-    }
-    return members;
-}
-
 static void gather(const double *from, double *to, size_t count, size_t m, size_t member)
 {
     for (size_t c = 0; c < count; c++) {
@@ -52,14 +38,46 @@ size_t gm_members_memory(const struct gm_problem *problem, const struct gm_schem
     return (members->remembered + members->halves * (problem->n / 2)) * problem->m;
 }
 
+/* The arguments of the body that opens a workspace. */
+struct opening {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    struct gm_members *members;
+};
+
+static void open_members(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    const struct gm_problem *problem = opening->problem;
+    const struct gm_family *family = opening->scheme->family;
+    const struct gm_member_family *own = family->members;
+    const size_t remembered = family->memory ? family->memory(problem, opening->scheme) / problem->m : 0;
+    const size_t n = problem->n, scratch = own->room ? own->room(problem, opening->scheme)
+                                                     : (own->vectors + own->squares * n) * n;
+    struct gm_members *members = opening->members = gm_arena_take(arena, 1, sizeof *members);
+    *members = (struct gm_members){.n = n,
+                                   .remembered = remembered,
+                                   .arena = arena,
+                                   .y = gm_arena_take(arena, 2 * n + remembered + scratch, sizeof(double))};
+    members->memory = members->y + n;
+    members->scratch = members->memory + remembered + n; /* a carry between */
+    members->family = own->open ? own->open(members, problem, opening->scheme) : NULL;
+}
+
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_family *family = scheme->family;
-    const struct gm_member_family *members = family->members;
-    const size_t remembered = family->memory ? family->memory(problem, scheme) / problem->m : 0;
-    const size_t n = problem->n, scratch = members->room ? members->room(problem, scheme)
-                                                         : (members->vectors + members->squares * n) * n;
-    return gm_members_open(problem, remembered, scratch);
+    struct opening opening = {problem, scheme, NULL};
+    struct gm_arena *arena = gm_arena_open();
+    if (!gm_arena_run(arena, open_members, &opening)) {
+        gm_arena_close(arena);
+        return NULL;
+    }
+    return opening.members;
+}
+
+void gm_members_close(void *members)
+{
+    gm_arena_close(((struct gm_members *)members)->arena);
 }
 
 struct gm_progress gm_members_loop(const struct gm_task *task)

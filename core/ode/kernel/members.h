@@ -2,6 +2,7 @@
 #ifndef GM_CORE_ODE_KERNEL_MEMBERS_H
 #define GM_CORE_ODE_KERNEL_MEMBERS_H
 
+#include "core/arena.h"
 #include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
 #include "core/scheme.h"
@@ -15,17 +16,13 @@ size_t gm_matrix_size(const struct gm_problem *problem); /* n * n, or 0 */
 /* The workspace: one member's state and memory, and scratch for the step. */
 struct gm_members {
     size_t n, remembered;
-    double *y;       /* n */
-    double *memory;  /* remembered */
-    double *carry;   /* n, the compensation of the sums; NULL: plain */
-    double *scratch; /* scratch of the requested size */
-    void *family;    /* data that the family opens and closes; or NULL */
-    double storage[];
+    double *y;              /* n */
+    double *memory;         /* remembered */
+    double *carry;          /* n, the compensation of the sums; NULL: plain */
+    double *scratch;        /* scratch of the requested size */
+    void *family;           /* what the family's `open` returned; or NULL */
+    struct gm_arena *arena; /* owns all of this */
 };
-
-/* Returns a workspace for one member with `remembered` doubles of memory and `scratch` doubles of scratch;
-   the caller frees. NULL when out of memory. */
-struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch);
 
 /* Makes one step of one member: changes members->y and members->memory in place. Returns the reason of a
    failure. */
@@ -40,6 +37,9 @@ struct gm_member_family {
     size_t vectors, squares; /* the scratch is this number of states, and of n * n matrices */
     /* the scratch in doubles; NULL: as above */
     size_t (*room)(const struct gm_problem *problem, const struct gm_scheme *scheme);
+    /* Opens what the family has besides, members->family, in the body of the arena; NULL: nothing. */
+    void *(*open)(struct gm_members *members, const struct gm_problem *problem,
+                  const struct gm_scheme *scheme);
     bool evaluated_at_start; /* the start evaluates a force, which the first steps count */
 };
 
@@ -48,17 +48,29 @@ struct gm_member_family {
 struct gm_progress gm_members_loop(const struct gm_task *task);
 size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_members_close(void *members);
 
 /* The fields of a struct gm_family that every such family has, with those of its struct gm_member_family. */
 #define GM_MEMBERS_OF_NO_ROWS(...)                                                                           \
-    .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = free,                \
+    .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = gm_members_close,    \
     .members = &(const struct gm_member_family)                                                              \
     {                                                                                                        \
         __VA_ARGS__                                                                                          \
     }
-#define GM_MEMBERS(...)                                                                                      \
-    .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
+/* The kind, and the rows of a list `schemes`. */
+#define GM_ROWS .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
+#define GM_MEMBERS(...) GM_ROWS, GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
 #define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
+
+/* Adds a step to the time that a scheme with its own steps has reached, by a compensated sum. Returns
+   GM_STEP_COLLAPSE if it changes nothing. */
+static inline enum gm_status gm_members_pass(struct gm_progress *progress, double h, double *carry)
+{
+    const double before = progress->t, whole = *carry + h;
+    progress->t += whole;
+    *carry = whole + (before - progress->t);
+    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+}
 
 /* Writes the Jacobian of f at y, n * n by rows; false if the problem has none, or it would be too large a
    matrix. */

@@ -71,11 +71,10 @@ GM_INLINE bool K(somewhere_beyond)(bool farthest, double limit)
 {
     return (void)limit, farthest;
 }
-#define GM_OF_EACH(name, function)                                                                           \
-    GM_INLINE double K(name)(double x)                                                                       \
-    {                                                                                                        \
-        return function(x);                                                                                  \
-    }
+GM_INLINE double K(root)(double x)
+{
+    return sqrt(x);
+}
 GM_INLINE bool K(everywhere)(bool which)
 {
     return which;
@@ -111,10 +110,6 @@ GM_INLINE bool K(other)(bool which)
 GM_INLINE bool K(both)(bool a, bool b)
 {
     return a && b;
-}
-GM_INLINE bool K(either)(bool a, bool b)
-{
-    return a || b;
 }
 
 #else
@@ -181,14 +176,13 @@ GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
     }
     return any < 0;
 }
-#define GM_OF_EACH(name, function)                                                                           \
-    GM_INLINE gm_lanes K(name)(gm_lanes x)                                                                   \
-    {                                                                                                        \
-        for (int i = 0; i < GM_WIDTH; i++) {                                                                 \
-            x[i] = function(x[i]);                                                                           \
-        }                                                                                                    \
-        return x;                                                                                            \
+GM_INLINE gm_lanes K(root)(gm_lanes x)
+{
+    for (int i = 0; i < GM_WIDTH; i++) {
+        x[i] = sqrt(x[i]);
     }
+    return x;
+}
 GM_INLINE bool K(everywhere)(gm_lanes_mask which)
 {
     int64_t all = -1;
@@ -233,18 +227,5 @@ GM_INLINE gm_lanes_mask K(both)(gm_lanes_mask a, gm_lanes_mask b)
 {
     return a & b;
 }
-GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b)
-{
-    return a | b;
-}
 
 #endif
-
-/* The functions of the mathematical library that kernels may call: the same numbers in both passes, lane by
-   lane. */
-GM_OF_EACH(root, sqrt)
-GM_OF_EACH(sine, sin)
-GM_OF_EACH(cosine, cos)
-GM_OF_EACH(exponential, exp)
-GM_OF_EACH(logarithm, log)
-#undef GM_OF_EACH

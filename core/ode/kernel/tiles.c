@@ -84,37 +84,25 @@ struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row,
     const struct gm_loops *loops = gm_ode_of(task->problem)->loops[gm_isa_best()];
     const size_t n = task->problem->n, m = task->problem->m;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    if (tiles->members == m) {
-        struct gm_tile tile = {.loops = loops,
-                               .row = row,
-                               .members = m,
-                               .y = task->out,
-                               .carry = task->carry ? task->carry_out : NULL,
-                               .scratch = tiles->scratch,
-                               .shared = tiles->shared};
-        copy(task->y, m, tile.y, m, n, m);
-        if (tile.carry) {
-            copy(task->carry, m, tile.carry, m, n, m);
-        }
-        advance(task, step, &tile, &progress);
-        return progress;
-    }
+    const bool whole = tiles->members == m;
     for (size_t first = 0; first < m; first += tiles->members) {
         const size_t count = m - first < tiles->members ? m - first : tiles->members;
         struct gm_tile tile = {.loops = loops,
                                .row = row,
                                .members = count,
-                               .y = tiles->y,
-                               .carry = task->carry ? tiles->carry : NULL,
+                               .y = whole ? task->out : tiles->y,
                                .scratch = tiles->scratch,
                                .shared = tiles->shared};
         copy(task->y + first, m, tile.y, count, n, count);
-        if (tile.carry) {
+        if (task->carry) {
+            tile.carry = whole ? task->carry_out : tiles->carry;
             copy(task->carry + first, m, tile.carry, count, n, count);
         }
         advance(task, step, &tile, &progress);
-        copy(tile.y, count, task->out + first, m, n, count);
-        if (tile.carry) {
+        if (!whole) {
+            copy(tile.y, count, task->out + first, m, n, count);
+        }
+        if (!whole && tile.carry) {
             copy(tile.carry, count, task->carry_out + first, m, n, count);
         }
     }

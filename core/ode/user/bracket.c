@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The structure of a Poisson system: a bracket of angular momenta, if it is one, and the pieces of the energy
    whose flows are exact. */
-#include "core/ode/user/bracket.h"
+#include "core/ode/user/data.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/ode/kernel/members.h"
 
 /* ---- angular momenta ---- */
@@ -63,13 +62,13 @@ static bool are_spins(struct gm_user_system *system, bool negative)
     return same;
 }
 
-static void find_turning(struct gm_user_bracket_model *model, struct gm_user_system *system)
+static void find_turning(struct gm_user_bracket *model, struct gm_user_system *system)
 {
-    for (int negative = 1; negative >= 0 && model->turning == 0; negative--) {
+    for (int negative = 1; negative >= 0 && model->facet.turning == 0; negative--) {
         const bool spins = are_spins(system, negative);
         if (spins || is_top(system, negative)) {
-            model->turning = negative ? 1 : -1;
-            model->spins = spins ? system->n / 3 : 0;
+            model->facet.turning = negative ? 1 : -1;
+            model->facet.spins = spins ? system->n / 3 : 0;
         }
     }
 }
@@ -161,8 +160,8 @@ static bool find_groups(const struct gm_user_system *system, const gm_node_id *g
 }
 
 /* Opens the rates of one group. Returns false if they are not linear in the components that move. */
-static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                       struct gm_user_system *system, const size_t *group, size_t which)
+static bool open_piece(struct gm_arena *arena, struct gm_user_bracket *model, struct gm_user_system *system,
+                       const size_t *group, size_t which)
 {
     struct gm_formula *graph = &system->graph;
     const size_t n = system->n;
@@ -176,12 +175,12 @@ static bool open_piece(struct gm_arena *arena, struct gm_user_bracket_model *mod
             }
         }
     }
-    return gm_linear_flow_derive(arena, &model->pieces[model->piece_count++], graph, rates, n,
+    return gm_linear_flow_derive(arena, &model->pieces[model->facet.pieces++], graph, rates, n,
                                  system->variable_count);
 }
 
-static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                        struct gm_user_system *system, const bool *holds)
+static void find_pieces(struct gm_arena *arena, struct gm_user_bracket *model, struct gm_user_system *system,
+                        const bool *holds)
 {
     const size_t n = system->n;
     size_t group[GM_NEWTON_LARGEST];
@@ -191,16 +190,64 @@ static void find_pieces(struct gm_arena *arena, struct gm_user_bracket_model *mo
     model->pieces = gm_arena_take(arena, n, sizeof *model->pieces);
     for (size_t i = 0; i < n; i++) {
         if (group[i] == i && !open_piece(arena, model, system, group, i)) {
-            model->piece_count = 0;
+            model->facet.pieces = 0;
             return;
         }
     }
 }
 
-void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_model *model,
-                                struct gm_user_system *system)
+/* ---- with values ---- */
+
+static double energy(const struct gm_problem *problem, const double *y)
 {
-    *model = (struct gm_user_bracket_model){.system = system};
+    double value;
+    gm_user_values(problem, GM_KERNEL_ENERGY, y, &value, 1);
+    return value;
+}
+
+static void gradient(const struct gm_problem *problem, const double *y, double *slopes)
+{
+    gm_user_values(problem, GM_USER_GRADIENT, y, slopes, 1);
+}
+
+static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    gm_user_values(problem, GM_USER_BRACKET, y, matrix, 1);
+}
+
+static void flow(const struct gm_problem *problem, size_t piece, double h, double *y)
+{
+    struct gm_user_data *data = gm_user_data_of(problem);
+    double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], scratch[3 * GM_NEWTON_LARGEST];
+    gm_late_tape_values(&data->pieces[piece], y, values, 1);
+    gm_linear_flow_advance(&data->model->bracket.pieces[piece], h, values, scratch, y);
+}
+
+/* The moments of inertia of a body that nothing turns: slopes that are linear, each of its own component. */
+static void find_moments(struct gm_poisson *poisson, const struct gm_problem *problem)
+{
+    double at[3] = {0}, slopes[3], moments[3];
+    if (problem->n != 3 || poisson->turning == 0 || !poisson->axes || !gm_ode_of(problem)->quadratic) {
+        return;
+    }
+    gradient(problem, at, slopes);
+    bool linear = slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
+    for (int i = 0; i < 3; i++) {
+        at[i] = 1;
+        gradient(problem, at, slopes);
+        moments[i] = 1 / slopes[i];
+        linear = linear && slopes[i] != 0 && isfinite(moments[i]);
+    }
+    if (linear) {
+        memcpy(poisson->moments, moments, sizeof moments);
+    }
+}
+
+void gm_user_bracket_derive(struct gm_arena *arena, struct gm_user_bracket *model,
+                            struct gm_user_system *system)
+{
+    *model = (struct gm_user_bracket){
+        .facet = {.energy = energy, .gradient = gradient, .bracket = bracket, .flow = flow}};
     if (system->kind != GM_POISSON || system->timed) {
         return;
     }
@@ -213,37 +260,27 @@ void gm_user_bracket_model_open(struct gm_arena *arena, struct gm_user_bracket_m
         arena, gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient));
     find_parts(arena, system, model->gradient, holds);
     find_turning(model, system);
-    model->axes = is_sum_over_axes(n, holds);
+    model->facet.axes = is_sum_over_axes(n, holds);
     find_pieces(arena, model, system, holds);
 }
 
-/* ---- with values ---- */
-
-void gm_user_bracket_open(struct gm_arena *arena, struct gm_user_bracket *bracket,
-                          const struct gm_user_bracket_model *model, const double *values)
+void gm_user_bracket_open(const struct gm_problem *problem)
 {
-    const struct gm_user_system *system = model->system;
-    const struct gm_formula *graph = &system->graph;
+    struct gm_user_data *data = gm_user_data_of(problem);
+    const struct gm_user_bracket *model = &data->model->bracket;
+    const struct gm_user_system *system = data->model->system;
     const size_t n = system->n;
-    *bracket = (struct gm_user_bracket){
-        .model = model, .pieces = gm_arena_take(arena, model->piece_count, sizeof *bracket->pieces)};
-    gm_tape_keep(arena, &bracket->energy,
-                 gm_tape_open(&bracket->energy, graph, &system->energy, 1, n, values));
-    gm_tape_keep(arena, &bracket->gradient,
-                 gm_tape_open(&bracket->gradient, graph, model->gradient, n, n, values));
-    gm_tape_keep(arena, &bracket->matrix,
-                 gm_tape_open(&bracket->matrix, graph, system->bracket, n * n, n, values));
-    for (size_t i = 0; i < model->piece_count; i++) {
-        const struct gm_linear_flow *piece = &model->pieces[i];
-        gm_tape_keep(
-            arena, &bracket->pieces[i],
-            gm_tape_open(&bracket->pieces[i], graph, piece->nodes, n + piece->slopes.count, n, values));
+    if (!model->gradient) {
+        return;
     }
-}
-
-void gm_user_bracket_flow(const struct gm_user_bracket *bracket, size_t piece, double h, double *y)
-{
-    double values[GM_NEWTON_LARGEST * (GM_NEWTON_LARGEST + 1)], scratch[3 * GM_NEWTON_LARGEST];
-    gm_tape_values(&bracket->pieces[piece], y, values, 1);
-    gm_linear_flow_advance(&bracket->model->pieces[piece], h, values, scratch, y);
+    data->poisson = model->facet;
+    data->ode.poisson = &data->poisson;
+    data->pieces = gm_arena_take(data->arena, model->facet.pieces, sizeof *data->pieces);
+    gm_user_compile(data, &data->tapes[GM_USER_GRADIENT], model->gradient, n, n);
+    gm_user_compile(data, &data->tapes[GM_USER_BRACKET], system->bracket, n * n, n);
+    for (size_t i = 0; i < model->facet.pieces; i++) {
+        const struct gm_linear_flow *piece = &model->pieces[i];
+        gm_user_compile(data, &data->pieces[i], piece->nodes, n + piece->slopes.count, n);
+    }
+    find_moments(&data->poisson, problem);
 }

@@ -3,10 +3,10 @@
    have no name. A quantity I is taken if its rate is 0 at all states,
        dI/dt = sum_i dI/dy_i f_i(y) = 0
    for the values of the parameters. */
-#include "core/ode/user/conserved.h"
+#include "core/ode/user/data.h"
 
+#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/model/invariants.h"
@@ -14,25 +14,28 @@
 enum { DEGREE = 4 }; /* up to which invariants are found */
 
 struct naming {
-    const struct gm_user_model *model;
-    const double *values;
+    const struct gm_problem *problem;
+    const struct gm_user_data *data;
     const char *name;
     struct gm_formula *graph;
     gm_node_id node; /* in `graph` */
     char *lacks;
 };
 
-_Noreturn static void refuse(const struct gm_arena *arena, struct naming *naming, const char *lacks)
+_Noreturn __attribute__((format(printf, 3, 4))) static void
+refuse(struct gm_arena *arena, const struct naming *naming, const char *format, ...)
 {
-    snprintf(naming->lacks, GM_FAULT_SENTENCE, "%s", lacks);
-    naming->node = GM_NO_NODE;
-    gm_arena_leave((struct gm_arena *)arena);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(naming->lacks, GM_FAULT_SENTENCE, format, arguments);
+    va_end(arguments);
+    gm_arena_leave(arena);
 }
 
 /* The node in the system's graph; *trusted if its rate was found to be 0 when the system was read. */
 static gm_node_id declared(const struct naming *naming, bool *trusted)
 {
-    const struct gm_user_system *system = naming->model->system;
+    const struct gm_user_system *system = naming->data->model->system;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (gm_system_is_observed(item) && strcmp(item->name, naming->name) == 0 &&
@@ -63,13 +66,14 @@ static gm_node_id found(struct gm_arena *arena, const struct naming *naming, siz
     struct gm_user_system *again = gm_arena_take(arena, 1, sizeof *again);
     struct gm_found_invariants invariants;
     gm_arena_keep(arena, again, close_system);
-    gm_user_system_again(arena, naming->model->system, naming->values, false, again);
+    gm_user_system_again(arena, naming->data->model->system, naming->data->values, false, again);
     gm_invariants_find(again, arena, DEGREE, &invariants);
     for (size_t i = 0; i < invariants.count; i++) {
         const struct gm_found_invariant *invariant = &invariants.list[i];
         number -= !invariant->item && !invariant->energy;
         if (number == 0) {
-            return gm_formula_graft(naming->graph, &again->graph, invariant->node, again->n, naming->values);
+            return gm_formula_graft(naming->graph, &again->graph, invariant->node, again->n,
+                                    naming->data->values);
         }
     }
     return GM_NO_NODE;
@@ -88,71 +92,71 @@ static const char *names_of(struct gm_arena *arena, const struct gm_user_system 
     return names;
 }
 
-static void resolve(struct gm_arena *arena, void *data)
+/* Refuses a quantity unless its rate is 0 at all states. */
+static void check_rate(struct gm_arena *arena, const struct naming *naming)
 {
-    struct naming *naming = data;
-    const struct gm_user_system *system = naming->model->system;
+    const struct gm_user_model *model = naming->data->model;
+    const double *values = naming->data->values;
     struct gm_formula *graph = naming->graph;
-    const double *values = naming->values;
-    const size_t n = system->n;
-    bool trusted = false;
-    const char *word = gm_found_word(system);
-    const size_t letters = strlen(word);
-    char after;
-    size_t number = 0;
-    gm_node_id node = declared(naming, &trusted);
-    if (system->tangents > 0) {
-        refuse(arena, naming, "a motion without tangents, which a correction does not carry along");
-    }
-    if (node != GM_NO_NODE) {
-        naming->node = gm_formula_graft(graph, &system->graph, node, naming->model->components, values);
-        gm_arena_need(arena, naming->node != GM_NO_NODE);
-    } else if (strncmp(naming->name, word, letters) == 0 &&
-               sscanf(naming->name + letters, "%zu%c", &number, &after) == 1) {
-        naming->node = number > 0 ? found(arena, naming, number) : GM_NO_NODE;
-    }
-    if (naming->node == GM_NO_NODE) {
+    const size_t n = naming->problem->n;
+    if (model->system->kind == GM_LAGRANGIAN) {
         refuse(arena, naming,
-               gm_arena_print(
-                   arena,
-                   "an invariant %.40s (there are %.160sand those without a name of list --invariants, "
-                   "%s1, %s2, ...)",
-                   naming->name, names_of(arena, system), word, word));
+               "an invariant %.40s that is proved, which is a line invariant: or symmetry:", naming->name);
     }
-    if (trusted) {
-        return;
-    }
-    if (system->kind == GM_LAGRANGIAN) {
-        refuse(arena, naming,
-               gm_arena_print(arena,
-                              "an invariant %.40s that is proved, which is a line invariant: or symmetry:",
-                              naming->name));
-    }
-    gm_node_id *rates = gm_arena_take(arena, n + 1, sizeof *rates);
-    bool *marked = gm_arena_take(arena, n + 1, sizeof *marked);
-    for (size_t i = 0; i < naming->model->components; i++) {
-        rates[i] = gm_formula_graft(graph, &system->graph, naming->model->rates->nodes[i],
-                                    naming->model->components, values);
+    gm_node_id *rates = gm_arena_take(arena, n, sizeof *rates);
+    for (size_t i = 0; i < n; i++) {
+        rates[i] = gm_formula_graft(graph, &model->system->graph, model->rates->nodes[i], n, values);
         gm_arena_need(arena, rates[i] != GM_NO_NODE);
     }
-    const gm_node_id rate = gm_derivative_along(graph, naming->node, rates, naming->model->components);
+    const gm_node_id rate = gm_derivative_along(graph, naming->node, rates, n);
     gm_arena_need(arena, rate != GM_NO_NODE);
     const enum gm_identity identity = gm_identity_of(graph, rate, NULL, 0);
     if (identity != GM_ZERO_PROVED && identity != GM_ZERO_TESTED) {
         double *all = gm_arena_take(arena, graph->count, sizeof *all);
         gm_formula_evaluate(graph, graph->count, values, all);
         refuse(arena, naming,
-               all[rate] == 0 ? gm_arena_print(arena, "a constant %.40s (its rate is 0 at the start alone)",
-                                               naming->name)
-                              : gm_arena_print(arena, "a constant %.40s (its rate at the start is %.6g)",
-                                               naming->name, all[rate]));
+               all[rate] == 0 ? "a constant %.40s (its rate is 0 at the start alone)"
+                              : "a constant %.40s (its rate at the start is %.6g)",
+               naming->name, all[rate]);
     }
 }
 
-gm_node_id gm_user_conserved(const struct gm_user_model *model, const double *values, const char *named,
-                             struct gm_formula *graph, char lacks[GM_FAULT_SENTENCE])
+static void resolve(struct gm_arena *arena, void *data)
 {
-    struct naming naming = {model, values, named, graph, GM_NO_NODE, lacks};
+    struct naming *naming = data;
+    const struct gm_user_system *system = naming->data->model->system;
+    const char *word = gm_found_word(system);
+    const size_t letters = strlen(word);
+    bool trusted = false;
+    char after;
+    size_t number = 0;
+    const gm_node_id node = declared(naming, &trusted);
+    if (system->tangents > 0) {
+        refuse(arena, naming, "a motion without tangents, which a correction does not carry along");
+    }
+    if (node != GM_NO_NODE) {
+        naming->node =
+            gm_formula_graft(naming->graph, &system->graph, node, naming->problem->n, naming->data->values);
+        gm_arena_need(arena, naming->node != GM_NO_NODE);
+    } else if (strncmp(naming->name, word, letters) == 0 &&
+               sscanf(naming->name + letters, "%zu%c", &number, &after) == 1 && number > 0) {
+        naming->node = found(arena, naming, number);
+    }
+    if (naming->node == GM_NO_NODE) {
+        refuse(
+            arena, naming,
+            "an invariant %.40s (there are %.160sand those without a name of list --invariants, %s1, %s2, ...)",
+            naming->name, names_of(arena, system), word, word);
+    }
+    if (!trusted) {
+        check_rate(arena, naming);
+    }
+}
+
+gm_node_id gm_user_conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                             char *lacks)
+{
+    struct naming naming = {problem, gm_user_data_of(problem), name, graph, GM_NO_NODE, lacks};
     struct gm_arena *arena = gm_arena_open();
     lacks[0] = '\0';
     const bool good = gm_arena_run(arena, resolve, &naming);

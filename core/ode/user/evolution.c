@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/linear/modes.h"
+#include "core/linear/fourier.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/tape.h"

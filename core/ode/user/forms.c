@@ -10,10 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/form/generators.h"
 #include "core/form/values.h"
 #include "core/linear/cholesky.h"
 #include "core/ode/kernel/loops.h"
+#include "core/user/line.h"
 
 struct own {
     struct gm_ode facets;
@@ -21,11 +23,12 @@ struct own {
     struct gm_loops loops;
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
+    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
     pthread_mutex_t turn;       /* one call after another */
-    size_t half;                /* of the state, if it splits: forms of the first group are padded to it */
+    size_t n, half;             /* of the state, if it splits: forms of the first group are padded to it */
     size_t *offset;             /* of each form in the state, or among the unknowns */
     double **forms;             /* where each form is */
     size_t unknowns;
@@ -33,14 +36,13 @@ struct own {
     double *given;             /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
     double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
-    bool solved, observes;
+    bool observes;
     struct gm_matrix matrix;
     struct gm_cholesky *factor; /* NULL: LU for each solve */
-    double sign;                /* of the factor's matrix */
+    double sign;                /* that the matrix was multiplied by, but for pinned rows */
     double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
     int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
-    size_t pieces;
-    double *defect; /* of each piece */
+    double *defect;             /* of each form */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -53,15 +55,62 @@ static struct gm_form_type type_of(const struct gm_user_system *system, size_t f
     return (struct gm_form_type){system->forms[form].degree, system->forms[form].dual};
 }
 
+static size_t size_of(const struct own *own, size_t form)
+{
+    return gm_form_size(own->space.complex, type_of(own->model->system, form));
+}
+
+/* The areas of the cells of forms of degree 0. */
+static const double *cells_of(const struct own *own, bool dual)
+{
+    return dual ? own->space.complex->area : own->space.complex->star0;
+}
+
 /* ---- the model ---- */
 
-static bool compile_forms(struct gm_form_model *model, struct gm_form_root *roots, struct gm_fault *fault)
+/* The body of the system's arena that compiles. */
+struct compiling {
+    struct gm_form_model *model;
+    struct gm_fault *fault;
+};
+
+static void compile(const struct compiling *compiling, struct gm_form_program *program,
+                    const struct gm_form_root *roots, size_t count, bool linear)
 {
+    struct gm_user_system *system = compiling->model->system;
+    gm_arena_need(system->arena, gm_form_compile(program, system, roots, count, linear, compiling->fault));
+}
+
+/* Refuses steps that need more than they may. */
+static void limit(const struct compiling *compiling, const struct gm_form_program *program, unsigned needs,
+                  const struct gm_form_root *roots, const char *sentence)
+{
+    for (size_t i = 0; i < program->count; i++) {
+        if (program->steps[i].needs & needs) {
+            gm_arena_need(compiling->model->system->arena,
+                          gm_fail(compiling->fault, roots[0].place, "%s", sentence));
+        }
+    }
+}
+
+/* The type of what the equation of unknown number k says. */
+static struct gm_form_type type_of_equation(const struct gm_form_model *model, size_t k)
+{
+    return model->equations.steps[model->equations.roots[k]].type;
+}
+
+static void compile_forms(const struct compiling *compiling)
+{
+    struct gm_form_model *model = compiling->model;
     struct gm_user_system *system = model->system;
-    size_t rates = 0, equations = 0, exacts = 0;
-    struct gm_form_root *starts = roots + system->n, *exact = starts + system->n,
-                        *residuals = exact + system->n;
-    for (size_t i = 0; i < system->n; i++) {
+    struct gm_arena *arena = system->arena;
+    const size_t n = system->n;
+    struct gm_form_root *rates = gm_arena_take(arena, 4 * n + 1, sizeof *rates), *starts = rates + n,
+                        *exact = starts + n, *residuals = exact + n;
+    size_t exacts = 0;
+    model->fields = gm_arena_take(arena, n + 1, sizeof *model->fields);
+    model->unknowns = gm_arena_take(arena, n + 1, sizeof *model->unknowns);
+    for (size_t i = 0; i < n; i++) {
         const struct gm_form_declared *form = &system->forms[i];
         const struct gm_form_type type = type_of(system, i);
         if (form->exact != GM_NO_NODE) {
@@ -72,76 +121,62 @@ static bool compile_forms(struct gm_form_model *model, struct gm_form_root *root
             const gm_node_id node =
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
-            residuals[equations++] =
+            residuals[model->unknown_count] =
                 (struct gm_form_root){node, {GM_FORM_ANY, false}, false, false, form->place};
+            model->unknowns[model->unknown_count++] = i;
             continue;
         }
-        starts[rates] = (struct gm_form_root){form->start, type, true, false, form->place};
-        roots[rates++] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
+        starts[model->field_count] = (struct gm_form_root){form->start, type, true, false, form->place};
+        rates[model->field_count] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
+        model->fields[model->field_count++] = i;
     }
-    if (!gm_form_compile(&model->rates, system, roots, rates, false, fault) ||
-        !gm_form_compile(&model->starts, system, starts, rates, false, fault) ||
-        !gm_form_compile(&model->exacts, system, exact, exacts, false, fault) ||
-        !gm_form_compile(&model->equations, system, residuals, equations, true, fault)) {
-        return false;
-    }
-    for (size_t i = 0, k = 0; i < system->n; i++) {
-        if (!system->forms[i].unknown) {
-            continue;
-        }
-        const struct gm_form_type type = type_of(system, i),
-                                  found = model->equations.steps[model->equations.roots[k++]].type;
+    compile(compiling, &model->rates, rates, model->field_count, false);
+    compile(compiling, &model->starts, starts, model->field_count, false);
+    compile(compiling, &model->exacts, exact, exacts, false);
+    compile(compiling, &model->equations, residuals, model->unknown_count, true);
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        const size_t i = model->unknowns[k];
+        const struct gm_form_type type = type_of(system, i), found = type_of_equation(model, k);
         const int places = type.dual ? 2 - type.degree : type.degree,
                   rows = found.dual ? 2 - found.degree : found.degree;
         if (found.degree < 0 || places != rows) {
-            return gm_fail(fault, system->graph.places[system->forms[i].left],
-                           "the equation of %s, which is %s, is of %s: it has not one number for each of %s",
-                           system->variables[i].name, gm_form_type_text(type), gm_form_type_text(found),
-                           system->variables[i].name);
+            gm_fail(compiling->fault, system->graph.places[system->forms[i].left],
+                    "the equation of %s, which is %s, is of %s: it has not one number for each of %s",
+                    system->variables[i].name, gm_form_type_text(type), gm_form_type_text(found),
+                    system->variables[i].name);
+            gm_arena_leave(arena);
         }
     }
-    for (size_t p = 0; p < 2; p++) {
-        const struct gm_form_program *program = p ? &model->exacts : &model->starts;
-        for (size_t i = 0; i < program->count; i++) {
-            if (program->steps[i].needs & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS)) {
-                return gm_fail(fault, (p ? exact : starts)[0].place,
-                               "%s: holds formulas of x, y, z, t and parameters alone",
-                               p ? "exact" : "start");
-            }
-        }
-    }
-    return true;
+    limit(compiling, &model->starts, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, starts,
+          "start: holds formulas of x, y, z, t and parameters alone");
+    limit(compiling, &model->exacts, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, exact,
+          "exact: holds formulas of x, y, z, t and parameters alone");
 }
 
 /* Compiles the values of forms that are held on a part of the boundary. */
-static bool compile_held(struct gm_form_model *model, struct gm_fault *fault)
+static void compile_held(const struct compiling *compiling)
 {
+    struct gm_form_model *model = compiling->model;
     struct gm_user_system *system = model->system;
     struct gm_form_root *roots = gm_arena_take(system->arena, system->item_count + 1, sizeof *roots);
     model->held_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->held_item);
     size_t count = 0;
-    for (size_t i = 0; roots && model->held_item && i < system->item_count; i++) {
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count > 1) {
             continue;
         }
         const struct gm_form_type type = type_of(system, item->variable);
         if (type.dual ? type.degree != 2 : type.degree == 2) {
-            return gm_fail(fault, item->place, "%s is %s: a 0-form, a 1-form or a dual 2-form is held",
-                           system->variables[item->variable].name, gm_form_type_text(type));
+            gm_fail(compiling->fault, item->place, "%s is %s: a 0-form, a 1-form or a dual 2-form is held",
+                    system->variables[item->variable].name, gm_form_type_text(type));
+            gm_arena_leave(system->arena);
         }
         model->held_item[count] = i;
         roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
     }
-    if (!roots || !model->held_item || !gm_form_compile(&model->held, system, roots, count, false, fault)) {
-        return false;
-    }
-    for (size_t i = 0; i < model->held.count; i++) {
-        if (model->held.steps[i].needs) {
-            return gm_fail(fault, roots[0].place, "a value that is held does not change in time");
-        }
-    }
-    return true;
+    compile(compiling, &model->held, roots, count, false);
+    limit(compiling, &model->held, ~0u, roots, "a value that is held does not change in time");
 }
 
 /* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
@@ -149,9 +184,9 @@ static void find_split(struct gm_form_model *model)
 {
     const struct gm_user_system *system = model->system;
     const struct gm_form_program *rates = &model->rates;
-    const size_t fields = rates->root_count;
+    const size_t fields = model->field_count;
     bool *needs = gm_arena_take(system->arena, (rates->count + 1) * (system->n + 1), sizeof *needs);
-    for (size_t i = 0; needs && i < rates->count; i++) {
+    for (size_t i = 0; i < rates->count; i++) {
         const struct gm_form_step *step = &rates->steps[i];
         bool *mine = needs + i * system->n;
         const bool binary = step->kind == GM_STEP_OPERATE || step->kind == GM_STEP_WEDGE,
@@ -161,7 +196,7 @@ static void find_split(struct gm_form_model *model)
                       (!leaf && needs[step->a * system->n + f]) || (binary && needs[step->b * system->n + f]);
         }
     }
-    for (size_t split = 1; needs && split < fields && model->equations.root_count == 0; split++) {
+    for (size_t split = 1; split < fields && model->unknown_count == 0; split++) {
         bool splits = true;
         for (size_t i = 0; i < fields; i++) {
             for (size_t f = 0; f < fields; f++) {
@@ -175,26 +210,26 @@ static void find_split(struct gm_form_model *model)
     }
 }
 
-bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault)
+static bool is_timed(const struct gm_form_program *program)
 {
-    *model = (struct gm_form_model){.system = system};
-    *fault = (struct gm_fault){0};
-    struct gm_form_root *roots = gm_arena_take(system->arena, 4 * system->n + 1, sizeof *roots);
-    struct gm_form_root *observed = gm_arena_take(system->arena, system->item_count + 1, sizeof *observed);
-    model->observed_item = gm_arena_take(system->arena, system->item_count + 1, sizeof *model->observed_item);
-    if (!roots || !observed || !model->observed_item || !compile_forms(model, roots, fault)) {
-        return false;
+    bool timed = false;
+    for (size_t i = 0; i < program->count; i++) {
+        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
     }
-    for (size_t i = 0; i < model->rates.count; i++) {
-        system->timed |= (model->rates.steps[i].needs & GM_NEEDS_TIME) != 0;
-    }
-    for (size_t i = 0; i < model->equations.count; i++) {
-        system->timed |= (model->equations.steps[i].needs & GM_NEEDS_TIME) != 0;
-    }
+    return timed;
+}
+
+static void compile_all(struct gm_arena *arena, void *data)
+{
+    const struct compiling *compiling = data;
+    struct gm_form_model *model = compiling->model;
+    struct gm_user_system *system = model->system;
+    struct gm_form_root *observed = gm_arena_take(arena, system->item_count + 1, sizeof *observed);
+    model->observed_item = gm_arena_take(arena, system->item_count + 1, sizeof *model->observed_item);
+    compile_forms(compiling);
+    system->timed |= is_timed(&model->rates) || is_timed(&model->equations);
     find_split(model);
-    if (!compile_held(model, fault)) {
-        return false;
-    }
+    compile_held(compiling);
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE || item->word == GM_WORD_LET) {
@@ -204,7 +239,14 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
                 (struct gm_form_root){item->nodes[0], {degree, false}, false, false, item->place};
         }
     }
-    return gm_form_compile(&model->observed, system, observed, model->observed_count, false, fault);
+    compile(compiling, &model->observed, observed, model->observed_count, false);
+}
+
+bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault)
+{
+    *model = (struct gm_form_model){.system = system};
+    *fault = (struct gm_fault){0};
+    return gm_arena_run(system->arena, compile_all, &(struct compiling){model, fault});
 }
 
 /* ---- the mesh ---- */
@@ -216,19 +258,13 @@ static struct gm_complex *open_mesh(const struct gm_user_system *system, enum gm
                                     struct gm_fault *fault)
 {
     const struct gm_system_item *mesh = gm_system_item_of(system, GM_WORD_MESH, 0);
-    struct gm_tape tape = {0};
     struct gm_triangulation_fault wrong;
     if (mesh->count > GM_MOST_OPERANDS) {
         gm_fail(fault, mesh->place, "a mesh has at most four numbers");
         return NULL;
     }
-    const bool opened =
-        mesh->count == 0 || gm_tape_open(&tape, &system->graph, mesh->nodes, mesh->count, 0, variables);
-    if (opened && mesh->count > 0) {
-        gm_tape_values(&tape, numbers, numbers, 1);
-    }
-    gm_tape_close(&tape);
-    if (!opened || !gm_generator_check(mesh->name, numbers, mesh->count, mesh->place, fault)) {
+    if ((mesh->count > 0 && !gm_user_line_numbers(system, mesh->nodes, mesh->count, variables, numbers)) ||
+        !gm_generator_check(mesh->name, numbers, mesh->count, mesh->place, fault)) {
         return NULL;
     }
     struct gm_complex *complex = gm_generator_open(mesh->name, numbers, mesh->count, star, &wrong);
@@ -269,8 +305,7 @@ static void label(const struct gm_complex *complex, bool triangles, int *piece)
 static void find_constants(struct own *own, size_t form)
 {
     const struct gm_form_type type = type_of(own->model->system, form);
-    const struct gm_complex *complex = own->space.complex;
-    const size_t first = own->offset[form], n = gm_form_size(complex, type);
+    const size_t first = own->offset[form], n = size_of(own, form);
     bool free_of = type.degree == 0;
     for (size_t i = 0; i < own->unknowns && free_of; i++) {
         double sum = 0, size = 0;
@@ -284,16 +319,11 @@ static void find_constants(struct own *own, size_t form)
         free_of = fabs(sum) <= 1e-10 * size;
     }
     if (free_of) {
-        label(complex, type.dual, own->piece + first);
+        label(own->space.complex, type.dual, own->piece + first);
         for (size_t i = 0; i < n; i++) {
             own->piece[first + i] += (int)first; /* the number that is pinned */
         }
     }
-}
-
-static void close_factor(void *factor)
-{
-    gm_cholesky_close(factor);
 }
 
 /* True if a number of the unknowns is held, or pinned. */
@@ -316,95 +346,70 @@ static void pin(struct own *own)
     }
 }
 
-/* Factors the matrix if it is symmetric and definite. */
+/* Factors the matrix if it is symmetric and, but for its sign, definite. */
 static void factor(struct own *own)
 {
-    const struct gm_matrix *a = &own->matrix;
-    struct gm_arena *arena = own->arena;
+    struct gm_matrix *a = &own->matrix;
     const size_t n = own->unknowns;
-    const struct gm_matrix back = gm_matrix_transposed(arena, a, -1);
-    const struct gm_matrix skew = gm_matrix_sum(arena, 1, a, 1, &back);
-    double largest = 0, asymmetry = 0, trace = 0;
-    for (int k = 0; k < a->start[n]; k++) {
-        largest = fmax(largest, fabs(a->value[k]));
-    }
+    const struct gm_matrix back = gm_matrix_transposed(own->arena, a, -1),
+                           skew = gm_matrix_sum(own->arena, 1, a, 1, &back);
+    double largest = 0, asymmetry = 0, trace = 0, *signs = gm_arena_take(own->arena, n, sizeof *signs);
     for (int k = 0; k < skew.start[n]; k++) {
         asymmetry = fmax(asymmetry, fabs(skew.value[k]));
     }
-    int *start = gm_arena_take(arena, n + 1, sizeof *start);
-    int *column = gm_arena_take(arena, (size_t)a->start[n] + 1, sizeof *column);
-    double *value = gm_arena_take(arena, (size_t)a->start[n] + 1, sizeof *value);
     for (size_t i = 0; i < n; i++) {
-        start[i + 1] = start[i];
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            const bool pin = is_pinned(own, i);
-            if (a->column[k] <= (int)i) {
-                column[start[i + 1]] = a->column[k];
-                value[start[i + 1]++] = a->value[k];
-                trace += a->column[k] == (int)i && !pin ? a->value[k] : 0;
-            }
+            largest = fmax(largest, fabs(a->value[k]));
+            trace += a->column[k] == (int)i && !is_pinned(own, i) ? a->value[k] : 0;
         }
     }
     own->sign = trace < 0 ? -1 : 1;
     for (size_t i = 0; i < n; i++) {
-        for (int k = start[i]; k < start[i + 1]; k++) {
-            value[k] *= is_pinned(own, i) ? 1 : own->sign;
-        }
+        signs[i] = is_pinned(own, i) ? 1 : own->sign;
     }
-    if (asymmetry <= 1e-12 * largest) {
-        own->factor = gm_cholesky_open(n, start, column, value, GM_CHOLESKY_EXACT);
-        if (own->factor) {
-            gm_arena_keep(arena, own->factor, close_factor);
-        }
-    }
+    gm_matrix_scale(a, signs);
+    own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
 }
 
-static void assemble(struct own *own, struct gm_arena *arena)
+static void assemble(struct own *own)
 {
-    const struct gm_user_system *system = own->model->system;
-    const struct gm_complex *complex = own->space.complex;
-    struct gm_matrix *rows = gm_arena_take(arena, system->n, sizeof *rows);
-    size_t entries = 0, count = 0;
-    for (size_t i = 0; i < system->n; i++) {
-        if (system->forms[i].unknown) {
-            const struct gm_form_type found =
-                own->model->equations.steps[own->model->equations.roots[count]].type;
-            rows[i] = gm_form_values_matrix(&own->equations, arena, count++, own->offset, own->unknowns);
-            if (!rows[i].start) {
-                gm_arena_refuse(arena, "the equation of %s holds no unknown", system->variables[i].name);
-            }
-            double *weight = own->weight + own->offset[i];
-            const double *cell = found.dual ? complex->area : complex->star0; /* of a 0-form */
-            for (size_t k = 0; k < rows[i].rows; k++) {
-                weight[k] = found.degree == 0 ? cell[k] : 1;
-            }
-            gm_matrix_scale(&rows[i], weight);
-            entries += (size_t)rows[i].start[rows[i].rows];
+    const struct gm_form_model *model = own->model;
+    struct gm_arena *arena = own->arena;
+    struct gm_matrix *rows = gm_arena_take(arena, model->unknown_count, sizeof *rows);
+    size_t entries = 0;
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        const struct gm_form_type found = type_of_equation(model, k);
+        const double *cell = cells_of(own, found.dual);
+        double *weight = own->weight + own->offset[model->unknowns[k]];
+        rows[k] = gm_form_values_matrix(&own->equations, arena, k, own->offset, own->unknowns);
+        if (!rows[k].start) {
+            gm_arena_refuse(arena, "the equation of %s holds no unknown",
+                            model->system->variables[model->unknowns[k]].name);
         }
+        for (size_t i = 0; i < rows[k].rows; i++) {
+            weight[i] = found.degree == 0 ? cell[i] : 1;
+        }
+        gm_matrix_scale(&rows[k], weight);
+        entries += (size_t)rows[k].start[rows[k].rows];
     }
     struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + own->unknowns) * sizeof *all), free);
-    gm_arena_need(arena, all);
     for (entries = 0; entries < own->unknowns; entries++) { /* a place for pins */
         all[entries] = (struct gm_matrix_entry){(int)entries, (int)entries, 0};
+        own->piece[entries] = -1;
     }
-    for (size_t i = 0; i < system->n; i++) {
-        for (size_t k = 0; system->forms[i].unknown && k < rows[i].rows; k++) {
-            for (int l = rows[i].start[k]; l < rows[i].start[k + 1]; l++) {
-                all[entries++] =
-                    (struct gm_matrix_entry){(int)(own->offset[i] + k), rows[i].column[l], rows[i].value[l]};
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        for (size_t i = 0; i < rows[k].rows; i++) {
+            const int row = (int)(own->offset[model->unknowns[k]] + i);
+            for (int l = rows[k].start[i]; l < rows[k].start[i + 1]; l++) {
+                all[entries++] = (struct gm_matrix_entry){row, rows[k].column[l], rows[k].value[l]};
             }
         }
     }
     own->matrix = gm_matrix_of(arena, own->unknowns, own->unknowns, all, entries);
     gm_arena_drop(arena, all);
-    for (size_t i = 0; i < own->unknowns; i++) {
-        own->piece[i] = -1;
-    }
     pin(own);
-    for (size_t i = 0; i < system->n; i++) {
-        if (system->forms[i].unknown) {
-            find_constants(own, i);
-        }
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        find_constants(own, model->unknowns[k]);
     }
     pin(own);
     factor(own);
@@ -413,10 +418,8 @@ static void assemble(struct own *own, struct gm_arena *arena)
 /* Removes means over pieces: of residuals, whose defect is noted, or of unknowns. */
 static void remove_means(struct own *own, size_t form, double *numbers, bool residual)
 {
-    const struct gm_form_type type = type_of(own->model->system, form);
-    const struct gm_complex *complex = own->space.complex;
-    const size_t first = own->offset[form], n = gm_form_size(complex, type);
-    const double *cell = type.dual ? complex->area : complex->star0;
+    const size_t first = own->offset[form], n = size_of(own, form);
+    const double *cell = cells_of(own, own->model->system->forms[form].dual);
     own->defect[form] = residual ? 0 : own->defect[form];
     for (size_t pin = first; pin < first + n; pin++) {
         if (own->piece[pin] != (int)pin) {
@@ -445,43 +448,36 @@ static void remove_means(struct own *own, size_t form, double *numbers, bool res
 /* Solves for the unknowns at fields that own->forms has. */
 static void solve(struct own *own, double t)
 {
-    const struct gm_user_system *system = own->model->system;
-    const struct gm_complex *complex = own->space.complex;
+    const struct gm_form_model *model = own->model;
+    const struct gm_matrix *a = &own->matrix;
+    double *right = own->residual;
+    bool good = true;
     if (own->unknowns == 0) {
         return;
     }
     memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
     gm_form_values_run(&own->equations, t, own->forms);
-    for (size_t i = 0, k = 0; i < system->n; i++) {
-        if (system->forms[i].unknown) {
-            const double *residual = gm_form_values_root(&own->equations, k++);
-            double *right = own->residual + own->offset[i];
-            for (size_t j = 0; j < gm_form_size(complex, type_of(system, i)); j++) {
-                right[j] = -residual[j] * own->weight[own->offset[i] + j];
-            }
-            remove_means(own, i, own->residual, true);
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        const size_t form = model->unknowns[k], first = own->offset[form];
+        const double *residual = gm_form_values_root(&own->equations, k);
+        for (size_t j = 0; j < size_of(own, form); j++) {
+            right[first + j] = -residual[j] * own->weight[first + j];
         }
+        remove_means(own, form, right, true);
     }
     for (size_t i = 0; i < own->unknowns; i++) {
-        own->residual[i] = own->held_unknown[i] ? 0 : own->residual[i];
+        right[i] = own->held_unknown[i] ? 0 : own->sign * right[i];
     }
-    bool good = true;
     if (own->factor) {
-        for (size_t i = 0; i < own->unknowns; i++) {
-            own->residual[i] *= own->sign;
-        }
-        gm_cholesky_solve(own->factor, own->residual, own->unknown);
+        gm_cholesky_solve(own->factor, right, own->unknown);
     } else {
-        good = gm_lu_solve(own->unknowns, own->matrix.start, own->matrix.column, own->matrix.value,
-                           own->residual, own->unknown);
+        good = gm_lu_solve(own->unknowns, a->start, a->column, a->value, right, own->unknown);
     }
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
-    for (size_t i = 0; i < system->n; i++) {
-        if (system->forms[i].unknown) {
-            remove_means(own, i, own->unknown, false);
-        }
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        remove_means(own, model->unknowns[k], own->unknown, false);
     }
 }
 
@@ -500,21 +496,18 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
                         size_t last, size_t base)
 {
     struct own *own = own_of(problem);
-    const struct gm_user_system *system = own->model->system;
-    const double t = own->model->system->timed ? y[problem->n - 1] : 0;
+    const struct gm_form_model *model = own->model;
+    const double t = model->system->timed ? y[problem->n - 1] : 0;
     pthread_mutex_lock(&own->turn);
     own->seen_time = NAN;
     place_forms(own, y);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
-    for (size_t i = 0, k = 0; i < system->n; i++) {
-        if (!system->forms[i].unknown) {
-            const double *rate = gm_form_values_root(&own->rates, k);
-            for (size_t j = 0;
-                 k >= first && k < last && j < gm_form_size(own->space.complex, type_of(system, i)); j++) {
-                f[own->offset[i] - base + j] = own->held[own->offset[i] + j] ? 0 : rate[j];
-            }
-            k++;
+    for (size_t k = first; k < last; k++) {
+        const size_t form = model->fields[k], offset = own->offset[form];
+        const double *rate = gm_form_values_root(&own->rates, k);
+        for (size_t j = 0; j < size_of(own, form); j++) {
+            f[offset - base + j] = own->held[offset + j] ? 0 : rate[j];
         }
     }
     pthread_mutex_unlock(&own->turn);
@@ -524,7 +517,7 @@ static void field(const struct gm_problem *problem, const double *y, double *f, 
 {
     (void)m;
     memset(f, 0, problem->n * sizeof *f);
-    write_rates(problem, y, f, 0, SIZE_MAX, 0);
+    write_rates(problem, y, f, 0, own_of(problem)->model->field_count, 0);
     if (own_of(problem)->model->system->timed) {
         f[problem->n - 1] = 1;
     }
@@ -539,9 +532,10 @@ static void velocity(const struct gm_problem *problem, const double *y, double *
 
 static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
+    const struct own *own = own_of(problem);
     (void)m;
-    memset(f, 0, own_of(problem)->half * sizeof *f);
-    write_rates(problem, y, f, own_of(problem)->model->split, SIZE_MAX, own_of(problem)->half);
+    memset(f, 0, own->half * sizeof *f);
+    write_rates(problem, y, f, own->model->split, own->model->field_count, own->half);
 }
 
 /* ---- the problem ---- */
@@ -551,20 +545,25 @@ struct opening {
     const struct gm_form_model *model;
     struct gm_complex *complex;
     const double *variables;
-    size_t n;
     double numbers[GM_MOST_OPERANDS]; /* of the mesh */
 };
 
-/* Marks the edges of the boundary that are on a part. False if there is no such part. */
-static bool mark_part(const struct opening *opening, const char *part, bool *edges)
+/* Marks the edges of the boundary that are on a part. */
+static void mark_part(const struct own *own, const char *part, bool *edges)
 {
-    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
-    const struct gm_complex *complex = opening->own->space.complex;
+    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
+    const struct gm_complex *complex = own->space.complex;
     const char *const *parts = gm_generator_parts(word);
     bool there = parts[0] && strcmp(part, "all") == 0;
     for (size_t i = 0; parts[i]; i++) {
         there |= strcmp(parts[i], part) == 0;
+        names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
     }
+    if (!there) {
+        gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part, word,
+                        names);
+    }
+    memset(edges, 0, complex->edges * sizeof *edges);
     for (size_t b = 0; b < complex->boundary; b++) {
         double p[3], q[3], middle[3];
         const size_t e = (size_t)complex->boundary_edge[b];
@@ -573,66 +572,53 @@ static bool mark_part(const struct opening *opening, const char *part, bool *edg
         for (int c = 0; c < 3; c++) {
             middle[c] = (p[c] + q[c]) / 2;
         }
-        edges[e] = gm_generator_on(word, opening->numbers, part, middle);
+        edges[e] = gm_generator_on(word, own->numbers, part, middle);
     }
-    return there;
-}
-
-static void refuse_part(const struct opening *opening, const char *part)
-{
-    const char *word = gm_system_item_of(opening->model->system, GM_WORD_MESH, 0)->name;
-    const char *const *parts = gm_generator_parts(word);
-    char names[64] = "none";
-    size_t used = 0;
-    for (size_t i = 0; parts[i]; i++) {
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", parts[i]);
-    }
-    gm_arena_refuse(opening->own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part,
-                    word, names);
 }
 
 /* Makes the matrices of lines that close dual cells: half of an edge belongs to each of its ends. Later lines
    win. */
-static void make_closings(struct opening *opening)
+static void make_closings(struct own *own)
 {
-    struct own *own = opening->own;
-    const struct gm_user_system *system = opening->model->system;
+    const struct gm_user_system *system = own->model->system;
     const struct gm_complex *complex = own->space.complex;
     struct gm_arena *arena = own->arena;
     own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
          *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
     struct gm_matrix_entry *entries = gm_arena_take(arena, 2 * complex->edges, sizeof *entries);
-    for (size_t i = system->item_count; i > 0; i--) {
-        const struct gm_system_item *item = &system->items[i - 1];
+    for (size_t i = system->item_count; i-- > 0;) {
+        const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
             continue;
         }
         size_t count = 0;
-        memset(edges, 0, complex->edges * sizeof *edges);
-        if (!mark_part(opening, item->name, edges)) {
-            refuse_part(opening, item->name);
-        }
+        mark_part(own, item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
                 entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
             }
             taken[e] |= edges[e];
         }
-        own->closings[i - 1] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+        own->closings[i] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
     }
 }
 
-/* Marks the numbers of forms that are held, with their values. */
-static void hold(struct opening *opening)
+static void open_values(struct own *own, struct gm_form_values *values, const struct gm_form_program *program,
+                        const double *variables)
 {
-    struct own *own = opening->own;
-    const struct gm_form_model *model = opening->model;
+    gm_form_values_open(values, own->arena, program, &own->space, own->model->system, variables);
+}
+
+/* Marks the numbers of forms that are held, with their values. */
+static void hold(struct own *own, const double *variables)
+{
+    const struct gm_form_model *model = own->model;
     const struct gm_user_system *system = model->system;
     const struct gm_complex *complex = own->space.complex;
     bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges);
     struct gm_form_values values;
-    gm_form_values_open(&values, own->arena, &model->held, &own->space, system, opening->variables);
+    open_values(own, &values, &model->held, variables);
     gm_form_values_run(&values, 0, own->forms);
     for (size_t i = 0; i < model->held.root_count; i++) {
         const struct gm_system_item *item = &system->items[model->held_item[i]];
@@ -646,10 +632,7 @@ static void hold(struct opening *opening)
                             "vertices are other ones",
                             system->variables[item->variable].name);
         }
-        memset(edges, 0, complex->edges * sizeof *edges);
-        if (!mark_part(opening, item->name, edges)) {
-            refuse_part(opening, item->name);
-        }
+        mark_part(own, item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
             if (edges[e] && form->degree == 1) {
@@ -676,34 +659,52 @@ static void close_turn(void *turn)
 }
 
 /* Lays out the state: fields in their order, both groups of a split from equal halves. */
-static void lay_out(struct opening *opening)
+static void lay_out(struct own *own)
 {
-    struct own *own = opening->own;
-    const struct gm_user_system *system = opening->model->system;
-    size_t at = 0, first = 0, k = 0;
-    for (size_t i = 0; i < system->n; i++) {
-        const size_t size = gm_form_size(own->space.complex, type_of(system, i));
-        if (system->forms[i].unknown) {
-            own->offset[i] = own->unknowns;
-            own->unknowns += size;
-            continue;
-        }
-        first = k++ == opening->model->split ? at : first;
-        own->offset[i] = at;
-        at += size;
+    const struct gm_form_model *model = own->model;
+    size_t at = 0, first = 0;
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        own->offset[model->unknowns[k]] = own->unknowns;
+        own->unknowns += size_of(own, model->unknowns[k]);
     }
-    opening->n = at > 0 ? at : 1; /* a steady problem has a state of nothing */
-    if (opening->model->split > 0) {
+    for (size_t k = 0; k < model->field_count; k++) {
+        first = k == model->split ? at : first;
+        own->offset[model->fields[k]] = at;
+        at += size_of(own, model->fields[k]);
+    }
+    own->n = at > 0 ? at : 1; /* a steady problem has a state of nothing */
+    if (model->split > 0) {
         own->half = first > at - first ? first : at - first;
-        k = 0;
-        for (size_t i = 0; i < system->n; i++) {
-            if (!system->forms[i].unknown && k++ >= opening->model->split) {
-                own->offset[i] += own->half - first;
+        for (size_t k = model->split; k < model->field_count; k++) {
+            own->offset[model->fields[k]] += own->half - first;
+        }
+        own->n = 2 * own->half;
+    }
+    own->n += model->system->timed;
+}
+
+static void take_start(struct own *own, const double *variables)
+{
+    const struct gm_form_model *model = own->model;
+    struct gm_form_values starts;
+    open_values(own, &starts, &model->starts, variables);
+    gm_form_values_run(&starts, 0, own->forms);
+    for (size_t k = 0; k < model->field_count; k++) {
+        const size_t form = model->fields[k], size = size_of(own, form);
+        const double *values = gm_form_values_root(&starts, k);
+        memcpy(own->start + own->offset[form], values, size * sizeof *values);
+        for (size_t j = 0; j < size; j++) {
+            if (!isfinite(values[j])) {
+                gm_arena_refuse(own->arena, "the start of %s is not finite at its number %zu",
+                                model->system->variables[form].name, j + 1);
             }
         }
-        opening->n = 2 * own->half;
     }
-    opening->n += system->timed;
+}
+
+static double *doubles(const struct own *own, size_t count)
+{
+    return gm_arena_take(own->arena, count, sizeof(double));
 }
 
 static void make(struct gm_arena *arena, void *data)
@@ -711,11 +712,13 @@ static void make(struct gm_arena *arena, void *data)
     struct opening *opening = data;
     const struct gm_form_model *model = opening->model;
     const struct gm_user_system *system = model->system;
+    const double *variables = opening->variables;
     struct own *own = opening->own = gm_arena_take(arena, 1, sizeof *own);
     struct gm_complex *complex = opening->complex;
     own->arena = arena;
     own->model = model;
     own->seen_time = NAN;
+    memcpy(own->numbers, opening->numbers, sizeof own->numbers);
     opening->complex = NULL; /* taken */
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, close_space);
@@ -723,44 +726,31 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, &own->turn, close_turn);
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
     own->forms = gm_arena_take(arena, system->n + 1, sizeof *own->forms);
-    own->defect = gm_arena_take(arena, system->n + 1, sizeof *own->defect);
-    lay_out(opening);
-    own->unknown = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
-    own->residual = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
-    own->weight = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
+    own->defect = doubles(own, system->n + 1);
+    lay_out(own);
+    own->unknown = doubles(own, own->unknowns + 1);
+    own->residual = doubles(own, own->unknowns + 1);
+    own->weight = doubles(own, own->unknowns + 1);
+    own->given = doubles(own, own->unknowns + 1);
+    own->start = doubles(own, own->n);
+    own->seen = doubles(own, own->n);
+    own->scratch = doubles(own, 3 * (complex->edges + 1));
     own->piece = gm_arena_take(arena, own->unknowns + 1, sizeof *own->piece);
-    own->start = gm_arena_take(arena, opening->n, sizeof(double));
-    own->seen = gm_arena_take(arena, opening->n, sizeof(double));
-    own->scratch = gm_arena_take(arena, 3 * (own->space.complex->edges + 1), sizeof(double));
-    own->held = gm_arena_take(arena, opening->n, sizeof *own->held);
+    own->held = gm_arena_take(arena, own->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
-    own->given = gm_arena_take(arena, own->unknowns + 1, sizeof(double));
-    make_closings(opening);
-    gm_form_values_open(&own->rates, arena, &model->rates, &own->space, system, opening->variables);
-    gm_form_values_open(&own->exacts, arena, &model->exacts, &own->space, system, opening->variables);
-    gm_form_values_open(&own->equations, arena, &model->equations, &own->space, system, opening->variables);
-    gm_form_values_open(&own->observed, arena, &model->observed, &own->space, system, opening->variables);
-    struct gm_form_values starts;
-    gm_form_values_open(&starts, arena, &model->starts, &own->space, system, opening->variables);
-    gm_form_values_run(&starts, 0, own->forms);
-    for (size_t i = 0, k = 0; i < system->n; i++) {
-        const size_t size = gm_form_size(own->space.complex, type_of(system, i));
-        for (size_t j = 0; !system->forms[i].unknown && j < size; j++) {
-            own->start[own->offset[i] + j] = gm_form_values_root(&starts, k)[j];
-            if (!isfinite(own->start[own->offset[i] + j])) {
-                gm_arena_refuse(arena, "the start of %s is not finite at its number %zu",
-                                system->variables[i].name, j + 1);
-            }
-        }
-        k += !system->forms[i].unknown;
-    }
-    hold(opening);
+    make_closings(own);
+    open_values(own, &own->rates, &model->rates, variables);
+    open_values(own, &own->exacts, &model->exacts, variables);
+    open_values(own, &own->equations, &model->equations, variables);
+    open_values(own, &own->observed, &model->observed, variables);
+    take_start(own, variables);
+    hold(own, variables);
     own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
         place_forms(own, own->start);
         gm_form_values_run(&own->equations, 0, own->forms);
-        assemble(own, arena);
+        assemble(own);
     }
     own->loops = (struct gm_loops){.field = field};
     if (model->split > 0 && !system->timed) {
@@ -778,14 +768,14 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
                           const double *variables, struct gm_fault *fault)
 {
     const char *written = model->system->texts[GM_WORD_STAR];
-    for (size_t i = 0; star == GM_STAR_AUTO && written && i < sizeof stars / sizeof *stars; i++) {
+    for (size_t i = 0; star == GM_STAR_AUTO && written && i < GM_COUNT(stars); i++) {
         star = strcmp(stars[i], written) == 0 ? (enum gm_star)i : star;
     }
     *fault = (struct gm_fault){0};
     struct opening opening = {.model = model, .variables = variables};
     opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
-    const bool solves = opening.complex &&
-                        (model->equations.root_count > 0 || opening.complex->star != GM_STAR_CIRCUMCENTRIC);
+    const bool solves =
+        opening.complex && (model->unknown_count > 0 || opening.complex->star != GM_STAR_CIRCUMCENTRIC);
     if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */
         gm_complex_close(opening.complex);
         return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
@@ -801,7 +791,7 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
     }
     *problem = (struct gm_problem){.name = "forms",
                                    .kind = &gm_kind_ode,
-                                   .n = opening.n,
+                                   .n = opening.own->n,
                                    .m = 1,
                                    .facets = &opening.own->facets,
                                    .parameters = opening.own};
@@ -866,7 +856,7 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     struct own *own = own_of(problem);
     const struct gm_user_system *system = own->model->system;
     const struct gm_form_type type = type_of(system, form);
-    const size_t n = gm_form_size(own->space.complex, type);
+    const size_t n = size_of(own, form);
     size_t number = 0;
     for (size_t i = 0; i < form; i++) {
         number += system->forms[i].exact != GM_NO_NODE;
@@ -874,10 +864,9 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     pthread_mutex_lock(&own->turn);
     look(problem, y, t);
     gm_form_values_run(&own->exacts, t, own->forms);
-    const double *exact = gm_form_values_root(&own->exacts, number), *found = own->forms[form];
-    const double *cell = type.dual ? own->space.complex->area : own->space.complex->star0;
-    double *difference = own->scratch, mean = 0;
-    double *known = difference + n, *weighted = known + n;
+    const double *exact = gm_form_values_root(&own->exacts, number), *found = own->forms[form],
+                 *cell = cells_of(own, type.dual);
+    double *difference = own->scratch, *known = difference + n, *weighted = known + n, mean = 0;
     if (system->forms[form].unknown && own->piece[own->offset[form]] >= 0) {
         for (size_t i = 0; i < n; i++) {
             mean += cell[i] * exact[i] / own->space.complex->total_area;

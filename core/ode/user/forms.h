@@ -11,9 +11,10 @@
 struct gm_form_model {
     struct gm_user_system *system;
     struct gm_form_program rates, starts, exacts, equations, observed, held;
-    size_t *held_item; /* the line of each root of `held` */
-    struct gm_form_root *observed_roots;
-    size_t observed_count; /* invariants, observables and lets, in the order of the items */
+    size_t *fields, field_count;     /* the forms that evolve, as roots of `rates` and `starts` are */
+    size_t *unknowns, unknown_count; /* the others, as roots of `equations` are */
+    size_t *held_item;               /* the line of each root of `held` */
+    size_t observed_count;           /* invariants, observables and lets, in the order of the items */
     size_t *observed_item;
     size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
 };

@@ -195,7 +195,7 @@ static void put_layout(FILE *out)
     } layout[] = {
         GM_LAID_OUT(gm_task),    GM_LAID_OUT(gm_problem),       GM_LAID_OUT(gm_progress),
         GM_LAID_OUT(gm_scheme),  GM_LAID_OUT(gm_ode),           GM_LAID_OUT(gm_loops),
-        GM_LAID_OUT(gm_tableau), GM_LAID_OUT(gm_splitting_row),
+        GM_LAID_OUT(gm_tableau), GM_LAID_OUT(gm_splitting),
     };
 #undef GM_LAID_OUT
     for (size_t i = 0; i < GM_COUNT(layout); i++) {
@@ -227,14 +227,11 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
 {
     /* a system that depends on the time is a field in these loops, as in the interpreter */
     const bool separable = source->tapes[GM_KERNEL_FORCE] && source->components % 2 == 0;
-    bool wanted[GM_KERNEL_FUNCTIONS] = {
-        [GM_KERNEL_FIELD] = !separable,
-        [GM_KERNEL_VELOCITY] = separable,
-        [GM_KERNEL_FORCE] = separable,
-        [GM_KERNEL_JACOBIAN] = source->tapes[GM_KERNEL_JACOBIAN] != NULL,
-        [GM_KERNEL_ENERGY] = source->tapes[GM_KERNEL_ENERGY] != NULL,
-        [GM_KERNEL_POTENTIAL] = source->tapes[GM_KERNEL_POTENTIAL] != NULL,
-    };
+    bool wanted[GM_KERNEL_FUNCTIONS];
+    for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
+        const bool of_split = k == GM_KERNEL_VELOCITY || k == GM_KERNEL_FORCE;
+        wanted[k] = source->tapes[k] && (k == GM_KERNEL_FIELD ? !separable : separable || !of_split);
+    }
     size_t registers = 0, length = 0, size = 0;
     *lacks = NULL;
     for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
@@ -259,11 +256,9 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
     FILE *out = made ? open_memstream(&text, &size) : NULL;
     bool good = out != NULL, known = true;
     if (good) {
-        fprintf(out, "#define GM_COMPONENTS %zu\n%s%s%s%s#include \"core/ode/kernel/formula.h\"\n",
+        fprintf(out, "#define GM_COMPONENTS %zu\n%s%s#include \"core/ode/kernel/formula.h\"\n",
                 source->components, separable ? "#define GM_SEPARABLE\n" : "",
-                wanted[GM_KERNEL_JACOBIAN] ? "" : "#define GM_WITHOUT_JACOBIAN\n",
-                wanted[GM_KERNEL_ENERGY] ? "#define GM_WITH_ENERGY\n" : "",
-                wanted[GM_KERNEL_POTENTIAL] ? "#define GM_WITH_POTENTIAL\n" : "");
+                wanted[GM_KERNEL_JACOBIAN] ? "" : "#define GM_WITHOUT_JACOBIAN\n");
         put_layout(out);
         for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
             known = known && (!wanted[k] || put_function(out, source, (enum gm_kernel_function)k, made));

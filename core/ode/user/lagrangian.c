@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Legendre transform of a Lagrangian at every state, and its derivatives. */
-#include "core/ode/user/lagrangian.h"
+#include "core/ode/user/data.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,22 +24,21 @@ static bool is_linear(struct gm_arena *arena, struct gm_user_system *system, boo
 }
 
 /* returns true if the entry belongs to the mass matrix */
-static bool is_of_mass(const struct gm_user_lagrangian_model *model, const struct gm_sparse_entry *entry)
+static bool is_of_mass(const struct gm_user_lagrangian *model, const struct gm_sparse_entry *entry)
 {
     return entry->row < model->half && entry->column >= model->half && entry->column < 2 * model->half;
 }
 
-void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagrangian_model *model,
-                                   struct gm_user_system *system)
+void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian *model,
+                               struct gm_user_system *system)
 {
     const size_t n = system->n, half = n / 2, count = system->variable_count;
     gm_node_id *others = gm_arena_take(arena, count, sizeof *others);
     bool *marked = gm_arena_take(arena, count, sizeof *marked);
-    *model = (struct gm_user_lagrangian_model){.graph = &system->graph,
-                                               .half = half,
-                                               .components = n + system->timed,
-                                               .linear = is_linear(arena, system, marked),
-                                               .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
+    *model = (struct gm_user_lagrangian){.half = half,
+                                         .components = n + system->timed,
+                                         .linear = is_linear(arena, system, marked),
+                                         .nodes = gm_arena_take(arena, n + 1, sizeof *model->nodes)};
     memcpy(model->nodes, system->momenta, half * sizeof *model->nodes);
     memcpy(model->nodes + half, system->rates + half, half * sizeof *model->nodes);
     model->nodes[n] = system->energy;
@@ -63,22 +62,15 @@ void gm_user_lagrangian_model_open(struct gm_arena *arena, struct gm_user_lagran
     }
 }
 
-static void open_tape(struct gm_arena *arena, struct gm_tape *tape,
-                      const struct gm_user_lagrangian_model *model, const gm_node_id *nodes, size_t count,
-                      const double *values)
+void gm_user_lagrangian_open(struct gm_user_data *data)
 {
-    gm_tape_keep(arena, tape, gm_tape_open(tape, model->graph, nodes, count, model->components, values));
-}
-
-void gm_user_lagrangian_open(struct gm_arena *arena, struct gm_user_lagrangian *lagrangian,
-                             const struct gm_user_lagrangian_model *model, const double *values)
-{
-    const size_t half = model->half;
-    *lagrangian = (struct gm_user_lagrangian){.model = model};
-    open_tape(arena, &lagrangian->momenta, model, model->momenta, model->momenta_count, values);
-    open_tape(arena, &lagrangian->rates, model, model->nodes + half, half, values);
-    open_tape(arena, &lagrangian->value, model, model->nodes + 2 * half, 1, values);
-    open_tape(arena, &lagrangian->slopes, model, model->slope_nodes, model->slopes.count, values);
+    const struct gm_user_lagrangian *model = &data->model->lagrangian;
+    const size_t half = model->half, n = model->components;
+    struct gm_late_tape *tapes = data->tapes;
+    gm_user_compile(data, &tapes[GM_USER_MOMENTA], model->momenta, model->momenta_count, n);
+    gm_user_compile(data, &tapes[GM_USER_RATES], model->nodes + half, half, n);
+    gm_user_compile(data, &tapes[GM_USER_ACTION], model->nodes + 2 * half, 1, n);
+    gm_user_compile(data, &tapes[GM_USER_ACTION_SLOPES], model->slope_nodes, model->slopes.count, n);
 }
 
 static void no_numbers(double *values, size_t count)
@@ -90,33 +82,34 @@ static void no_numbers(double *values, size_t count)
 
 /* One state and the search for its velocities. */
 struct transform {
-    const struct gm_user_lagrangian *lagrangian;
+    const struct gm_problem *problem;
     double *at;      /* q, v, t */
     double *outputs; /* the outputs of the tape of momenta */
     double *wanted;  /* p */
     double *scratch;
 };
 
-static void lay_transform(struct transform *transform, const struct gm_user_lagrangian *lagrangian,
-                          double *memory)
+static const struct gm_user_lagrangian *model_of(const struct gm_problem *problem)
 {
-    const size_t half = lagrangian->model->half;
-    transform->lagrangian = lagrangian;
-    transform->at = memory;
-    transform->outputs = transform->at + lagrangian->model->components;
-    transform->wanted = transform->outputs + lagrangian->momenta.outputs;
-    transform->scratch = transform->wanted + half;
+    return &gm_user_data_of(problem)->model->lagrangian;
 }
 
-static size_t transform_size(const struct gm_user_lagrangian *lagrangian)
+static struct transform lay_transform(const struct gm_problem *problem, double *memory)
 {
-    const size_t half = lagrangian->model->half;
-    return lagrangian->model->components + lagrangian->momenta.outputs + half + gm_newton_scratch(half);
+    const struct gm_user_lagrangian *model = model_of(problem);
+    struct transform transform = {.problem = problem, .at = memory, .outputs = memory + model->components};
+    transform.wanted = transform.outputs + model->momenta_count;
+    transform.scratch = transform.wanted + model->half;
+    return transform;
+}
+
+static size_t transform_size(const struct gm_user_lagrangian *model)
+{
+    return model->components + model->momenta_count + model->half + gm_newton_scratch(model->half);
 }
 
 /* The mass matrix from the values of all slopes, or of those that are `alone` in it. */
-static void fill_mass(const struct gm_user_lagrangian_model *model, const double *values, bool alone,
-                      double *mass)
+static void fill_mass(const struct gm_user_lagrangian *model, const double *values, bool alone, double *mass)
 {
     memset(mass, 0, model->half * model->half * sizeof *mass);
     for (size_t i = 0; i < model->slopes.count; i++) {
@@ -133,9 +126,9 @@ static void fill_mass(const struct gm_user_lagrangian_model *model, const double
 static bool momenta_at(void *data, const double *v, double *residual, double *matrix, double *scale)
 {
     struct transform *transform = data;
-    const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
+    const struct gm_user_lagrangian *model = model_of(transform->problem);
     memcpy(transform->at + model->half, v, model->half * sizeof *v);
-    gm_tape_values(&transform->lagrangian->momenta, transform->at, transform->outputs, 1);
+    gm_user_values(transform->problem, GM_USER_MOMENTA, transform->at, transform->outputs, 1);
     for (size_t i = 0; i < model->half; i++) {
         residual[i] = transform->wanted[i] - transform->outputs[i];
     }
@@ -148,7 +141,7 @@ static bool momenta_at(void *data, const double *v, double *residual, double *ma
    every state has one field, and are not finite if the solver fails. */
 static void find_velocities(struct transform *transform, const double *y, size_t m, size_t l, double *v)
 {
-    const struct gm_user_lagrangian_model *model = transform->lagrangian->model;
+    const struct gm_user_lagrangian *model = model_of(transform->problem);
     const struct gm_implicit_equations equations = {.size = model->half,
                                                     .data = transform,
                                                     .linear = momenta_at,
@@ -171,18 +164,18 @@ static void find_velocities(struct transform *transform, const double *y, size_t
 
 /* Returns a copy of the m states whose momenta are replaced by velocities, or by 0 if `found` is false. The
    caller frees it; NULL when out of memory, and the `count` numbers are then NaN. */
-static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const double *y, size_t m,
-                             bool found, double *numbers, size_t count)
+static double *at_velocities(const struct gm_problem *problem, const double *y, size_t m, bool found,
+                             double *numbers, size_t count)
 {
-    const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = malloc((n * m + half + transform_size(lagrangian)) * sizeof *at);
+    const struct gm_user_lagrangian *model = model_of(problem);
+    const size_t half = model->half, n = model->components;
+    double *at = malloc((n * m + half + transform_size(model)) * sizeof *at);
     if (!at) {
         no_numbers(numbers, count);
         return NULL;
     }
     double *v = at + n * m;
-    struct transform transform;
-    lay_transform(&transform, lagrangian, v + half);
+    struct transform transform = lay_transform(problem, v + half);
     memcpy(at, y, n * m * sizeof *at);
     memset(at + half * m, 0, half * m * sizeof *at);
     for (size_t l = 0; found && l < m; l++) {
@@ -194,14 +187,13 @@ static double *at_velocities(const struct gm_user_lagrangian *lagrangian, const 
     return at;
 }
 
-void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const double *y, double *f,
-                              size_t m)
+static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    const size_t half = lagrangian->model->half, n = lagrangian->model->components;
-    double *at = at_velocities(lagrangian, y, m, true, f, n * m);
+    const size_t half = model_of(problem)->half, n = problem->n;
+    double *at = at_velocities(problem, y, m, true, f, n * m);
     if (at) {
         memcpy(f, at + half * m, half * m * sizeof *f);
-        gm_tape_values(&lagrangian->rates, at, f + half * m, m);
+        gm_user_values(problem, GM_USER_RATES, at, f + half * m, m);
         for (size_t i = 2 * half * m; i < n * m; i++) {
             f[i] = 1; /* the rate of t */
         }
@@ -209,34 +201,31 @@ void gm_user_lagrangian_field(const struct gm_user_lagrangian *lagrangian, const
     free(at);
 }
 
-void gm_user_lagrangian_velocity(const struct gm_user_lagrangian *lagrangian, const double *y,
-                                 double *velocity, size_t m)
+static void velocity(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true, velocity, half * m);
+    const size_t count = model_of(problem)->half * m;
+    double *at = at_velocities(problem, y, m, true, f, count);
     if (at) {
-        memcpy(velocity, at + half * m, half * m * sizeof *velocity);
+        memcpy(f, at + count, count * sizeof *f);
     }
     free(at);
 }
 
-void gm_user_lagrangian_force(const struct gm_user_lagrangian *lagrangian, const double *y, double *force,
-                              size_t m)
+static void force(const struct gm_problem *problem, const double *y, double *f, size_t m)
 {
-    double *at = at_velocities(lagrangian, y, m, false, force, lagrangian->model->half * m);
+    double *at = at_velocities(problem, y, m, false, f, model_of(problem)->half * m);
     if (at) {
-        gm_tape_values(&lagrangian->rates, at, force, m);
+        gm_user_values(problem, GM_USER_RATES, at, f, m);
     }
     free(at);
 }
 
-void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, const double *y, double *energy,
-                               size_t m)
+void gm_user_lagrangian_energy(const struct gm_problem *problem, const double *y, double *energy, size_t m)
 {
-    const size_t half = lagrangian->model->half;
-    double *at = at_velocities(lagrangian, y, m, true, energy, m);
+    const size_t half = model_of(problem)->half;
+    double *at = at_velocities(problem, y, m, true, energy, m);
     if (at) {
-        gm_tape_values(&lagrangian->value, at, energy, m);
+        gm_user_values(problem, GM_USER_ACTION, at, energy, m);
         for (size_t l = 0; l < m; l++) {
             double sum = 0;
             for (size_t i = half; i < 2 * half; i++) {
@@ -248,50 +237,47 @@ void gm_user_lagrangian_energy(const struct gm_user_lagrangian *lagrangian, cons
     free(at);
 }
 
-void gm_user_lagrangian_motion(const struct gm_user_lagrangian *lagrangian, const double *at,
+void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *at,
                                const struct gm_motion *motion)
 {
-    const struct gm_user_lagrangian_model *model = lagrangian->model;
-    const size_t half = model->half;
+    const struct gm_user_lagrangian *model = model_of(problem);
+    const size_t half = model->half, square = half * half * sizeof(double);
     double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
-    gm_tape_values(&lagrangian->momenta, at, values, 1);
+    gm_user_values(problem, GM_USER_MOMENTA, at, values, 1);
     memcpy(motion->momenta, values, half * sizeof *values);
-    gm_tape_values(&lagrangian->rates, at, motion->forces, 1);
-    gm_tape_values(&lagrangian->slopes, at, values, 1);
-    double *const by_q[] = {motion->momenta_q, motion->forces_q}, *const by_v[] = {motion->momenta_v,
-                                                                                   motion->forces_v};
-    for (size_t i = 0; i < 2; i++) {
-        memset(by_q[i], 0, half * half * sizeof *values);
-        memset(by_v[i], 0, half * half * sizeof *values);
+    gm_user_values(problem, GM_USER_RATES, at, motion->forces, 1);
+    gm_user_values(problem, GM_USER_ACTION_SLOPES, at, values, 1);
+    /* of momenta and forces, over q and v */
+    double *const matrices[2][2] = {{motion->momenta_q, motion->momenta_v},
+                                    {motion->forces_q, motion->forces_v}};
+    for (size_t i = 0; i < 4; i++) {
+        memset(matrices[i / 2][i % 2], 0, square);
     }
     for (size_t i = 0; i < model->slopes.count; i++) {
         const struct gm_sparse_entry *slope = &model->slopes.entries[i];
-        const size_t of_forces = slope->row >= half, row = slope->row % half;
-        if (slope->column < half) {
-            by_q[of_forces][row * half + slope->column] = values[i];
-        } else if (slope->column < 2 * half) {
-            by_v[of_forces][row * half + slope->column - half] = values[i];
+        if (slope->column < 2 * half) {
+            double *matrix = matrices[slope->row >= half][slope->column >= half];
+            matrix[slope->row % half * half + slope->column % half] = values[i];
         }
     }
 }
 
 /* dL/dv(q, v, t) = p gives M dv = dp - B dq - b dt. */
-void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, const double *y, double *matrix)
+static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
-    const struct gm_user_lagrangian_model *model = lagrangian->model;
+    const struct gm_user_lagrangian *model = model_of(problem);
     const size_t half = model->half, n = model->components, count = model->slopes.count;
     const struct gm_sparse_entry *entries = model->slopes.entries;
-    struct transform transform;
     /* columns of dv over the state, the slopes' values, a velocity */
-    double *columns = calloc(n * half + count + half + transform_size(lagrangian), sizeof *columns);
+    double *columns = calloc(n * half + count + half + transform_size(model), sizeof *columns);
     if (!columns) {
         no_numbers(matrix, n * n);
         return;
     }
     double *values = columns + n * half, *v = values + count;
-    lay_transform(&transform, lagrangian, v + half);
+    struct transform transform = lay_transform(problem, v + half);
     find_velocities(&transform, y, 1, 0, v);
-    gm_tape_values(&lagrangian->slopes, transform.at, values, 1);
+    gm_user_values(problem, GM_USER_ACTION_SLOPES, transform.at, values, 1);
     memset(matrix, 0, n * n * sizeof *matrix);
     for (size_t i = 0; i < half; i++) {
         columns[(half + i) * half + i] = 1;
@@ -323,3 +309,6 @@ void gm_user_lagrangian_jacobian(const struct gm_user_lagrangian *lagrangian, co
     }
     free(columns);
 }
+
+const struct gm_loops gm_user_lagrangian_loops = {
+    .field = field, .velocity = velocity, .force = force, .jacobian = jacobian};

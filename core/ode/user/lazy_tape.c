@@ -52,7 +52,7 @@ void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double
     }
 }
 
-void gm_late_tape_close(struct gm_late_tape *late)
+void gm_late_tape_close(void *late)
 {
-    close_tape(atomic_load(&late->tape));
+    close_tape(atomic_load(&((struct gm_late_tape *)late)->tape));
 }

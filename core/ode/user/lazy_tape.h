@@ -24,6 +24,6 @@ const struct gm_tape *gm_late_tape(struct gm_late_tape *late);
 void gm_late_tape_values(struct gm_late_tape *late, const double *inputs, double *outputs, size_t m);
 void gm_late_tape_block(struct gm_late_tape *late, const double *inputs, size_t inputs_apart, double *outputs,
                         size_t outputs_apart, size_t m);
-void gm_late_tape_close(struct gm_late_tape *late);
+void gm_late_tape_close(void *late); /* for arenas */
 
 #endif

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A program that the build runs. For a problem given by a system's file it writes the kernel file, in the
    form used for user-defined systems that are compiled during the run, with the constants in it. The
-   problem's `parameters` points to the file's parameters, in their order. The energy, for
-   core/ode/compiled/over_energy.c, is the file's H, or its observable or invariant H if the file has rates.
+   problem's `parameters` points to the file's parameters, in their order.
    Usage: write_kernel FILE.system FILE.kernel.h
    With a third word, `yes` or PARAMETER=VALUE, for a system of share/ with a line `compile:`: the kernel file
    that the program would write of it, with the digest by which the program finds its loops. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,62 +15,6 @@
 #include "core/ode/kernel/digest.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/model.h"
-
-/* Returns GM_NO_NODE if the file gives no energy. */
-static gm_node_id energy_of(const struct gm_user_system *system)
-{
-    gm_node_id energy = system->kind == GM_CANONICAL ? system->energy : GM_NO_NODE;
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if ((item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) &&
-            strcmp(item->name, "H") == 0) {
-            energy = item->nodes[0];
-        }
-    }
-    return energy;
-}
-
-/* V, V' and V'' where p is 0, for H = p^2/2 + V(q). An empty tape of other systems. */
-static bool potential_open(struct gm_tape *tape, struct gm_user_system *system)
-{
-    const double rest[] = {NAN, 0};
-    const bool marked[] = {true, false};
-    gm_node_id nodes[3] = {system->energy}, slope[2];
-    memset(tape, 0, sizeof *tape);
-    if (system->kind != GM_CANONICAL || system->n != 2 || system->parameters < system->velocities ||
-        system->rates[0] != gm_formula_variable(&system->graph, 1)) {
-        return true;
-    }
-    for (int k = 1; k < 3; k++) {
-        if (!gm_gradient(&system->graph, nodes[k - 1], marked, 2, slope)) {
-            return false;
-        }
-        nodes[k] = slope[0];
-    }
-    return gm_tape_open(tape, &system->graph, nodes, 3, 1, rest);
-}
-
-/* Prepends the energy as text, which struct gm_hamiltonian needs if there are no parameters. */
-static char *with_formula(char *kernels, const struct gm_user_system *system, gm_node_id energy)
-{
-    const struct gm_naming naming = gm_system_naming(system),
-                           written_out = {.variable = naming.variable, .data = naming.data};
-    char *formula = kernels && energy != GM_NO_NODE && system->parameters == system->velocities
-                        ? gm_formula_text(&system->graph, energy, &written_out)
-                        : NULL;
-    if (!formula) {
-        return kernels;
-    }
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (out) {
-        fprintf(out, "#define GM_ENERGY_TEXT \"%s\"\n%s", formula, kernels);
-    }
-    free(formula);
-    free(kernels);
-    return out && fclose(out) == 0 ? text : NULL;
-}
 
 /* Opens the tapes of the n rates and of their Jacobian, with this number of inputs (core/tape.h). Returns false
    when out of memory. */
@@ -88,8 +30,8 @@ static bool open_tapes(struct gm_tape *tapes, const struct gm_formula *graph,
 }
 
 /* Returns the text of a system's kernels; the caller frees. NULL with the reason, which is NULL when out of
-   memory. `written_out`: of a problem of the build, with constants and the energy; else of a system of share/,
-   as the program writes it (gm_user_problem_kernel): for all values of the parameters, or for the system's. */
+   memory. `written_out`: of a problem of the build, with constants; else of a system of share/, as the program
+   writes it (gm_user_problem_kernel): for all values of the parameters, or for the system's. */
 static char *kernel_of(struct gm_user_system *system, bool written_out, bool general, const char **lacks)
 {
     struct gm_user_model model;
@@ -100,26 +42,20 @@ static char *kernel_of(struct gm_user_system *system, bool written_out, bool gen
     if (start && !*lacks) {
         const struct gm_user_rates *rates = general ? model.rates : gm_user_model_rates(&model, start);
         const size_t n = model.components;
-        const gm_node_id energy = written_out ? energy_of(system) : GM_NO_NODE;
         const bool good = open_tapes(tapes, &system->graph, rates, n, written_out ? system->velocities : n,
-                                     written_out ? NULL : start) &&
-                          (energy == GM_NO_NODE || gm_tape_open(&tapes[GM_KERNEL_ENERGY], &system->graph,
-                                                                &energy, 1, system->velocities, NULL)) &&
-                          (!written_out || potential_open(&tapes[GM_KERNEL_POTENTIAL], system));
-        struct gm_kernel_source source = {
-            .components = n,
-            .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY], &tapes[GM_KERNEL_FORCE],
-                      model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL,
-                      energy != GM_NO_NODE ? &tapes[GM_KERNEL_ENERGY] : NULL,
-                      tapes[GM_KERNEL_POTENTIAL].outputs > 0 ? &tapes[GM_KERNEL_POTENTIAL] : NULL},
-            .jacobian = &rates->jacobian,
-            .jacobian_wanted = true,
-            .written_out = written_out,
-            .parameters = system->parameters};
+                                     written_out ? NULL : start);
+        struct gm_kernel_source source = {.components = n,
+                                          .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY],
+                                                    &tapes[GM_KERNEL_FORCE],
+                                                    model.has_jacobian ? &tapes[GM_KERNEL_JACOBIAN] : NULL},
+                                          .jacobian = &rates->jacobian,
+                                          .jacobian_wanted = true,
+                                          .written_out = written_out,
+                                          .parameters = system->parameters};
         if (good && !(written_out ? gm_kernel_splits(&source) : gm_user_model_splits(&model, start))) {
             source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
         }
-        text = good ? with_formula(gm_kernel_text(&source, lacks), system, energy) : NULL;
+        text = good ? gm_kernel_text(&source, lacks) : NULL;
     }
     for (int i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
         gm_tape_close(&tapes[i]);

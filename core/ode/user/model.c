@@ -129,6 +129,30 @@ static void open_rates(struct gm_arena *arena, const struct opening *opening,
     }
 }
 
+static void open_constraints(struct gm_arena *arena, const struct opening *opening)
+{
+    struct gm_user_system *system = opening->system;
+    struct gm_user_constraints *constraints = &opening->model->constraints;
+    const size_t variables = system->variable_count, half = constraints->half = system->n / 2;
+    gm_node_id *nodes = gm_arena_take(arena, system->item_count + 1, sizeof *nodes);
+    bool *coordinates = gm_arena_take(arena, variables, sizeof *coordinates);
+    memset(coordinates, true, half * sizeof *coordinates);
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            nodes[constraints->count++] = system->items[i].nodes[0];
+        }
+    }
+    const size_t count = constraints->count;
+    struct gm_sparse *slopes = &constraints->slopes, *second = &constraints->second;
+    gm_sparse_keep(arena, slopes,
+                   gm_sparse_jacobian(&system->graph, nodes, count, coordinates, variables, slopes));
+    nodes = gm_sparse_nodes(arena, nodes, count, slopes);
+    gm_sparse_keep(
+        arena, second,
+        gm_sparse_jacobian(&system->graph, nodes + count, slopes->count, coordinates, variables, second));
+    constraints->nodes = gm_sparse_nodes(arena, nodes, count + slopes->count, second);
+}
+
 static void open_model(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -141,9 +165,9 @@ static void open_model(struct gm_arena *arena, void *data)
     model->has_jacobian = n <= GM_NEWTON_LARGEST;
     opening->marked = gm_arena_take(arena, system->variable_count, sizeof *opening->marked);
     memset(opening->marked, true, n * sizeof *opening->marked);
-    gm_user_constraints_model_open(arena, &model->constraints, system);
+    open_constraints(arena, opening);
     if (system->kind == GM_LAGRANGIAN) {
-        gm_user_lagrangian_model_open(arena, &model->lagrangian, system);
+        gm_user_lagrangian_derive(arena, &model->lagrangian, system);
     }
     open_rates(arena, opening, NULL);
     for (size_t i = 0; i < system->item_count; i++) {
@@ -152,7 +176,7 @@ static void open_model(struct gm_arena *arena, void *data)
         }
     }
     open_slopes(arena, opening);
-    gm_user_bracket_model_open(arena, &model->bracket, system);
+    gm_user_bracket_derive(arena, &model->bracket, system);
     for (size_t i = 0; i < model->rate_count && system->kind != GM_LAGRANGIAN; i++) {
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }

@@ -7,9 +7,8 @@
 
 #include "core/expression/derivative.h"
 #include "core/model/facts.h"
-#include "core/ode/user/bracket.h"
-#include "core/ode/user/constraints.h"
-#include "core/ode/user/lagrangian.h"
+#include "core/ode/families/splitting/linear_flow.h"
+#include "core/ode/ode.h"
 
 /* The rates of the components, and their Jacobian d rate[row] / d component if the model has one; for all
    values of the parameters, or for the value that a line `compile:` gives to one. */
@@ -21,6 +20,34 @@ struct gm_user_rates {
     double value;
 };
 
+/* The constraints g(q) = 0 of a system and their exact derivatives. */
+struct gm_user_constraints {
+    size_t half, count;      /* coordinates; constraints, 0: none */
+    gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
+    struct gm_sparse slopes; /* dg[row] / dq */
+    struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
+};
+
+/* A Lagrangian as functions of q, v (stored instead of the momenta) and t. */
+struct gm_user_lagrangian {
+    size_t half, components; /* half: coordinates; components: 2 half, and one more if the system is timed */
+    bool linear;             /* dL/dv is linear in v: one solve finds it */
+    gm_node_id *nodes;       /* dL/dv, p' (half each), L */
+    struct gm_sparse slopes; /* the slopes of dL/dv and p' over q, v, t */
+    gm_node_id *slope_nodes;
+    gm_node_id *momenta; /* dL/dv, and the entries of the mass matrix */
+    size_t momenta_count;
+};
+
+/* The bracket of a Poisson system: its structure, and the pieces of its energy that have exact flows. */
+struct gm_user_bracket {
+    gm_node_id *gradient;    /* dH/dy, n; NULL: not a Poisson system, or H holds the time */
+    struct gm_poisson facet; /* but for the moments of inertia */
+    /* A piece of the energy is a function of components that commute, {y_i, y_j} = 0, and so rest in its flow; the
+       others move linearly. */
+    struct gm_linear_flow *pieces;
+};
+
 /* The formulas of a system, for all values of its parameters. They do not change after opening: runs and
    threads share them. */
 struct gm_user_model {
@@ -29,11 +56,11 @@ struct gm_user_model {
     size_t components;           /* the system's components, and t if it is timed */
     struct gm_user_rates *rates; /* the first for all parameters, then those for a value of one */
     size_t rate_count;
-    bool has_jacobian;                          /* false if the matrix would be too large */
-    struct gm_user_lagrangian_model lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
-    struct gm_user_constraints_model constraints;
+    bool has_jacobian;                    /* false if the matrix would be too large */
+    struct gm_user_lagrangian lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
+    struct gm_user_constraints constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
-    struct gm_user_bracket_model bracket;
+    struct gm_user_bracket bracket;
     char *names; /* the components' names, in the format of struct gm_ode */
     struct gm_arena *arena;
 };
@@ -42,6 +69,12 @@ struct gm_user_model {
    closes it in both cases. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
 void gm_user_model_close(struct gm_user_model *model);
+
+/* Derive the formulas of these, in the arena's body, which is left when out of memory; the graph grows. */
+void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian *model,
+                               struct gm_user_system *system);
+void gm_user_bracket_derive(struct gm_arena *arena, struct gm_user_bracket *model,
+                            struct gm_user_system *system);
 
 /* Reads a system again with these values of its parameters, or its motion without tangents; inside a body of the
    arena, which is left when out of memory. The caller closes it in all cases. */

@@ -4,9 +4,8 @@
        kinetic, potential    the rates of q, and those of p, where these separate
        linear, rest          the terms of degree 1 of the rates, and all others
        kepler, interaction   |p|^2/2 - 1/|q|, and all else */
-#include "core/ode/user/parts.h"
+#include "core/ode/user/data.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,77 +28,82 @@ static const struct gm_system_item *item_of(const struct gm_user_system *system,
     return found;
 }
 
-static gm_node_id graft(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
-                        gm_node_id node)
+static const struct gm_user_system *system_of(const struct gm_problem *problem)
 {
-    return node == GM_NO_NODE
-               ? gm_formula_constant(graph, 0)
-               : gm_formula_graft(graph, &model->system->graph, node, model->components, values);
+    return gm_user_data_of(problem)->model->system;
+}
+
+static gm_node_id graft(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id node)
+{
+    return node == GM_NO_NODE ? gm_formula_constant(graph, 0)
+                              : gm_formula_graft(graph, &system_of(problem)->graph, node, problem->n,
+                                                 gm_user_data_of(problem)->values);
 }
 
 /* The rates of the energy `part`. */
-static void rates_of_energy(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
-                            gm_node_id part, gm_node_id *rates)
+static void rates_of_energy(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id part,
+                            gm_node_id *rates)
 {
-    const struct gm_user_system *system = model->system;
+    const struct gm_user_system *system = system_of(problem);
     const size_t n = system->n, half = n / 2;
-    gm_node_id *gradient = calloc(model->components + 1, sizeof *gradient);
-    graph->failed =
-        !gradient || !gm_gradient(graph, part, NULL, model->components, gradient) || graph->failed;
+    gm_node_id *gradient = calloc(problem->n + 1, sizeof *gradient);
+    graph->failed = !gradient || !gm_gradient(graph, part, NULL, problem->n, gradient) || graph->failed;
     for (size_t i = 0; i < n && !graph->failed; i++) {
         rates[i] = system->kind == GM_POISSON ? gm_formula_constant(graph, 0)
                    : i < half                 ? gradient[half + i]
                                               : gm_negative(graph, gradient[i - half]);
         for (size_t k = 0; k < n && system->kind == GM_POISSON; k++) {
-            const gm_node_id entry = graft(model, values, graph, system->bracket[i * n + k]);
+            const gm_node_id entry = graft(problem, graph, system->bracket[i * n + k]);
             rates[i] = gm_sum(graph, rates[i], gm_product(graph, entry, gradient[k]));
         }
     }
     free(gradient);
 }
 
-/* The rates of the whole field. */
-static void all_rates(const struct gm_user_model *model, const double *values, struct gm_formula *graph,
+/* The rates of a field, of which the time has none. */
+static void all_rates(const struct gm_problem *problem, struct gm_formula *graph, const gm_node_id *field,
                       gm_node_id *rates)
 {
-    for (size_t i = 0; i < model->components; i++) {
-        rates[i] = i < model->system->n ? graft(model, values, graph, model->system->rates[i])
-                                        : gm_formula_constant(graph, 0);
+    for (size_t i = 0; i < problem->n; i++) {
+        rates[i] = graft(problem, graph, field && i < system_of(problem)->n ? field[i] : GM_NO_NODE);
     }
 }
 
 /* Returns true unless a fact excludes such a part; the terms of degree 1 are looked for when they are asked for. */
-static bool may_have(const struct gm_user_model *model, const double *values, enum structural which)
+static bool may_have(const struct gm_problem *problem, enum structural which)
 {
-    const struct gm_user_system *system = model->system;
+    const struct gm_user_data *data = gm_user_data_of(problem);
+    const struct gm_user_system *system = data->model->system;
     const bool written = system->kind == GM_CANONICAL || system->kind == GM_RATES;
-    return which >= KEPLER   ? gm_user_model_holds(model, values, GM_FACT_KEPLER_SPLIT)
+    return which >= KEPLER   ? gm_user_model_holds(data->model, data->values, GM_FACT_KEPLER_SPLIT)
            : which >= LINEAR ? written && !system->timed
-                             : written && gm_user_model_splits(model, values);
+                             : written && gm_user_model_splits(data->model, data->values);
 }
 
 /* Writes a part of the structure. Returns false if the system has no such structure. */
-static bool structural_rates(const struct gm_user_model *model, const double *values, enum structural which,
+static bool structural_rates(const struct gm_problem *problem, enum structural which,
                              struct gm_formula *graph, gm_node_id *rates)
 {
-    const size_t n = model->components, half = model->system->n / 2;
-    const bool fast = gm_user_model_holds(model, values, GM_FACT_FAST_LINEAR);
+    const struct gm_user_data *data = gm_user_data_of(problem);
+    const size_t n = problem->n, half = data->model->system->n / 2;
+    const bool fast = gm_user_model_holds(data->model, data->values, GM_FACT_FAST_LINEAR);
     const bool kepler = which >= KEPLER, linear = !kepler && which >= LINEAR, second = which % 2 == 1;
-    const struct gm_finding *finding = &model->findings[kepler ? GM_FACT_KEPLER_SPLIT : GM_FACT_FAST_LINEAR];
-    if (!may_have(model, values, which)) {
+    const gm_node_id *found_nodes =
+        data->model->findings[kepler ? GM_FACT_KEPLER_SPLIT : GM_FACT_FAST_LINEAR].nodes;
+    if (!may_have(problem, which)) {
         return false;
     }
     const gm_node_id zero = gm_formula_constant(graph, 0);
-    bool *fields = calloc(n, sizeof *fields), found = !linear;
+    bool *fields = malloc(n * sizeof *fields), found = !linear;
     graph->failed = !fields || graph->failed;
-    all_rates(model, values, graph, rates);
+    all_rates(problem, graph, data->model->system->rates, rates);
     for (size_t i = 0; i < n && !graph->failed; i++) {
         fields[i] = true;
     }
     for (size_t i = 0; i < n && !graph->failed; i++) {
         gm_node_id first = i < half ? rates[i] : zero, other = gm_difference(graph, rates[i], first);
         if (i >= half && (kepler || (linear && fast))) {
-            other = graft(model, values, graph, finding->nodes[kepler ? 1 + i - half : i]);
+            other = graft(problem, graph, found_nodes[kepler ? 1 + i - half : i]);
             first = gm_difference(graph, rates[i], other);
         } else if (linear && !fast) {
             graph->failed =
@@ -112,53 +116,21 @@ static bool structural_rates(const struct gm_user_model *model, const double *va
     return found;
 }
 
-bool gm_user_part_rates(const struct gm_user_model *model, const double *values, const char *name,
-                        struct gm_formula *graph, gm_node_id *rates)
+static bool part_rates(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
+                       gm_node_id *rates)
 {
-    const struct gm_system_item *item = item_of(model->system, name);
-    for (size_t i = 0; i < model->components; i++) {
-        rates[i] = gm_formula_constant(graph, 0);
+    const struct gm_user_system *system = system_of(problem);
+    const struct gm_system_item *item = item_of(system, name);
+    bool found = item;
+    all_rates(problem, graph, item && system->kind == GM_RATES ? item->nodes : NULL, rates);
+    if (item && system->kind != GM_RATES) {
+        rates_of_energy(problem, graph, graft(problem, graph, item->nodes[0]), rates);
     }
-    if (item && model->system->kind == GM_RATES) {
-        for (size_t i = 0; i < model->system->n; i++) {
-            rates[i] = graft(model, values, graph, item->nodes[i]);
-        }
-        return !graph->failed;
+    for (enum structural which = 0; which < STRUCTURAL && !item; which++) {
+        found =
+            found || (strcmp(structural[which], name) == 0 && structural_rates(problem, which, graph, rates));
     }
-    if (item) {
-        rates_of_energy(model, values, graph, graft(model, values, graph, item->nodes[0]), rates);
-        return !graph->failed;
-    }
-    for (enum structural which = 0; which < STRUCTURAL; which++) {
-        if (strcmp(structural[which], name) == 0) {
-            return structural_rates(model, values, which, graph, rates) && !graph->failed;
-        }
-    }
-    return false;
-}
-
-bool gm_user_parts_open(struct gm_arena *arena, const struct gm_user_model *model, const double *values,
-                        struct gm_parts *parts)
-{
-    const struct gm_user_system *system = model->system;
-    const bool written =
-        system->kind == GM_CANONICAL || system->kind == GM_POISSON || system->kind == GM_RATES;
-    size_t count = 0;
-    const char **names = gm_arena_take(arena, system->item_count + STRUCTURAL + 1, sizeof *names);
-    for (size_t i = 0; i < system->item_count && written; i++) {
-        if (item_of(system, system->items[i].name ? system->items[i].name : "") == &system->items[i]) {
-            names[count++] = system->items[i].name;
-        }
-    }
-    parts->given = count;
-    for (enum structural which = 0; which < STRUCTURAL && written; which++) {
-        if (!item_of(system, structural[which]) && may_have(model, values, which)) {
-            names[count++] = structural[which];
-        }
-    }
-    parts->names = names;
-    parts->timed = system->timed;
-    return count > 0;
+    return found && !graph->failed;
 }
 
 /* The names with plus signs between them. */
@@ -176,27 +148,27 @@ static void close_graph(void *graph)
     gm_formula_close(graph);
 }
 
-const char *gm_user_parts_differ(const struct gm_user_model *model, const double *values,
-                                 const char *const *names, size_t count, struct gm_arena *arena)
+static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
+                                struct gm_arena *arena)
 {
-    const struct gm_user_system *system = model->system;
+    const struct gm_user_system *system = system_of(problem);
     const size_t n = system->n;
     struct gm_formula *graph = gm_arena_take(arena, 1, sizeof *graph);
-    gm_node_id *rest = gm_arena_take(arena, model->components + 1, sizeof *rest),
-               *rates = gm_arena_take(arena, model->components + 1, sizeof *rates);
+    gm_node_id *rest = gm_arena_take(arena, problem->n + 1, sizeof *rest),
+               *rates = gm_arena_take(arena, problem->n + 1, sizeof *rates);
     gm_formula_open(graph);
     gm_arena_keep(arena, graph, close_graph);
-    all_rates(model, values, graph, rest);
-    gm_node_id energy = system->kind == GM_RATES ? GM_NO_NODE : graft(model, values, graph, system->energy);
+    all_rates(problem, graph, system->rates, rest);
+    gm_node_id energy = system->kind == GM_RATES ? GM_NO_NODE : graft(problem, graph, system->energy);
     for (size_t k = 0; k < count; k++) {
         const struct gm_system_item *item = item_of(system, names[k]);
-        gm_arena_need(arena, gm_user_part_rates(model, values, names[k], graph, rates));
+        gm_arena_need(arena, part_rates(problem, names[k], graph, rates));
         for (size_t i = 0; i < n; i++) {
             rest[i] = gm_difference(graph, rest[i], rates[i]);
         }
         energy = !item || energy == GM_NO_NODE
                      ? GM_NO_NODE
-                     : gm_difference(graph, energy, graft(model, values, graph, item->nodes[0]));
+                     : gm_difference(graph, energy, graft(problem, graph, item->nodes[0]));
     }
     size_t wrong = 0;
     gm_arena_need(arena, !graph->failed);
@@ -213,7 +185,7 @@ const char *gm_user_parts_differ(const struct gm_user_model *model, const double
     const char *difference = text ? gm_arena_print(arena, "%.120s", text) : "a long formula";
     free(text);
     double *at = gm_arena_keep(arena, malloc((shown + (size_t)1) * sizeof *at), free);
-    gm_formula_evaluate(graph, shown + 1, values, at);
+    gm_formula_evaluate(graph, shown + 1, gm_user_data_of(problem)->values, at);
     const char *sum = sum_of(arena, names, count, " + ");
     return energy == GM_NO_NODE
                ? gm_arena_print(
@@ -222,4 +194,27 @@ const char *gm_user_parts_differ(const struct gm_user_model *model, const double
                      system->variables[wrong].name, sum, difference, at[shown])
                : gm_arena_print(arena, "parts that sum to H: %s is not H, H - %s = %s (%.6g at the start)",
                                 sum, sum_of(arena, names, count, " - "), difference, at[shown]);
+}
+
+void gm_user_parts_open(const struct gm_problem *problem)
+{
+    struct gm_user_data *data = gm_user_data_of(problem);
+    const struct gm_user_system *system = data->model->system;
+    const bool written =
+        system->kind == GM_CANONICAL || system->kind == GM_POISSON || system->kind == GM_RATES;
+    size_t count = 0;
+    const char **names = gm_arena_take(data->arena, system->item_count + STRUCTURAL + 1, sizeof *names);
+    for (size_t i = 0; i < system->item_count && written; i++) {
+        if (item_of(system, system->items[i].name ? system->items[i].name : "") == &system->items[i]) {
+            names[count++] = system->items[i].name;
+        }
+    }
+    const size_t given = count;
+    for (enum structural which = 0; which < STRUCTURAL && written; which++) {
+        if (!item_of(system, structural[which]) && may_have(problem, which)) {
+            names[count++] = structural[which];
+        }
+    }
+    data->parts = (struct gm_parts){names, given, system->timed, part_rates, parts_differ};
+    data->ode.parts = count > 0 ? &data->parts : NULL;
 }

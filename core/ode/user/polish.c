@@ -5,7 +5,7 @@
    those of a double: an iteration gains about a dozen. The columns of J are differences, of the whole scheme
    as it is made of its text: what a decimal stands for, in a let, a base or a tableau, need not be known
    here. P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 4.4. */
-#include "core/ode/user/polish.h"
+#include "core/ode/user/scheme.h"
 
 #include <math.h>
 #include <stdio.h>

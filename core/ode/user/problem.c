@@ -10,122 +10,88 @@
 #include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/families/splitting/kepler.h"
-#include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/trace_free.h"
-#include "core/ode/user/conserved.h"
-#include "core/ode/user/kernel.h"
-#include "core/ode/user/lazy_tape.h"
-#include "core/ode/user/parts.h"
+#include "core/ode/user/data.h"
 #include "core/ode/variational/manifold.h"
-#include "core/quantity.h"
-#include "core/tape.h"
-
-/* The data that a problem's `parameters` and `facets` point to. */
-struct own {
-    const double *constants[GM_KERNEL_FUNCTIONS]; /* the constants of compiled kernels */
-    struct gm_ode ode;
-    struct gm_loops loops, interpreted, free; /* free: without constraints */
-    const struct gm_loops *taken; /* the source of compiled functions in `loops`; NULL: all are interpreted */
-    void *note;                   /* the compiler's note */
-    struct gm_split split;
-    struct gm_hamiltonian hamiltonian;
-    struct gm_volume volume;
-    struct gm_magnetic magnetic;
-    struct gm_parts parts;
-    struct gm_tape drift, turning; /* functions of places and of the time */
-    struct gm_fast_linear fast_linear;
-    struct gm_kepler_split kepler_split;
-    struct gm_lagrangian one_degree;
-    struct gm_late_tape slow_force;                     /* a function of q alone */
-    struct gm_tape attraction, perturbation, potential; /* functions of q alone */
-    double *frequencies;                                /* one per coordinate */
-    struct gm_late_tape field, velocity, force, energy, jacobian;
-    struct gm_late_tape *pieces; /* the rates, one by one, where each component alone has an exact flow */
-    struct gm_user_lagrangian lagrangian;
-    struct gm_user_constraints constraints;
-    struct gm_action action;
-    double friction;
-    struct gm_tape density, slopes; /* the monitor's Q, and Q with dQ/dy */
-    struct gm_monitor monitor;
-    struct gm_user_bracket bracket;
-    struct gm_poisson poisson;
-    double matrix[9]; /* the matrix of a linear field of three components without divergence */
-    double *values;   /* values of the system's variables */
-    const struct gm_user_model *model;
-    const struct gm_user_rates *rates; /* of the model */
-    struct gm_arena *arena;            /* owns all of this */
-};
-
-/* Not constant: tapes are made later (core/ode/user/lazy_tape.h). */
-static struct own *own_of(const struct gm_problem *problem)
-{
-    return (struct own *)problem->parameters;
-}
+#include "core/user/line.h"
 
 static bool energy_formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
 {
-    const struct own *self = own_of(problem);
+    const struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_user_system *system = self->model->system;
     *node = gm_formula_graft(graph, &system->graph, system->energy, problem->n, self->values);
     return *node != GM_NO_NODE;
 }
 
-/* A function of a facet: the values of a tape, of a component of the problem's own data. */
-#define VALUES_OF(tape)                                                                                      \
-    static void tape(const struct gm_problem *problem, const double *y, double *values, size_t m)            \
+/* A function of a facet: the values of a tape, for m members or for one. */
+#define VALUES_OF(name, formula)                                                                             \
+    static void name(const struct gm_problem *problem, const double *y, double *values, size_t m)            \
     {                                                                                                        \
-        gm_late_tape_values(&own_of(problem)->tape, y, values, m);                                           \
+        gm_user_values(problem, formula, y, values, m);                                                      \
     }
-VALUES_OF(field)
-VALUES_OF(velocity)
-VALUES_OF(force)
-VALUES_OF(energy)
-VALUES_OF(slow_force)
+#define VALUES_OF_ONE(name, formula)                                                                         \
+    static void name(const struct gm_problem *problem, const double *y, double *values)                      \
+    {                                                                                                        \
+        gm_user_values(problem, formula, y, values, 1);                                                      \
+    }
+VALUES_OF(field, GM_KERNEL_FIELD)
+VALUES_OF(velocity, GM_KERNEL_VELOCITY)
+VALUES_OF(force, GM_KERNEL_FORCE)
+VALUES_OF(energy, GM_KERNEL_ENERGY)
+VALUES_OF(slow_force, GM_USER_SLOW_FORCE)
+VALUES_OF(attraction, GM_USER_ATTRACTION)
+VALUES_OF(perturbing_force, GM_USER_PERTURBATION)
+VALUES_OF_ONE(drift, GM_USER_DRIFT)
+VALUES_OF_ONE(turning, GM_USER_TURNING)
 
 static void jacobian(const struct gm_problem *problem, const double *y, double *matrix)
 {
-    struct own *self = own_of(problem);
-    const struct gm_sparse *entries = &self->rates->jacobian;
+    const struct gm_sparse *entries = &gm_user_data_of(problem)->formulas->jacobian;
     double values[GM_NEWTON_LARGEST * GM_NEWTON_LARGEST];
-    gm_late_tape_values(&self->jacobian, y, values, 1);
+    gm_user_values(problem, GM_KERNEL_JACOBIAN, y, values, 1);
     memset(matrix, 0, problem->n * problem->n * sizeof *matrix);
     for (size_t i = 0; i < entries->count; i++) {
         matrix[entries->entries[i].row * problem->n + entries->entries[i].column] = values[i];
     }
 }
 
-/* The same of a Lagrangian. */
-#define VALUES_OF_LAGRANGIAN(name)                                                                           \
-    static void lagrangian_##name(const struct gm_problem *problem, const double *y, double *values,         \
-                                  size_t m)                                                                  \
-    {                                                                                                        \
-        gm_user_lagrangian_##name(&own_of(problem)->lagrangian, y, values, m);                               \
-    }
-VALUES_OF_LAGRANGIAN(field)
-VALUES_OF_LAGRANGIAN(velocity)
-VALUES_OF_LAGRANGIAN(force)
-VALUES_OF_LAGRANGIAN(energy)
-
-static void lagrangian_jacobian(const struct gm_problem *problem, const double *y, double *matrix)
+static void potential(const struct gm_problem *problem, double q, double values[3])
 {
-    gm_user_lagrangian_jacobian(&own_of(problem)->lagrangian, y, matrix);
+    gm_user_values(problem, GM_KERNEL_POTENTIAL, &q, values, 1);
 }
 
-static void motion(const struct gm_problem *problem, const double *at, const struct gm_motion *motion)
-{
-    gm_user_lagrangian_motion(&own_of(problem)->lagrangian, at, motion);
-}
-
+/* gm_action.constrain; NaN when out of memory, which is noted */
 static void constrain(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
                       double *slopes, double *curvature)
 {
-    gm_user_constraints_values(&own_of(problem)->constraints, q, multipliers, g, slopes, curvature);
-}
-
-static double friction(const struct gm_problem *problem)
-{
-    return own_of(problem)->friction;
+    enum { FEW = 2048 }; /* more values are allocated */
+    const struct gm_user_data *self = gm_user_data_of(problem);
+    const struct gm_user_constraints *constraints = &self->model->constraints;
+    const size_t half = constraints->half, count = self->tapes[GM_USER_CONSTRAINTS].count;
+    double few[FEW], *values = count <= FEW ? few : malloc(count * sizeof *values);
+    memset(slopes, 0, constraints->count * half * sizeof *slopes);
+    memset(curvature, 0, half * half * sizeof *curvature);
+    for (size_t k = 0; !values && k < constraints->count; k++) {
+        g[k] = NAN;
+    }
+    if (!values) {
+        return;
+    }
+    gm_user_values(problem, GM_USER_CONSTRAINTS, q, values, 1);
+    memcpy(g, values, constraints->count * sizeof *g);
+    const double *next = values + constraints->count;
+    for (size_t i = 0; i < constraints->slopes.count; i++) {
+        slopes[constraints->slopes.entries[i].row * half + constraints->slopes.entries[i].column] = *next++;
+    }
+    for (size_t i = 0; i < constraints->second.count; i++) {
+        const struct gm_sparse_entry *entry = &constraints->second.entries[i],
+                                     *slope = &constraints->slopes.entries[entry->row];
+        curvature[slope->column * half + entry->column] += multipliers[slope->row] * *next++;
+    }
+    if (values != few) {
+        free(values);
+    }
 }
 
 /* x_piece := x_piece + h rate(the others) */
@@ -135,7 +101,7 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     double rate[BLOCK];
     for (size_t first = 0; first < m; first += BLOCK) {
         const size_t count = m - first < BLOCK ? m - first : BLOCK;
-        gm_late_tape_block(&own_of(problem)->pieces[piece], y + first, m, rate, BLOCK, count);
+        gm_late_tape_block(&gm_user_data_of(problem)->rates[piece], y + first, m, rate, BLOCK, count);
         for (size_t l = 0; l < count; l++) {
             y[piece * m + first + l] += h * rate[l];
         }
@@ -144,121 +110,41 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
 
 static void trace_free_flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
 {
-    gm_trace_free_flow(own_of(problem)->matrix, piece, h, y, m);
+    gm_trace_free_flow(gm_user_data_of(problem)->matrix, piece, h, y, m);
 }
 
 static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
 {
-    const struct own *self = own_of(problem);
-    if (!gradient) {
-        gm_tape_values(&self->density, y, value, 1);
-        return;
+    if (gradient) {
+        gm_user_values(problem, GM_USER_DENSITY_SLOPES, y, gradient, 1);
     }
-    gm_tape_values(&self->slopes, y, gradient, 1);
-    gm_tape_values(&self->density, y, value, 1);
-}
-
-static double energy_of_bracket(const struct gm_problem *problem, const double *y)
-{
-    double value;
-    gm_tape_values(&own_of(problem)->bracket.energy, y, &value, 1);
-    return value;
-}
-
-static void gradient(const struct gm_problem *problem, const double *y, double *slope)
-{
-    gm_tape_values(&own_of(problem)->bracket.gradient, y, slope, 1);
-}
-
-static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
-{
-    gm_tape_values(&own_of(problem)->bracket.matrix, y, matrix, 1);
-}
-
-static void flow_of_piece(const struct gm_problem *problem, size_t piece, double h, double *y)
-{
-    gm_user_bracket_flow(&own_of(problem)->bracket, piece, h, y);
+    gm_user_values(problem, GM_USER_DENSITY, y, value, 1);
 }
 
 /* Makes tapes before the first step, so that it takes no longer than others. */
 static void prepare(const struct gm_problem *problem, unsigned needs)
 {
-    struct own *self = own_of(problem);
+    struct gm_user_data *self = gm_user_data_of(problem);
     if (needs & (GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM | GM_NEEDS_ATTRACTION)) {
-        gm_late_tape(&self->velocity);
-        gm_late_tape(&self->force);
+        gm_late_tape(&self->tapes[GM_KERNEL_VELOCITY]);
+        gm_late_tape(&self->tapes[GM_KERNEL_FORCE]);
     } else if (needs & GM_NEEDS_FAST_LINEAR) {
-        gm_late_tape(&self->slow_force);
+        gm_late_tape(&self->tapes[GM_USER_SLOW_FORCE]);
     } else if (needs & GM_NEEDS_VOLUME) {
-        for (size_t i = 0; self->pieces && i < problem->n; i++) {
-            gm_late_tape(&self->pieces[i]);
+        for (size_t i = 0; self->rates && i < problem->n; i++) {
+            gm_late_tape(&self->rates[i]);
         }
     } else {
-        gm_late_tape(&self->field);
+        gm_late_tape(&self->tapes[GM_KERNEL_FIELD]);
         if (self->model->has_jacobian) {
-            gm_late_tape(&self->jacobian);
+            gm_late_tape(&self->tapes[GM_KERNEL_JACOBIAN]);
         }
     }
 }
 
-static void drift(const struct gm_problem *problem, const double *y, double *values)
-{
-    gm_tape_values(&own_of(problem)->drift, y, values, 1);
-}
-
-static void turning(const struct gm_problem *problem, const double *y, double *values)
-{
-    gm_tape_values(&own_of(problem)->turning, y, values, 1);
-}
-
-static gm_node_id conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                            char *lacks)
-{
-    return gm_user_conserved(own_of(problem)->model, own_of(problem)->values, name, graph, lacks);
-}
-
 static double frequency(const struct gm_problem *problem, size_t i)
 {
-    return own_of(problem)->frequencies[i];
-}
-
-static void attraction(const struct gm_problem *problem, const double *q, double *potential, size_t m)
-{
-    gm_tape_values(&own_of(problem)->attraction, q, potential, m);
-}
-
-static void perturbing_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
-{
-    gm_tape_values(&own_of(problem)->perturbation, q, force, m);
-}
-
-static void potential(const struct gm_problem *problem, double q, double values[3])
-{
-    gm_tape_values(&own_of(problem)->potential, &q, values, 1);
-}
-
-static bool part_rates(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                       gm_node_id *rates)
-{
-    const struct own *self = own_of(problem);
-    return gm_user_part_rates(self->model, self->values, name, graph, rates);
-}
-
-static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
-                                struct gm_arena *arena)
-{
-    const struct own *self = own_of(problem);
-    return gm_user_parts_differ(self->model, self->values, names, count, arena);
-}
-
-static struct gm_late_tape late_tape(const struct own *self, const gm_node_id *nodes, size_t count,
-                                     size_t inputs)
-{
-    return (struct gm_late_tape){.graph = &self->model->system->graph,
-                                 .nodes = nodes,
-                                 .count = count,
-                                 .inputs = inputs,
-                                 .values = self->values};
+    return gm_user_data_of(problem)->frequencies[i];
 }
 
 static void kepler_solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
@@ -290,228 +176,167 @@ static bool vanish(struct gm_arena *arena, const struct gm_user_system *system, 
     return zero;
 }
 
-/* A tape of the problem's graph and values. */
-static void open_tape(struct own *self, struct gm_tape *tape, const gm_node_id *nodes, size_t count,
-                      size_t inputs)
+static bool holds(const struct gm_user_data *self, enum gm_fact fact)
 {
-    gm_tape_keep(self->arena, tape,
-                 gm_tape_open(tape, &self->model->system->graph, nodes, count, inputs, self->values));
+    return gm_user_model_holds(self->model, self->values, fact);
 }
 
 /* The values of nodes that hold no component. */
-static void find_constants(struct own *self, const gm_node_id *nodes, size_t count, double *constants)
+static void find_constants(const struct gm_user_data *self, const gm_node_id *nodes, size_t count,
+                           double *constants)
 {
-    struct gm_tape *tape = gm_arena_take(self->arena, 1, sizeof *tape);
-    open_tape(self, tape, nodes, count, 0);
-    gm_tape_values(tape, NULL, constants, 1);
+    gm_arena_need(self->arena,
+                  gm_user_line_numbers(self->model->system, nodes, count, self->values, constants));
 }
 
 /* The facets of H = |p|^2/2 + V(q). */
-static void open_mechanical(struct own *self, struct gm_problem *problem)
+static void open_mechanical(struct gm_user_data *self, struct gm_problem *problem)
 {
-    const struct gm_user_model *model = self->model;
-    const struct gm_finding *findings = model->findings;
-    const size_t half = model->system->n / 2;
-    if (gm_user_model_holds(model, self->values, GM_FACT_FAST_LINEAR)) {
+    static const struct gm_exact kepler = {.solution = kepler_solution};
+    const struct gm_finding *findings = self->model->findings;
+    const struct gm_user_system *system = self->model->system;
+    const size_t half = system->n / 2;
+    struct gm_late_tape *tapes = self->tapes;
+    if (holds(self, GM_FACT_FAST_LINEAR)) {
         const gm_node_id *nodes = findings[GM_FACT_FAST_LINEAR].nodes;
         bool real = true;
         self->frequencies = gm_arena_take(self->arena, half, sizeof *self->frequencies);
         find_constants(self, nodes, half, self->frequencies);
-        self->slow_force = late_tape(self, nodes + half, half, half);
+        gm_user_compile(self, &tapes[GM_USER_SLOW_FORCE], nodes + half, half, half);
         for (size_t i = 0; i < half; i++) {
             real = real && isfinite(self->frequencies[i]);
         }
         self->fast_linear = (struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force};
         self->ode.fast_linear = real ? &self->fast_linear : NULL;
     }
-    if (gm_user_model_holds(model, self->values, GM_FACT_KEPLER_SPLIT)) {
+    if (holds(self, GM_FACT_KEPLER_SPLIT)) {
         const gm_node_id *nodes = findings[GM_FACT_KEPLER_SPLIT].nodes;
-        open_tape(self, &self->attraction, nodes, 1, 2);
-        open_tape(self, &self->perturbation, nodes + 1, 2, 2);
+        gm_user_compile(self, &tapes[GM_USER_ATTRACTION], nodes, 1, 2);
+        gm_user_compile(self, &tapes[GM_USER_PERTURBATION], nodes + 1, 2, 2);
         self->kepler_split =
             (struct gm_kepler_split){.potential = attraction, .perturbing_force = perturbing_force};
         self->ode.kepler_split = &self->kepler_split;
-        static const struct gm_exact kepler = {.solution = kepler_solution};
-        problem->exact = vanish(self->arena, model->system, nodes + 1, self->values) ? &kepler : NULL;
+        problem->exact = vanish(self->arena, system, nodes + 1, self->values) ? &kepler : NULL;
     }
-    if (gm_user_model_holds(model, self->values, GM_FACT_LAGRANGIAN)) {
-        open_tape(self, &self->potential, findings[GM_FACT_LAGRANGIAN].nodes, 3, 1);
+    if (holds(self, GM_FACT_LAGRANGIAN)) {
+        gm_user_compile(self, &tapes[GM_KERNEL_POTENTIAL], findings[GM_FACT_LAGRANGIAN].nodes, 3, 1);
         self->one_degree.potential = potential;
         self->ode.lagrangian = &self->one_degree;
     }
 }
 
 /* Opens the facet of motions in a magnetic field. */
-static void open_magnetic(struct own *self)
+static void open_magnetic(struct gm_user_data *self)
 {
     const struct gm_user_model *model = self->model;
     const size_t half = model->system->n / 2;
     const gm_node_id *nodes = model->findings[GM_FACT_MAGNETIC].nodes;
-    if (!gm_user_model_holds(model, self->values, GM_FACT_MAGNETIC)) {
-        return;
+    if (holds(self, GM_FACT_MAGNETIC)) {
+        self->magnetic = (struct gm_magnetic){
+            .canonical = model->system->kind == GM_CANONICAL, .drift = drift, .forces = turning};
+        find_constants(self, nodes + (2 + half) * half, 1, &self->magnetic.c);
+        gm_user_compile(self, &self->tapes[GM_USER_DRIFT], nodes, half, model->components);
+        gm_user_compile(self, &self->tapes[GM_USER_TURNING], nodes + half, half + half * half,
+                        model->components);
+        self->ode.magnetic = self->magnetic.c != 0 ? &self->magnetic : NULL;
     }
-    self->magnetic = (struct gm_magnetic){
-        .canonical = model->system->kind == GM_CANONICAL, .drift = drift, .forces = turning};
-    find_constants(self, nodes + (2 + half) * half, 1, &self->magnetic.c);
-    open_tape(self, &self->drift, nodes, half, model->components);
-    open_tape(self, &self->turning, nodes + half, half + half * half, model->components);
-    self->ode.magnetic = self->magnetic.c != 0 ? &self->magnetic : NULL;
 }
 
 /* Opens the facet of variational schemes. */
-static void open_action(struct own *self)
+static void open_action(struct gm_user_data *self)
 {
     const struct gm_user_model *model = self->model;
-    const bool constrained = model->constraints.count > 0;
-    if (!gm_user_model_has_action(model) ||
-        (model->system->kind == GM_CANONICAL && !gm_user_model_holds(model, self->values, GM_FACT_NYSTROM))) {
+    const struct gm_user_constraints *constraints = &model->constraints;
+    const enum gm_system_kind kind = model->system->kind;
+    if (!gm_user_model_has_action(model) || (kind == GM_CANONICAL && !holds(self, GM_FACT_NYSTROM))) {
         return;
     }
-    self->action = (struct gm_action){.motion = model->system->kind == GM_LAGRANGIAN ? motion : NULL,
-                                      .free = constrained ? &self->free : NULL,
-                                      .constraints = model->constraints.count,
+    self->action = (struct gm_action){.motion = kind == GM_LAGRANGIAN ? gm_user_lagrangian_motion : NULL,
+                                      .free = constraints->count > 0 ? &self->free : NULL,
+                                      .constraints = constraints->count,
                                       .constrain = constrain};
     self->ode.action = &self->action;
-    if (constrained) {
-        gm_user_constraints_open(self->arena, &self->constraints, &model->constraints, self->values);
+    if (constraints->count > 0) {
+        gm_user_compile(self, &self->tapes[GM_USER_CONSTRAINTS], constraints->nodes,
+                        constraints->count + constraints->slopes.count + constraints->second.count,
+                        constraints->half);
     }
-    if (gm_user_model_holds(model, self->values, GM_FACT_CONFORMAL)) {
+    if (holds(self, GM_FACT_CONFORMAL)) {
         find_constants(self, model->findings[GM_FACT_CONFORMAL].nodes, 1, &self->friction);
-        self->action.friction = friction;
+        self->action.friction = &self->friction;
     }
-}
-
-/* The moments of inertia of a body that nothing turns: slopes that are linear, each of its own component. */
-static void find_moments(struct own *self, const struct gm_problem *problem)
-{
-    struct gm_poisson *poisson = &self->poisson;
-    double at[3] = {0}, slopes[3];
-    if (self->model->system->n != 3 || poisson->turning == 0 || !poisson->axes || !self->ode.quadratic) {
-        return;
-    }
-    poisson->gradient(problem, at, slopes);
-    bool linear = slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
-    double moments[3];
-    for (int i = 0; i < 3; i++) {
-        at[i] = 1;
-        poisson->gradient(problem, at, slopes);
-        moments[i] = 1 / slopes[i];
-        linear = linear && slopes[i] != 0 && isfinite(moments[i]);
-    }
-    if (linear) {
-        memcpy(poisson->moments, moments, sizeof moments);
-    }
-}
-
-/* Opens the facet of schemes for brackets. */
-static void open_poisson(struct own *self, const struct gm_problem *problem)
-{
-    const struct gm_user_bracket_model *model = &self->model->bracket;
-    if (!model->gradient) {
-        return;
-    }
-    self->poisson = (struct gm_poisson){.energy = energy_of_bracket,
-                                        .gradient = gradient,
-                                        .bracket = bracket,
-                                        .turning = model->turning,
-                                        .spins = model->spins,
-                                        .axes = model->axes,
-                                        .pieces = model->piece_count,
-                                        .flow = flow_of_piece};
-    self->ode.poisson = &self->poisson;
-    gm_user_bracket_open(self->arena, &self->bracket, model, self->values);
-    find_moments(self, problem);
 }
 
 /* Opens the facet of adaptive schemes. */
-static void open_monitor(struct own *self)
+static void open_monitor(struct gm_user_data *self)
 {
     const struct gm_user_model *model = self->model;
+    const size_t n = model->components;
     if (!model->slopes) {
         return;
     }
     self->monitor = (struct gm_monitor){.density = density, .of_places = true};
-    for (size_t i = model->system->n / 2; i < model->components; i++) {
-        self->monitor.of_places =
-            self->monitor.of_places && gm_is_constant(&model->system->graph, model->slopes[i], 0);
+    for (size_t i = model->system->n / 2; i < n; i++) {
+        self->monitor.of_places &= gm_is_constant(&model->system->graph, model->slopes[i], 0);
     }
     self->ode.monitor = &self->monitor;
-    open_tape(self, &self->density, &model->monitor, 1, model->components);
-    open_tape(self, &self->slopes, model->slopes, model->components, model->components);
+    gm_user_compile(self, &self->tapes[GM_USER_DENSITY], &model->monitor, 1, n);
+    gm_user_compile(self, &self->tapes[GM_USER_DENSITY_SLOPES], model->slopes, n, n);
 }
 
-static bool is_unit_mass(const struct own *self)
+static bool is_unit_mass(const struct gm_user_data *self)
 {
     const struct gm_user_model *model = self->model;
     const size_t half = model->system->n / 2;
     bool unit = true;
     for (size_t i = 0; i < half; i++) {
-        const struct gm_node *rate = &model->system->graph.nodes[self->rates->nodes[i]];
+        const struct gm_node *rate = &model->system->graph.nodes[self->formulas->nodes[i]];
         unit = unit && rate->operation == GM_VARIABLE && rate->a == half + i;
     }
     return unit;
 }
 
-static void close_late(void *tape)
+static void name_tapes(struct gm_user_data *self)
 {
-    gm_late_tape_close(tape);
-}
-
-static void open_tapes(struct own *self)
-{
-    const struct gm_user_model *model = self->model;
-    const struct gm_user_rates *rates = self->rates;
-    const struct gm_user_system *system = model->system;
-    const size_t n = model->components, half = system->n / 2;
-    struct gm_late_tape *const late[] = {&self->field,  &self->velocity, &self->force,
-                                         &self->energy, &self->jacobian, &self->slow_force};
-    for (size_t i = 0; i < GM_COUNT(late); i++) {
-        gm_arena_keep(self->arena, late[i], close_late);
-    }
+    const struct gm_user_rates *formulas = self->formulas;
+    const struct gm_user_system *system = self->model->system;
+    const size_t n = self->model->components, half = system->n / 2;
+    struct gm_late_tape *tapes = self->tapes;
     if (system->kind == GM_LAGRANGIAN) {
-        gm_user_lagrangian_open(self->arena, &self->lagrangian, &model->lagrangian, self->values);
+        gm_user_lagrangian_open(self);
         return;
     }
-    self->field = late_tape(self, rates->nodes, n, n);
-    self->velocity = late_tape(self, rates->nodes, half, n);
-    self->force = late_tape(self, rates->nodes + half, half, n);
-    self->energy = late_tape(self, &system->energy, 1, n);
-    self->jacobian = late_tape(self, rates->slopes, rates->jacobian.count, n);
+    gm_user_compile(self, &tapes[GM_KERNEL_FIELD], formulas->nodes, n, n);
+    gm_user_compile(self, &tapes[GM_KERNEL_VELOCITY], formulas->nodes, half, n);
+    gm_user_compile(self, &tapes[GM_KERNEL_FORCE], formulas->nodes + half, half, n);
+    gm_user_compile(self, &tapes[GM_KERNEL_ENERGY], &system->energy, 1, n);
+    gm_user_compile(self, &tapes[GM_KERNEL_JACOBIAN], formulas->slopes, formulas->jacobian.count, n);
     if (self->ode.volume) {
-        self->pieces = gm_arena_take(self->arena, n, sizeof *self->pieces);
+        self->rates = gm_arena_take(self->arena, n, sizeof *self->rates);
         for (size_t i = 0; i < n; i++) {
-            self->pieces[i] = late_tape(self, &rates->nodes[i], 1, n);
-            gm_arena_keep(self->arena, &self->pieces[i], close_late);
+            gm_user_compile(self, &self->rates[i], &formulas->nodes[i], 1, n);
         }
     }
 }
 
 /* Returns true if the energy at rest is negative at the start that these values give. A Hamiltonian's formula
-   itself is evaluated: no tape is made for one number. */
-static bool attracts(const struct own *self, const struct gm_problem *problem)
+   itself is evaluated: no tape of all states is made for one number. */
+static bool attracts(const struct gm_user_data *self, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = self->model->system;
-    const gm_node_id energy = system->energy;
     const size_t places = problem->n / 2;
-    size_t count = 0;
-    double *rest = gm_arena_take(self->arena, system->variable_count, sizeof *rest);
+    double *rest = gm_arena_take(self->arena, system->variable_count, sizeof *rest), value;
     memcpy(rest, self->values, system->variable_count * sizeof *rest);
     memset(rest + places, 0, (problem->n - places) * sizeof *rest);
     if (system->kind == GM_LAGRANGIAN) {
         return gm_energy(problem, rest) < 0;
     }
-    const gm_node_id *parts =
-        gm_arena_keep(self->arena, gm_formula_parts(&system->graph, energy, &count), free);
-    /* filled at the parts only */
-    double *at = gm_arena_keep(self->arena, malloc((energy + (size_t)1) * sizeof *at), free);
-    gm_formula_evaluate_parts(&system->graph, parts, count, rest, at);
-    const bool negative = at[energy] < 0;
-    gm_arena_drop(self->arena, at);
-    return negative;
+    gm_arena_need(self->arena, gm_user_line_numbers(system, &system->energy, 1, rest, &value));
+    return value < 0;
 }
 
 /* Returns true if the rates are A y in three dimensions with tr A = 0, to round-off; notes A. */
-static bool is_trace_free(struct own *self, const struct gm_problem *problem)
+static bool is_trace_free(struct gm_user_data *self, const struct gm_problem *problem)
 {
     const double origin[3] = {0}, *a = self->matrix;
     double rates[3];
@@ -532,73 +357,71 @@ struct opening {
 
 static void open_problem(struct gm_arena *arena, void *data)
 {
+    static const struct gm_loops tapes = {
+        .field = field, .velocity = velocity, .force = force, .jacobian = jacobian};
     const struct opening *opening = data;
     const struct gm_user_model *model = opening->model;
     const struct gm_user_system *system = model->system;
     struct gm_problem *problem = opening->problem;
-    struct own *self = gm_arena_take(arena, 1, sizeof *self);
+    struct gm_user_data *self = gm_arena_take(arena, 1, sizeof *self);
     const double *values = self->values = gm_arena_take(arena, system->variable_count, sizeof *self->values);
     memcpy(self->values, opening->values, system->variable_count * sizeof *values);
     self->arena = arena;
     self->model = model;
-    self->rates = gm_user_model_rates(model, values);
+    self->formulas = gm_user_model_rates(model, values);
     problem->parameters = self;
     problem->facets = &self->ode;
-    const bool lagrangian = system->kind == GM_LAGRANGIAN;
-    self->loops = (struct gm_loops){.field = lagrangian ? lagrangian_field : field,
-                                    .jacobian = !model->has_jacobian ? NULL
-                                                : lagrangian         ? lagrangian_jacobian
-                                                                     : jacobian};
-    const bool constrained = model->constraints.count > 0;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN, constrained = model->constraints.count > 0;
+    const struct gm_loops *all = lagrangian ? &gm_user_lagrangian_loops : &tapes;
+    self->loops =
+        (struct gm_loops){.field = all->field, .jacobian = model->has_jacobian ? all->jacobian : NULL};
     if (constrained) {
         self->free = self->loops;
         self->loops = (struct gm_loops){.field = gm_manifold_field};
     }
-    self->ode =
-        (struct gm_ode){.written = true,
-                        .components = model->names[0] ? model->names : NULL,
-                        .quadratic = !constrained && gm_user_model_holds(model, values, GM_FACT_QUADRATIC),
-                        .linear = !constrained && gm_user_model_holds(model, values, GM_FACT_LINEAR) &&
-                                  gm_user_model_holds(model, values, GM_FACT_AUTONOMOUS),
-                        .rough = !gm_user_model_holds(model, values, GM_FACT_SMOOTH),
-                        .conserved = conserved,
-                        .prepare = lagrangian ? NULL : prepare};
+    self->ode = (struct gm_ode){.written = true,
+                                .components = model->names[0] ? model->names : NULL,
+                                .quadratic = !constrained && holds(self, GM_FACT_QUADRATIC),
+                                .linear = !constrained && holds(self, GM_FACT_LINEAR) &&
+                                          holds(self, GM_FACT_AUTONOMOUS),
+                                .rough = !holds(self, GM_FACT_SMOOTH),
+                                .conserved = gm_user_conserved,
+                                .prepare = lagrangian ? NULL : prepare};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         self->ode.loops[isa] = &self->loops;
     }
     self->ode.forced = system->kind <= GM_LAGRANGIAN && gm_user_model_is_forced(model);
     if (system->kind <= GM_LAGRANGIAN && !self->ode.forced) {
         /* a Hamiltonian with the time generates no field of the whole state: it only splits */
-        self->split.nystrom = gm_user_model_holds(model, values, GM_FACT_NYSTROM);
+        self->split.nystrom = holds(self, GM_FACT_NYSTROM);
         self->split.unit_mass = !lagrangian && is_unit_mass(self);
-        self->hamiltonian.energy = lagrangian ? lagrangian_energy : energy;
+        self->hamiltonian.energy = lagrangian ? gm_user_lagrangian_energy : energy;
         self->hamiltonian.partial = system->tangents > 0;
         self->hamiltonian.formula = lagrangian || constrained ? NULL : energy_formula;
         self->ode.split = gm_user_model_splits(model, values) ? &self->split : NULL;
         self->ode.hamiltonian = system->timed ? NULL : &self->hamiltonian;
-        self->loops.velocity = !self->ode.split ? NULL : lagrangian ? lagrangian_velocity : velocity;
-        self->loops.force = !self->ode.split ? NULL : lagrangian ? lagrangian_force : force;
     }
-    if (gm_user_model_holds(model, values, GM_FACT_SECOND_ORDER)) {
+    if (holds(self, GM_FACT_SECOND_ORDER)) {
         self->split = (struct gm_split){.nystrom = true, .unit_mass = true, .no_potential = true};
         self->ode.split = &self->split;
-        self->loops.velocity = velocity;
-        self->loops.force = force;
     }
-    if (!constrained && gm_user_model_holds(model, values, GM_FACT_VOLUME)) {
+    if (self->ode.split) {
+        self->loops.velocity = all->velocity;
+        self->loops.force = all->force;
+    }
+    if (!constrained && holds(self, GM_FACT_VOLUME)) {
         self->volume = (struct gm_volume){.pieces = model->components, .flow = flow};
         self->ode.volume = &self->volume;
     }
     self->interpreted = self->loops;
-    open_tapes(self);
+    name_tapes(self);
     open_mechanical(self, problem);
     open_magnetic(self);
     open_action(self);
     open_monitor(self);
-    open_poisson(self, problem);
-    self->parts = (struct gm_parts){.rates = part_rates, .differ = parts_differ};
-    if (system->tangents == 0 && !constrained && gm_user_parts_open(arena, model, values, &self->parts)) {
-        self->ode.parts = &self->parts;
+    gm_user_bracket_open(problem);
+    if (system->tangents == 0 && !constrained) {
+        gm_user_parts_open(problem);
     }
     if (self->ode.linear && !self->ode.volume && is_trace_free(self, problem)) {
         self->volume = (struct gm_volume){.pieces = GM_TRACE_FREE_PIECES, .flow = trace_free_flow};
@@ -630,7 +453,7 @@ static void close_motion(void *data)
 
 const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, const struct gm_problem *problem)
 {
-    const struct own *self = own_of(problem);
+    const struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_user_system *whole = self->model->system;
     if (whole->tangents == 0) {
         return NULL;
@@ -647,30 +470,30 @@ const struct gm_user_motion *gm_user_problem_motion(struct gm_arena *arena, cons
 }
 
 /* Makes the tapes from which kernels are written; NULL: a missing one. Returns false when out of memory. */
-static bool tapes_of_kernels(struct own *self, const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS])
+static bool tapes_of_kernels(struct gm_user_data *self, const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS])
 {
-    struct gm_late_tape *const late[GM_KERNEL_FUNCTIONS] = {
-        [GM_KERNEL_FIELD] = &self->field,
-        [GM_KERNEL_VELOCITY] = self->ode.split ? &self->velocity : NULL,
-        [GM_KERNEL_FORCE] = self->ode.split ? &self->force : NULL,
-        [GM_KERNEL_JACOBIAN] = self->model->has_jacobian ? &self->jacobian : NULL};
+    const bool splits = self->ode.split != NULL,
+               has[GM_KERNEL_FUNCTIONS] = {[GM_KERNEL_FIELD] = true,
+                                           [GM_KERNEL_VELOCITY] = splits,
+                                           [GM_KERNEL_FORCE] = splits,
+                                           [GM_KERNEL_JACOBIAN] = self->model->has_jacobian};
     bool good = true;
     for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
-        tapes[i] = late[i] ? gm_late_tape(late[i]) : NULL;
-        good = good && (tapes[i] || !late[i]);
+        tapes[i] = has[i] ? gm_late_tape(&self->tapes[i]) : NULL;
+        good = good && (tapes[i] || !has[i]);
     }
     return good;
 }
 
 char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const char **lacks)
 {
-    struct own *self = own_of(problem);
+    struct gm_user_data *self = gm_user_data_of(problem);
     *lacks = gm_user_model_refuses_kernels(self->model);
     if (*lacks) {
         return NULL;
     }
     struct gm_kernel_source source = {.components = problem->n,
-                                      .jacobian = &self->rates->jacobian,
+                                      .jacobian = &self->formulas->jacobian,
                                       .jacobian_wanted =
                                           over != GM_OVER_EXPLICIT && over != GM_OVER_SPLITTING};
     return tapes_of_kernels(self, source.tapes) ? gm_kernel_text(&source, lacks) : NULL;
@@ -678,23 +501,23 @@ char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const c
 
 void **gm_user_problem_note(const struct gm_problem *problem)
 {
-    return &own_of(problem)->note;
+    return &gm_user_data_of(problem)->note;
 }
 
 void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops)
 {
-    struct own *self = own_of(problem);
+    struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS];
     loops = loops && tapes_of_kernels(self, tapes) ? loops : NULL;
     self->loops = self->interpreted;
-    self->volume.flow = self->pieces ? flow : self->volume.flow;
+    self->volume.flow = self->rates ? flow : self->volume.flow;
     self->taken = loops;
     if (loops) {
         for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
             self->constants[i] = tapes[i] ? tapes[i]->constants : NULL;
         }
         self->loops.field = loops->field;
-        self->volume.flow = loops->shear && self->pieces ? loops->shear : self->volume.flow;
+        self->volume.flow = loops->shear && self->rates ? loops->shear : self->volume.flow;
         self->loops.jacobian = loops->jacobian ? loops->jacobian : self->interpreted.jacobian;
         memcpy(self->loops.over_kernels, loops->over_kernels, sizeof self->loops.over_kernels);
     }
@@ -713,13 +536,13 @@ void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
 
 const struct gm_loops *gm_user_problem_taken(const struct gm_problem *problem)
 {
-    return own_of(problem)->taken;
+    return gm_user_data_of(problem)->taken;
 }
 
 void gm_user_problem_close(struct gm_problem *problem)
 {
     if (problem->parameters) {
-        gm_arena_close(own_of(problem)->arena);
+        gm_arena_close(gm_user_data_of(problem)->arena);
     }
     *problem = (struct gm_problem){0};
 }

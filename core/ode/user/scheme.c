@@ -24,8 +24,6 @@
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/families/runge_kutta/nystrom.h"
-#include "core/ode/families/runge_kutta/partitioned.h"
 #include "core/ode/families/splitting/parts.h"
 #include "core/schemes.h"
 #include "core/theory/theory.h"
@@ -55,6 +53,12 @@ struct making {
     int depth;
     struct moved *moved; /* the whole scheme's; or NULL */
     struct own *made;    /* the whole scheme */
+};
+
+/* The schemes that a line names. */
+struct named {
+    int count;
+    const struct gm_scheme **at;
 };
 
 _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct making *making, size_t place,
@@ -90,6 +94,12 @@ void gm_user_scheme_close(const struct gm_scheme *scheme)
     close_user((struct own *)(void *)scheme);
 }
 
+/* The text of a span, with single blanks. */
+static char *words_of(const struct making *making, struct gm_span span)
+{
+    return gm_arena_keep(making->arena, gm_span_words(making->source->text, span), free);
+}
+
 /* Returns `count` coefficients, not yet opened, which the arena closes. */
 static struct gm_coefficients *take_coefficients(const struct making *making, size_t count)
 {
@@ -111,82 +121,50 @@ static struct own *open_user(const struct making *making, size_t coefficients)
 
 /* ---- tableaus ---- */
 
-/* A tableau of `stages` stages with entry(i, j), and weights as its row i = stages. */
-struct tableau {
-    int stages;
-    struct gm_written_number at[(GM_MOST_STAGES + 1) * GM_MOST_STAGES];
-};
-
-static struct gm_written_number *entry(struct tableau *tableau, int i, int j)
+/* Writes `rows` rows of numbers to a row's arrays, and as balls one after the other. */
+static void put(const struct gm_written_number *numbers, int rows, int columns,
+                double (*to)[GM_TABLEAU_STAGES], struct gm_ball *exact)
 {
-    return &tableau->at[i * tableau->stages + j];
-}
-
-/* Writes `rows` rows of numbers to a row's arrays, and as balls one after the other; returns what is behind
-   these numbers. */
-static const struct gm_written_number *put(const struct gm_written_number *numbers, int rows, int columns,
-                                           double (*to)[GM_TABLEAU_STAGES], struct gm_ball *exact)
-{
-    for (int i = 0; i < rows; i++) {
-        for (int j = 0; j < columns; j++, numbers++) {
-            to[i][j] = numbers->value;
-            *exact++ = numbers->ball;
-        }
+    for (int i = 0; i < rows * columns; i++) {
+        to[i / columns][i % columns] = numbers[i].value;
+        exact[i] = numbers[i].ball;
     }
-    return numbers;
 }
 
-static struct own *of_tableau(const struct making *making, struct tableau *tableau)
+/* The row of a tableau with these coefficients; its family follows from them. */
+static struct own *close_tableau(struct own *self, const struct gm_tableau *tableau)
 {
-    const int stages = tableau->stages;
     bool is_explicit = true;
-    for (int i = 0; i < stages; i++) {
-        for (int j = i; j < stages; j++) {
-            is_explicit = is_explicit && entry(tableau, i, j)->value == 0;
+    for (int i = 0; i < tableau->stages; i++) {
+        for (int j = i; j < tableau->stages; j++) {
+            is_explicit = is_explicit && tableau->a[i][j] == 0;
         }
     }
-    struct own *self = open_user(making, sizeof(struct gm_tableau));
-    gm_arena_need(making->arena, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
     struct gm_tableau *row = self->coefficients;
-    self->row.family = is_explicit ? &gm_family_explicit : &gm_family_implicit;
-    row->stages = stages;
+    *row = *tableau;
     row->composition = is_explicit ? NULL : &gm_composition_none;
-    put(put(tableau->at, stages, stages, row->a, self->exact.a[0]), 1, stages, &row->b, self->exact.b[0]);
+    self->row.family = is_explicit ? &gm_family_explicit : &gm_family_implicit;
     return self;
 }
 
-static struct own *make_runge_kutta(const struct making *making, const struct gm_written_scheme *written)
+static struct own *make_runge_kutta(const struct making *making, const struct gm_written_scheme *written,
+                                    const struct named *schemes)
 {
-    const struct gm_written_line *a = &written->lines[GM_SCHEME_WORD_A],
-                                 *b = &written->lines[GM_SCHEME_WORD_B];
-    struct tableau tableau = {.stages = a->rows};
-    const size_t stages = (size_t)a->rows;
-    memcpy(tableau.at, a->numbers, stages * stages * sizeof *a->numbers);
-    memcpy(tableau.at + stages * stages, b->numbers, stages * sizeof *b->numbers);
-    return of_tableau(making, &tableau);
+    const struct gm_written_line *lines = written->lines;
+    const int stages = lines[GM_SCHEME_WORD_A].rows;
+    struct own *self = open_user(making, sizeof(struct gm_tableau));
+    struct gm_tableau tableau = {.stages = stages};
+    (void)schemes;
+    gm_arena_need(making->arena, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
+    put(lines[GM_SCHEME_WORD_A].numbers, stages, stages, tableau.a, self->exact.a[0]);
+    put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &tableau.b, self->exact.b[0]);
+    return close_tableau(self, &tableau);
 }
 
-/* Reads the doubles and the balls of a scheme whose family has tableaus; false: it has no tableau. */
-static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficients *exact,
-                       struct tableau *tableau)
+static struct own *make_partitioned(const struct making *making, const struct gm_written_scheme *written,
+                                    const struct named *schemes)
 {
-    const struct gm_tableau *row = scheme->coefficients;
-    if ((scheme->family != &gm_family_explicit && scheme->family != &gm_family_implicit) ||
-        exact->stages != row->stages) {
-        return false;
-    }
-    const int stages = tableau->stages = row->stages;
-    for (int i = 0; i < stages * (stages + 1); i++) {
-        const bool weights = i >= stages * stages;
-        tableau->at[i] =
-            (struct gm_written_number){.value = weights ? row->b[i % stages] : row->a[i / stages][i % stages],
-                                       .ball = weights ? exact->b[0][i % stages] : exact->a[0][i]};
-    }
-    return true;
-}
-
-static struct own *make_partitioned(const struct making *making, const struct gm_written_scheme *written)
-{
+    (void)schemes;
     const struct gm_written_line *lines = written->lines;
     const struct gm_written_number *b = lines[GM_SCHEME_WORD_B].numbers,
                                    *d = lines[GM_SCHEME_WORD_BH].numbers;
@@ -205,8 +183,10 @@ static struct own *make_partitioned(const struct making *making, const struct gm
     return self;
 }
 
-static struct own *make_nystrom(const struct making *making, const struct gm_written_scheme *written)
+static struct own *make_nystrom(const struct making *making, const struct gm_written_scheme *written,
+                                const struct named *schemes)
 {
+    (void)schemes;
     const struct gm_written_line *lines = written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     const size_t s = (size_t)stages;
@@ -258,7 +238,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
     struct own *self = open_user(making, sizeof(struct gm_parts_row));
     struct gm_parts_row *row = self->coefficients;
     *row = parts ? *parts : (struct gm_parts_row){.parts = 0};
-    struct gm_splitting *splitting = &row->row.splitting;
+    struct gm_splitting *splitting = &row->splitting;
     bool exact = pieces->count <= MOST_STAGES && row->corrector == 0 && (!parts || parts->parts == 2);
     self->row.family = parts ? &gm_family_parts : &gm_family_splitting;
     self->row.needs = (parts ? GM_NEEDS_PARTS : GM_NEEDS_SPLIT) | needs;
@@ -298,8 +278,7 @@ static bool has_coefficients(const struct gm_scheme *scheme)
 static bool add_pieces(const struct making *making, struct pieces *pieces, const struct gm_scheme *scheme,
                        const struct gm_written_number *fraction, bool backwards)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(scheme->coefficients, &made);
+    const struct gm_splitting *table = scheme->coefficients;
     struct gm_coefficients *exact = has_coefficients(scheme) ? take_coefficients(making, 1) : NULL;
     bool good = true;
     gm_arena_need(making->arena, !exact || gm_scheme_coefficients_open(scheme, exact));
@@ -313,8 +292,10 @@ static bool add_pieces(const struct making *making, struct pieces *pieces, const
     return good;
 }
 
-static struct own *make_splitting(const struct making *making, const struct gm_written_scheme *written)
+static struct own *make_splitting(const struct making *making, const struct gm_written_scheme *written,
+                                  const struct named *schemes)
 {
+    (void)schemes;
     const struct gm_written_line *drifts = &written->lines[GM_SCHEME_WORD_DRIFTS];
     const struct gm_written_line *kicks = &written->lines[GM_SCHEME_WORD_KICKS];
     struct pieces pieces = {0};
@@ -352,7 +333,7 @@ static struct gm_named_part read_part(const struct making *making, struct gm_spa
         part.by = scheme_of(making, gm_span_trimmed(text, (struct gm_span){end + sizeof by - 1, piece.end}));
         piece = gm_span_trimmed(text, (struct gm_span){piece.begin, end});
     }
-    part.name = gm_arena_keep(making->arena, gm_span_words(text, piece), free);
+    part.name = words_of(making, piece);
     return part;
 }
 
@@ -412,8 +393,10 @@ static void put_strang(const struct making *making, struct gm_parts_row *row, st
 
 /* lie, strang and split, and splittings that are called with parts. */
 static struct own *make_parts(const struct making *making, const struct gm_written_scheme *written,
-                              const struct gm_scheme *base)
+                              const struct named *schemes)
 {
+    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
+    const struct gm_scheme *base = bases->count > 0 ? bases->at[0] : NULL;
     const struct gm_written_line *parts = &written->lines[GM_SCHEME_WORD_PARTS],
                                  *steps = &written->lines[GM_SCHEME_WORD_STEPS];
     const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)};
@@ -588,20 +571,19 @@ static struct own *adjoint_splitting(const struct making *making, const struct g
     return of_pieces(making, &pieces, scheme->needs, parts ? &row : NULL);
 }
 
-static struct own *adjoint_tableau(const struct making *making, const struct tableau *tableau)
+static struct own *adjoint_tableau(const struct making *making, const struct gm_coefficients *exact)
 {
-    struct tableau right = *tableau, adjoint = {.stages = tableau->stages};
-    const int last = tableau->stages - 1;
-    for (int i = 0; i <= last; i++) {
-        for (int j = 0; j <= last; j++) {
-            const struct gm_written_number *b = entry(&right, last + 1, last - j);
-            const struct gm_written_number *a = entry(&right, last - i, last - j);
-            *entry(&adjoint, i, j) = (struct gm_written_number){.value = b->value - a->value,
-                                                                .ball = gm_ball_subtract(b->ball, a->ball)};
+    const int stages = exact->stages;
+    struct own *self = open_user(making, sizeof(struct gm_tableau));
+    struct gm_tableau adjoint = {.stages = stages};
+    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
+    for (int i = 0; i < stages; i++) {
+        for (int j = 0; j < stages; j++) {
+            adjoint.a[i][j] = gm_ball_midpoint(self->exact.a[0][i * stages + j]);
         }
-        *entry(&adjoint, last + 1, i) = *entry(&right, last + 1, last - i);
+        adjoint.b[i] = gm_ball_midpoint(self->exact.b[0][i]);
     }
-    return of_tableau(making, &adjoint);
+    return close_tableau(self, &adjoint);
 }
 
 /* The counterpart of gm_coefficients_open_adjoint in doubles. */
@@ -669,15 +651,16 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
              scheme->name);
     }
     struct gm_coefficients *exact = take_coefficients(making, 1);
-    struct tableau tableau;
+    const struct gm_tableau *row = scheme->coefficients;
     gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, exact));
     if (scheme->family == &gm_family_nystrom) {
         return adjoint_nystrom(making, scheme, exact);
     }
-    if (!tableau_of(scheme, exact, &tableau)) {
+    if ((scheme->family != &gm_family_explicit && scheme->family != &gm_family_implicit) ||
+        exact->stages != row->stages) {
         fail(making, place, "the adjoint of %.60s is not known", scheme->name);
     }
-    return adjoint_tableau(making, &tableau);
+    return adjoint_tableau(making, exact);
 }
 
 /* The adjoint of a scheme, which outlives it. */
@@ -722,12 +705,6 @@ static bool are_adjoint(const struct making *making, const struct gm_scheme *a, 
 static struct own *make(const struct making *making, struct gm_span span, const char *name,
                         const char *title);
 
-/* The schemes that a line names. */
-struct named {
-    int count;
-    const struct gm_scheme **at;
-};
-
 bool gm_user_scheme_is_word(const char *text, size_t length)
 {
     char name[256];
@@ -747,7 +724,7 @@ static const struct gm_scheme *scheme_of(const struct making *making, struct gm_
     if (comment) {
         span = gm_span_trimmed(text, (struct gm_span){span.begin, (size_t)(comment - text)});
     }
-    const char *name = gm_arena_keep(making->arena, gm_span_words(text, span), free);
+    const char *name = words_of(making, span);
     char sentence[GM_FAULT_SENTENCE] = "";
     if (gm_user_scheme_is_word(text + span.begin, span.end - span.begin)) {
         return &make(making, span, name, NULL)->row;
@@ -809,8 +786,9 @@ static const char *join(const struct making *making, const struct named *named, 
 
 /* The bases take turns. */
 static struct own *make_composition(const struct making *making, const struct gm_written_scheme *written,
-                                    const struct named *bases)
+                                    const struct named *schemes)
 {
+    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
     const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
     struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
     for (int i = 0; i < steps->columns; i++) {
@@ -822,8 +800,10 @@ static struct own *make_composition(const struct making *making, const struct gm
 }
 
 static struct own *make_processed(const struct making *making, const struct gm_written_scheme *written,
-                                  const struct gm_scheme *kernel, const struct gm_scheme *processor)
+                                  const struct named *schemes)
 {
+    const struct gm_scheme *kernel = schemes[GM_SCHEME_WORD_KERNEL].at[0],
+                           *processor = schemes[GM_SCHEME_WORD_PROCESSOR].at[0];
     struct own *adjoint = adjoint_of(making, processor, written->lines[GM_SCHEME_WORD_PROCESSOR].value.begin);
     struct substeps *substeps = gm_arena_take(making->arena, 1, sizeof *substeps);
     const struct gm_scheme *const parts[] = {&adjoint->row, kernel, processor};
@@ -843,7 +823,7 @@ static const char *held_name(const struct making *making, const struct gm_holdin
                              struct gm_span piece)
 {
     const char *text = making->source->text;
-    const char *name = gm_arena_keep(making->arena, gm_span_words(text, piece), free);
+    const char *name = words_of(making, piece);
     if (gm_name_length(text + piece.begin, piece.end - piece.begin) != piece.end - piece.begin ||
         piece.end == piece.begin) {
         fail(making, piece.begin, "the name of an invariant was expected: H, or one of the system");
@@ -859,8 +839,9 @@ static const char *held_name(const struct making *making, const struct gm_holdin
 /* A scheme that holds invariants keeps the order of its base, and of its claims the symmetry if that is asked for, or
    what every part of a step keeps. */
 static struct own *make_holding(const struct making *making, const struct gm_written_scheme *written,
-                                const struct gm_scheme *base)
+                                const struct named *schemes)
 {
+    const struct gm_scheme *base = schemes[GM_SCHEME_WORD_BASE].at[0];
     const struct gm_written_line *symmetric = &written->lines[GM_SCHEME_WORD_SYMMETRIC];
     const struct gm_span named = written->lines[GM_SCHEME_WORD_INVARIANTS].value;
     const bool relaxed = written->kind == GM_WRITTEN_RELAXED;
@@ -945,11 +926,9 @@ static char *title_of(const struct making *making, const struct gm_written_schem
         return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE].at[0]->title);
     case GM_WRITTEN_PROJECTED:
     case GM_WRITTEN_RELAXED:
-        return gm_arena_print(
-            making->arena, "%s, %s (%s)", schemes[GM_SCHEME_WORD_BASE].at[0]->title,
-            gm_written_kind_name(written->kind),
-            (char *)gm_arena_keep(
-                making->arena, gm_span_words(written->text, lines[GM_SCHEME_WORD_INVARIANTS].value), free));
+        return gm_arena_print(making->arena, "%s, %s (%s)", schemes[GM_SCHEME_WORD_BASE].at[0]->title,
+                              gm_written_kind_name(written->kind),
+                              words_of(making, lines[GM_SCHEME_WORD_INVARIANTS].value));
     case GM_WRITTEN_PROCESSED:
         return gm_arena_print(making->arena, "%s, processed by %s",
                               schemes[GM_SCHEME_WORD_KERNEL].at[0]->title,
@@ -964,8 +943,7 @@ static char *title_of(const struct making *making, const struct gm_written_schem
     case GM_WRITTEN_CALLED: {
         const struct gm_scheme *base =
             schemes[GM_SCHEME_WORD_BASE].count ? schemes[GM_SCHEME_WORD_BASE].at[0] : NULL;
-        const char *parts = gm_arena_keep(
-            making->arena, gm_span_words(written->text, lines[GM_SCHEME_WORD_PARTS].value), free);
+        const char *parts = words_of(making, lines[GM_SCHEME_WORD_PARTS].value);
         return gm_arena_print(making->arena, "%s of %s",
                               base ? base->title : gm_written_kind_name(written->kind), parts);
     }
@@ -1014,15 +992,12 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
         words[word] = join(making, &schemes[word], false);
     }
     row->name = gm_arena_print(making->arena, "%s", name);
-    row->title = own_title->said
-                     ? gm_arena_keep(making->arena, gm_span_words(written->text, own_title->value), free)
-                 : title ? gm_arena_print(making->arena, "%s", title)
-                         : title_of(making, written, schemes);
+    row->title = own_title->said ? words_of(making, own_title->value)
+                 : title         ? gm_arena_print(making->arena, "%s", title)
+                                 : title_of(making, written, schemes);
     row->formula = row->word =
         gm_arena_keep(making->arena, gm_written_word(written, row->title, words), free);
-    row->reference = reference->said
-                         ? gm_arena_keep(making->arena, gm_span_words(written->text, reference->value), free)
-                         : "user-defined";
+    row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
 /* Claims of a composition that follow from its bases if theory does not apply. A symmetric scheme has an even
@@ -1049,7 +1024,7 @@ static struct gm_theory theory_of_parts(const struct making *making, const struc
 {
     const unsigned claims = base->count > 0 ? base->at[0]->claims : 0;
     struct gm_theory theory = {.symmetric = true, .symplectic = true};
-    const struct gm_splitting *list = &row->row.splitting;
+    const struct gm_splitting *list = &row->splitting;
     for (int i = 0, last = list->count - 1; i <= last; i++) {
         const struct gm_named_part *here = &row->list[list->pieces[i].piece],
                                    *there = &row->list[list->pieces[last - i].piece];
@@ -1113,54 +1088,40 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     }
 }
 
+static struct own *make_adjoint(const struct making *making, const struct gm_written_scheme *written,
+                                const struct named *schemes)
+{
+    return adjoint_of(making, schemes[GM_SCHEME_WORD_BASE].at[0],
+                      written->lines[GM_SCHEME_WORD_BASE].value.begin);
+}
+
 static struct own *make_written(const struct making *making, const struct gm_written_scheme *written,
                                 const char *name, const char *title)
 {
+    static struct own *(*const makers[GM_WRITTEN_KINDS])(
+        const struct making *, const struct gm_written_scheme *, const struct named *) = {
+        [GM_WRITTEN_RUNGE_KUTTA] = make_runge_kutta,
+        [GM_WRITTEN_EXPLICIT] = make_runge_kutta,
+        [GM_WRITTEN_PARTITIONED] = make_partitioned,
+        [GM_WRITTEN_NYSTROM] = make_nystrom,
+        [GM_WRITTEN_COMPOSITION] = make_composition,
+        [GM_WRITTEN_SPLITTING] = make_splitting,
+        [GM_WRITTEN_PROCESSED] = make_processed,
+        [GM_WRITTEN_ADJOINT] = make_adjoint,
+        [GM_WRITTEN_PROJECTED] = make_holding,
+        [GM_WRITTEN_RELAXED] = make_holding,
+        [GM_WRITTEN_LIE] = make_parts,
+        [GM_WRITTEN_STRANG] = make_parts,
+        [GM_WRITTEN_SPLIT] = make_parts,
+        [GM_WRITTEN_CALLED] = make_parts,
+    };
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
     struct named schemes[GM_SCHEME_WORDS] = {{0}};
-    struct own *own = NULL;
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
         schemes[of_schemes[i]] = schemes_of(making, written, of_schemes[i]);
     }
-    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
-    switch (written->kind) {
-    case GM_WRITTEN_RUNGE_KUTTA:
-    case GM_WRITTEN_EXPLICIT:
-        own = make_runge_kutta(making, written);
-        break;
-    case GM_WRITTEN_PARTITIONED:
-        own = make_partitioned(making, written);
-        break;
-    case GM_WRITTEN_NYSTROM:
-        own = make_nystrom(making, written);
-        break;
-    case GM_WRITTEN_COMPOSITION:
-        own = make_composition(making, written, bases);
-        break;
-    case GM_WRITTEN_SPLITTING:
-        own = make_splitting(making, written);
-        break;
-    case GM_WRITTEN_PROCESSED:
-        own = make_processed(making, written, schemes[GM_SCHEME_WORD_KERNEL].at[0],
-                             schemes[GM_SCHEME_WORD_PROCESSOR].at[0]);
-        break;
-    case GM_WRITTEN_ADJOINT:
-        own = adjoint_of(making, bases->at[0], written->lines[GM_SCHEME_WORD_BASE].value.begin);
-        break;
-    case GM_WRITTEN_PROJECTED:
-    case GM_WRITTEN_RELAXED:
-        own = make_holding(making, written, bases->at[0]);
-        break;
-    case GM_WRITTEN_LIE:
-    case GM_WRITTEN_STRANG:
-    case GM_WRITTEN_SPLIT:
-    case GM_WRITTEN_CALLED:
-        own = make_parts(making, written, bases->count > 0 ? bases->at[0] : NULL);
-        break;
-    case GM_WRITTEN_KINDS:
-        break;
-    }
+    struct own *own = makers[written->kind](making, written, schemes);
     finish(making, written, own, name, title, schemes);
     return own;
 }

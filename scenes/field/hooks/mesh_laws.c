@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "scenes/common/system/hook.h"
-#include "scenes/field/observed.h"
+#include "scenes/field/kind.h"
 
 /* The laws are those of waves without a potential. */
 static bool suits(const struct gm_user_system *system)

@@ -13,6 +13,7 @@
 #include "scenes/ode/system/levels.h"
 #include "scenes/ode/system/phase.h"
 #include "scenes/ode/system/shapes.h"
+#include "scenes/ode/system/space.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
 
@@ -210,16 +211,60 @@ static void wrap(const struct gm_sight *sight, double *point)
 
 /* ---- paths ---- */
 
+/* The panel of a lane: a plane, or a view of space. */
+struct stage {
+    struct gm_picture *picture;
+    struct gm_panel *panel;
+    const struct gm_space *space; /* NULL: a plane */
+};
+
+/* The opacity and width of what moves, in a plane and in space, where the distance fades and thins it. */
+enum { FAINT, BRIGHT, DOTS, RECENT, START, ROD, BODY, BODY_OF_ROD, LOOKS };
+static const struct {
+    double alpha, width;
+} looks[2][LOOKS] = {
+    {{0.3, 1.1}, {0.95, 2.2}, {0.25, 1.6}, {0.95, 2}, {0.9, 5}, {0.8, 3}, {1, 10}, {1, 13}},
+    {{0.55, 1.4}, {0.95, 2.6}, {0.4, 1.8}, {0.95, 2.6}, {0.9, 6}, {0.9, 3.6}, {1, 12}, {1, 15}}};
+
+static struct gm_style style_of(const struct stage *stage, enum gm_role role, int look)
+{
+    const int in_space = stage->space ? 1 : 0;
+    return (struct gm_style){role, looks[in_space][look].alpha, looks[in_space][look].width, GM_SOLID};
+}
+
+static void put_line(const struct stage *stage, struct gm_style style, bool fades, const double *points,
+                     size_t count)
+{
+    if (stage->space) {
+        const struct gm_stroke_in_space stroke = {.style = style, .fades = fades};
+        gm_space_line(stage->picture, stage->panel, stage->space, stroke, points, count);
+    } else if (fades) {
+        gm_draw_trail(stage->picture, stage->panel, style, points, count);
+    } else {
+        gm_mark_line(stage->picture, stage->panel, style, points, count, false);
+    }
+}
+
+static void put_points(const struct stage *stage, struct gm_style style, const double *points, size_t count)
+{
+    if (stage->space) {
+        gm_space_points(stage->picture, stage->panel, stage->space, style, points, count);
+    } else {
+        gm_mark_points(stage->picture, stage->panel, style, points, count);
+    }
+}
+
 /* Writes the path of a body from entry `first` on, and its current point; broken at a jump of an angle.
    Returns the number of points, at most twice the entries and two. */
 static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, size_t body, size_t first,
                       const double *now, double *points)
 {
+    const size_t dimensions = sight->dimensions;
     size_t count = 0;
     for (size_t i = first; i <= path->count; i++) {
-        double point[2];
-        memcpy(point, i < path->count ? path->points + i * path->width + 2 * body : now + 2 * body,
-               sizeof point);
+        double point[3];
+        memcpy(point, (i < path->count ? path->points + i * path->width : now) + dimensions * body,
+               dimensions * sizeof *point);
         wrap(sight, point);
         for (size_t k = 0; k < 2 && count > 0; k++) {
             if (sight->angles[k] && fabs(point[k] - points[2 * count - 2 + k]) > M_PI) {
@@ -228,76 +273,98 @@ static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, 
                 break;
             }
         }
-        memcpy(points + 2 * count, point, sizeof point);
+        memcpy(points + dimensions * count, point, dimensions * sizeof *point);
         count++;
     }
     return count;
 }
 
 /* Returns true if chords are short enough to be seen as a curve. */
-static bool is_curve(const struct gm_panel *panel, const double *points, size_t count)
+static bool is_curve(const struct stage *stage, const double *points, size_t count)
 {
+    const struct gm_axis *x = &stage->panel->x, *y = &stage->panel->y;
+    const size_t dimensions = stage->space ? 3 : 2;
+    const double deep = stage->space ? stage->space->front - stage->space->back : 1;
+    const double sizes[] = {stage->space ? deep : x->high - x->low, stage->space ? deep : y->high - y->low,
+                            deep};
     double sum = 0;
     size_t chords = 0;
     for (size_t i = 1; i < count; i++) {
-        const double length = hypot((points[2 * i] - points[2 * i - 2]) / (panel->x.high - panel->x.low),
-                                    (points[2 * i + 1] - points[2 * i - 1]) / (panel->y.high - panel->y.low));
-        sum += isfinite(length) ? length : 0;
-        chords += isfinite(length);
+        double square = 0;
+        for (size_t k = 0; k < dimensions; k++) {
+            const double part = (points[dimensions * i + k] - points[dimensions * (i - 1) + k]) / sizes[k];
+            square += part * part;
+        }
+        sum += isfinite(square) ? sqrt(square) : 0;
+        chords += isfinite(square);
     }
-    return chords == 0 || sum < longest_chord * (double)chords;
+    return chords == 0 || sum < longest_chord * (double)(stage->space ? count : chords);
 }
 
-static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_paths *paths, size_t body, const double *now)
+static void draw_path(const struct stage *stage, const struct gm_lane *lane, const struct gm_paths *paths,
+                      size_t body, const double *now)
 {
     const struct gm_sight *sight = paths->sight;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const size_t past = gm_system_trail_from(lane, GM_TRACK_PAST),
                  bright = gm_system_bright_from(lane) > past ? gm_system_bright_from(lane) : past;
     const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
-    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
+    double *points = gm_picture_memory(stage->picture, 3 * (2 * most + 4) * sizeof *points);
     if (!points) {
         return;
     }
-    size_t count = path_of(&paths->past, sight, body, past, now, points);
-    if (is_curve(panel, points, count)) {
-        gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
+    const size_t count = path_of(&paths->past, sight, body, past, now, points);
+    if (is_curve(stage, points, count)) {
+        put_line(stage, style_of(stage, role, FAINT), false, points, count);
         const size_t end = path_of(&paths->past, sight, body, bright, now, points);
-        gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
+        put_line(stage, style_of(stage, role, BRIGHT), true, points, end);
         return;
     }
-    gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.25, .width = 1.6}, points,
-                   count);
+    put_points(stage, style_of(stage, role, DOTS), points, count);
     const size_t trail = gm_system_trail_from(lane, GM_TRACK_TRAIL), half = paths->trail.count / 2;
     const size_t recent = path_of(&paths->trail, sight, body, trail > half ? trail : half, now, points);
-    if (is_curve(panel, points, recent)) {
-        gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2, GM_SOLID}, points, recent);
+    if (is_curve(stage, points, recent)) {
+        put_line(stage, style_of(stage, role, RECENT), true, points, recent);
     }
 }
 
 /* Draws all members, if they are not a disc. */
-static void draw_members(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                         const struct gm_sight *sight, double *numbers)
+static void draw_members(const struct stage *stage, const struct gm_lane *lane, const struct gm_sight *sight,
+                         double *numbers)
 {
     const struct gm_view view = gm_lane_view(lane);
-    const size_t m = view.problem->m, shown = m - 1 < 4096 ? m - 1 : 4096;
-    double *points = gm_picture_memory(picture, 2 * (shown + 1) * sizeof *points);
+    const size_t m = view.problem->m, shown = m - 1 < 4096 ? m - 1 : 4096, dimensions = sight->dimensions;
+    const struct gm_style style = {gm_lane_role(lane->shown.colour), 0.6, shown > 400 ? 2 : 4, GM_SOLID};
+    double *points = gm_picture_memory(stage->picture, dimensions * (shown + 1) * sizeof *points);
     for (size_t body = 0; points && body < sight->bodies; body++) {
         for (size_t i = 0; i < shown; i++) {
             gm_sight_values(sight, &view, i * (m - 1) / shown, numbers);
-            wrap(sight, numbers + 2 * body);
-            memcpy(points + 2 * i, numbers + 2 * body, 2 * sizeof *points);
+            wrap(sight, numbers + dimensions * body);
+            memcpy(points + dimensions * i, numbers + dimensions * body, dimensions * sizeof *points);
         }
-        gm_mark_points(
-            picture, panel,
-            (struct gm_style){gm_lane_role(lane->shown.colour), 0.6, shown > 400 ? 2 : 4, GM_SOLID}, points,
-            shown);
+        put_points(stage, style, points, shown);
     }
 }
 
-static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const struct gm_paths *paths, double *numbers)
+/* Draws the bodies that are at rest, or those that move. */
+static void draw_bodies(const struct stage *stage, const struct gm_sight *sight, struct gm_style style,
+                        bool fixed, const double *numbers)
+{
+    const size_t dimensions = sight->dimensions;
+    double *points = gm_picture_memory(stage->picture, (dimensions * sight->bodies + 1) * sizeof *points);
+    size_t count = 0;
+    for (size_t body = 0; points && body < sight->bodies; body++) {
+        if (sight->fixed[body] == fixed) {
+            double *point = points + dimensions * count++;
+            memcpy(point, numbers + dimensions * body, dimensions * sizeof *points);
+            wrap(sight, point);
+        }
+    }
+    put_points(stage, style, points, count);
+}
+
+static void draw_lane(const struct stage *stage, const struct gm_lane *lane, const struct gm_paths *paths,
+                      double *numbers)
 {
     const struct gm_sight *sight = paths->sight;
     const struct gm_view view = gm_lane_view(lane);
@@ -306,37 +373,32 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     before.t = view.t0;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     if (gm_system_is_disc(lane, sight)) {
-        gm_system_draw_shapes(picture, panel, lane);
+        gm_system_draw_shapes(stage->picture, stage->panel, lane);
         return;
     }
     if (lane->problem.m > 1) {
-        draw_members(picture, panel, lane, sight, numbers);
+        draw_members(stage, lane, sight, numbers);
     }
     gm_sight_values(sight, &before, gm_system_centre(&before), numbers);
-    for (size_t body = 0; body < sight->bodies; body++) {
-        wrap(sight, numbers + 2 * body);
-        gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
-                       numbers + 2 * body, sight->fixed[body] ? 0 : 1);
-    }
+    draw_bodies(stage, sight, style_of(stage, GM_INITIAL, START), false, numbers);
     gm_sight_values(sight, &view, gm_system_centre(&view), numbers);
     for (size_t body = 0; body < sight->bodies; body++) {
         if (!sight->fixed[body]) {
-            draw_body(picture, panel, lane, paths, body, numbers);
+            draw_path(stage, lane, paths, body, numbers);
         }
     }
     for (size_t rod = 0; rod < sight->rods; rod++) {
-        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.8, 3, GM_SOLID},
-                     numbers + 2 * sight->bodies + 4 * rod, 2, false);
-    }
-    const double width = sight->rods > 0 ? 13 : 10;
-    for (int fixed = 1; fixed >= 0; fixed--) { /* bodies that move are in front */
-        for (size_t body = 0; body < sight->bodies; body++) {
-            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, width, GM_SOLID};
-            wrap(sight, numbers + 2 * body);
-            gm_mark_points(picture, panel, style, numbers + 2 * body,
-                           sight->fixed[body] == (fixed == 1) ? 1 : 0);
+        const double *ends = numbers + sight->dimensions * (sight->bodies + 2 * rod);
+        if (stage->space) {
+            gm_space_segment(stage->picture, stage->panel, stage->space, style_of(stage, GM_INK, ROD), ends,
+                             ends + 3);
+        } else {
+            put_line(stage, style_of(stage, GM_INK, ROD), false, ends, 2);
         }
     }
+    const int look = sight->rods > 0 ? BODY_OF_ROD : BODY; /* bodies that move are in front */
+    draw_bodies(stage, sight, style_of(stage, GM_SECONDARY, look), true, numbers);
+    draw_bodies(stage, sight, style_of(stage, role, look), false, numbers);
 }
 
 /* Returns true if both axes are positions, or nearly of one size, and so have one unit. */
@@ -487,12 +549,13 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
         }
         leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
-            gm_system_draw_in_space(picture, panel, &space, walk.lane, &paths[lane]);
+            gm_system_take_surfaces(picture, walk.lane, &space);
+            draw_lane(&(struct stage){picture, panel, &space}, walk.lane, &paths[lane], numbers);
         } else if (sight->over_time) {
             gm_sight_values(sight, &view, gm_system_centre(&view), numbers);
             gm_system_draw_curves(picture, panel, &walk, &paths[lane], numbers);
         } else {
-            draw_lane(picture, panel, walk.lane, &paths[lane], numbers);
+            draw_lane(&(struct stage){picture, panel, NULL}, walk.lane, &paths[lane], numbers);
         }
     }
 }

@@ -16,7 +16,7 @@
 #include "core/schemes.h"
 #include "scenes/common/rows.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/ode/system/ring.h"
+#include "scenes/ode/optional.h"
 
 /* ---- formulas during the run ---- */
 

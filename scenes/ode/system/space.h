@@ -5,7 +5,7 @@
 #include "scenes/common/space.h"
 #include "scenes/common/system/look.h"
 
-/* A user-defined system in space: its bodies, rods and surfaces from the lane's camera. */
+/* A user-defined system in space: its range and surfaces from the lane's camera. */
 
 /* The range of a sight up to now. */
 struct gm_seen {
@@ -19,8 +19,7 @@ struct gm_seen {
 struct gm_space gm_system_space(struct gm_picture *picture, struct gm_panel *panel,
                                 const struct gm_lane *lane, const struct gm_seen *seen,
                                 const char *const names[3]);
-/* Draws the lane in that space, behind and before its surfaces. */
-void gm_system_draw_in_space(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
-                             const struct gm_lane *lane, const struct gm_paths *paths);
+/* Gives the space the surfaces of a lane. */
+void gm_system_take_surfaces(struct gm_picture *picture, const struct gm_lane *lane, struct gm_space *space);
 
 #endif

@@ -400,29 +400,27 @@ double gm_any_form_law(const struct gm_law *law)
     return gm_lattice_law(law, &cells, advance_tangents);
 }
 
-#define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
-    {                                                                                                        \
-        .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
-        .family = &gm_family_any_form, .coefficients = tableau_, .order = order_, .needs = GM_NEEDS_ALL,     \
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,                                                         \
-    }
+#define OF_ANY_FORM .family = &gm_family_any_form, .needs = GM_NEEDS_ALL
 
 static const struct gm_scheme schemes[] = {
-    BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
+    GM_FIELD_SCHEME(
+        "box", "box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        &midpoint, 2),
-    BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gm_collocation_gauss4,
-        3),
-    BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
-        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
+        OF_ANY_FORM, .coefficients = &midpoint),
+    GM_FIELD_SCHEME("gauss-box3", "Gauss box, r = s = 2", 3, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+                    "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
+                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_ANY_FORM,
+                    .coefficients = &gm_collocation_gauss4),
+    GM_FIELD_SCHEME("gauss-box4", "Gauss box, r = s = 3", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+                    "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
+                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_ANY_FORM,
+                    .coefficients = &gauss6),
 };
 
 const struct gm_family gm_family_any_form = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic boxes of all components",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = gm_any_form_advance,
     .memory = gm_any_form_memory,
     .start = gm_any_form_start,

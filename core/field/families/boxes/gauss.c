@@ -15,25 +15,18 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
     return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
 }
 
+#define OF_GAUSS .family = &gm_family_gauss, .needs = GM_NEEDS_WAVE
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "gauss-box3",
-        .title = "Gauss box, r = s = 2",
-        .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
-        .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
-        .family = &gm_family_gauss,
-        .coefficients = &gm_collocation_gauss4,
-        .order = 3,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-    },
+    GM_FIELD_SCHEME("gauss-box3", "Gauss box, r = s = 2", 3, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+                    "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
+                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_GAUSS,
+                    .coefficients = &gm_collocation_gauss4),
 };
 
 const struct gm_family gm_family_gauss = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic Gauss collocation",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = gm_any_form_advance,
     .memory = gm_any_form_memory,
     .start = gm_any_form_start,

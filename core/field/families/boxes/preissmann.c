@@ -21,7 +21,6 @@
 
 #include "core/basics.h"
 #include "core/field/families/dispersive/box.h"
-#include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
@@ -200,27 +199,19 @@ static double form(const struct gm_law *law)
     return is_wave(law->problem) ? gm_wave_form(law) : gm_dispersive_form(law);
 }
 
+#define OF_PREISSMANN .family = &gm_family_preissmann, .needs = GM_NEEDS_FORM, .in_cells = true
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "box",
-        .title = "box",
-        .formula = "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
-        .reference = "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "
-                     "Razafindralandy et al. (2018)",
-        .family = &gm_family_preissmann,
-        .coefficients = &row,
-        .order = 2,
-        .needs = GM_NEEDS_FORM,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-        .in_cells = true,
-    },
+    GM_FIELD_SCHEME("box", "box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+                    "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
+                    "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "
+                    "Razafindralandy et al. (2018)",
+                    OF_PREISSMANN, .coefficients = &row),
 };
 
 const struct gm_family gm_family_preissmann = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic box",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .workspace_open = workspace_open,
     .form = form,

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -302,38 +302,22 @@ double gm_nodes_form(const struct gm_law *law)
     return gm_nodes_law(&ahead, base.centred, kdv ? complete_kdv : complete_nls, &tangents[0], &tangents[1]);
 }
 
+#define OF_NODES .family = &gm_family_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_KDV
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula = "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_nodes,
-        .coefficients = &kdv_rows[0],
-        .order = 2,
-        .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-    },
-    {
-        .name = "midpoint-box",
-        .title = "midpoint box",
-        .formula = "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
-        .reference = "Razafindralandy et al. (2018), multisymplectic midpoint scheme",
-        .family = &gm_family_nodes,
-        .coefficients = &kdv_rows[1],
-        .order = 2,
-        .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-    },
+    GM_FIELD_SCHEME("euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+                    "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
+                    "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_NODES,
+                    .coefficients = &kdv_rows[0]),
+    GM_FIELD_SCHEME("midpoint-box", "midpoint box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+                    "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
+                    "Razafindralandy et al. (2018), multisymplectic midpoint scheme", OF_NODES,
+                    .coefficients = &kdv_rows[1]),
 };
 
 const struct gm_family gm_family_nodes = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic schemes of nodes",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_two_step_advance,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
+    GM_FIELD_FAMILY,
+    GM_TWO_STEP_LOOP,
     .form = gm_nodes_form,
 };

@@ -147,29 +147,21 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+#define OF_PSEUDOSPECTRAL .family = &gm_family_pseudospectral, .needs = GM_NEEDS_KDV, .in_modes = true
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "fourier-rk4",
-        .title = "Fourier, RK4",
-        .formula =
-            "N(u)ₖ = −ikη/2 (u²)ₖ,  e = exp(iμk³Δt/2):  a = N(u),  b = N(e(u + Δt/2 a)),  c = N(eu + Δt/2 b)\n"
-            "d = N(e²u + Δt e c),  u := e²u + Δt/6 (e²a + 2e(b + c) + d)",
-        .reference =
-            "J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; B. Fornberg & G.B. Whitham, Phil. Trans. R. "
-            "Soc. A 289 (1978) 373",
-        .family = &gm_family_pseudospectral,
-        .order = 4,
-        .needs = GM_NEEDS_KDV,
-        .claims = GM_KEEPS_LINEAR,
-        .in_modes = true,
-    },
+    GM_FIELD_SCHEME(
+        "fourier-rk4", "Fourier, RK4", 4, GM_KEEPS_LINEAR,
+        "N(u)ₖ = −ikη/2 (u²)ₖ,  e = exp(iμk³Δt/2):  a = N(u),  b = N(e(u + Δt/2 a)),  c = N(eu + Δt/2 b)\n"
+        "d = N(e²u + Δt e c),  u := e²u + Δt/6 (e²a + 2e(b + c) + d)",
+        "J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; B. Fornberg & G.B. Whitham, Phil. Trans. R. "
+        "Soc. A 289 (1978) 373",
+        OF_PSEUDOSPECTRAL),
 };
 
 const struct gm_family gm_family_pseudospectral = {
-    .kind = &gm_kind_field,
     .title = "Fourier pseudo-spectral",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

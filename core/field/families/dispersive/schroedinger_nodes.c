@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/dispersive/form.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/dispersive.h"
@@ -68,24 +68,17 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+#define OF_SCHROEDINGER_NODES .family = &gm_family_schroedinger_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_NLS
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula = "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_schroedinger_nodes,
-        .order = 1,
-        .needs = GM_NEEDS_FORM | GM_NEEDS_NLS,
-        .claims = GM_MULTISYMPLECTIC,
-    },
+    GM_FIELD_SCHEME("euler-box", "Euler box", 1, GM_MULTISYMPLECTIC,
+                    "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
+                    "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_SCHROEDINGER_NODES),
 };
 
 const struct gm_family gm_family_schroedinger_nodes = {
-    .kind = &gm_kind_field,
     .title = "Schrödinger equation, multisymplectic",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,

@@ -93,25 +93,17 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+#define OF_SPLIT_STEP .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "split-step2",
-        .title = "split step 2",
-        .formula = "ψ := e^{i|ψ|²Δt/2} ψ,  ψₖ := e^{−ik²Δt} ψₖ,  ψ := e^{i|ψ|²Δt/2} ψ",
-        .reference = "R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423",
-        .family = &gm_family_split_step,
-        .order = 2,
-        .needs = GM_NEEDS_NLS,
-        .claims = GM_SYMMETRIC | GM_KEEPS_QUADRATIC,
-        .in_modes = true,
-    },
+    GM_FIELD_SCHEME("split-step2", "split step 2", 2, GM_SYMMETRIC | GM_KEEPS_QUADRATIC,
+                    "ψ := e^{i|ψ|²Δt/2} ψ,  ψₖ := e^{−ik²Δt} ψₖ,  ψ := e^{i|ψ|²Δt/2} ψ",
+                    "R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423", OF_SPLIT_STEP),
 };
 
 const struct gm_family gm_family_split_step = {
-    .kind = &gm_kind_field,
     .title = "split-step Fourier",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

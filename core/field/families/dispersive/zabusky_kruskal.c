@@ -55,27 +55,18 @@ static void start(struct gm_two_step_work *work, const struct gm_problem *proble
 
 static const struct gm_two_step_row row = {.step = step, .start = start, .law = GM_LAW_NONE};
 
+#define OF_ZABUSKY_KRUSKAL .family = &gm_family_zabusky_kruskal, .needs = GM_NEEDS_KDV
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "zabusky-kruskal",
-        .title = "Zabusky-Kruskal",
-        .formula =
-            "uⁿ⁺¹ = uⁿ⁻¹ − ηΔt/3Δx (uᵢ₊₁ + uᵢ + uᵢ₋₁)(uᵢ₊₁ − uᵢ₋₁) − μΔt/Δx³ (uᵢ₊₂ − 2uᵢ₊₁ + 2uᵢ₋₁ − uᵢ₋₂)",
-        .reference = "N.J. Zabusky & M.D. Kruskal, Phys. Rev. Lett. 15 (1965) 240",
-        .family = &gm_family_zabusky_kruskal,
-        .coefficients = &row,
-        .order = 2,
-        .needs = GM_NEEDS_KDV,
-        .claims = GM_SYMMETRIC | GM_KEEPS_LINEAR,
-    },
+    GM_FIELD_SCHEME(
+        "zabusky-kruskal", "Zabusky-Kruskal", 2, GM_SYMMETRIC | GM_KEEPS_LINEAR,
+        "uⁿ⁺¹ = uⁿ⁻¹ − ηΔt/3Δx (uᵢ₊₁ + uᵢ + uᵢ₋₁)(uᵢ₊₁ − uᵢ₋₁) − μΔt/Δx³ (uᵢ₊₂ − 2uᵢ₊₁ + 2uᵢ₋₁ − uᵢ₋₂)",
+        "N.J. Zabusky & M.D. Kruskal, Phys. Rev. Lett. 15 (1965) 240", OF_ZABUSKY_KRUSKAL,
+        .coefficients = &row),
 };
 
 const struct gm_family gm_family_zabusky_kruskal = {
-    .kind = &gm_kind_field,
     .title = "Zabusky-Kruskal leapfrog",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_two_step_advance,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
+    GM_FIELD_FAMILY,
+    GM_TWO_STEP_LOOP,
 };

@@ -85,27 +85,6 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
     return GM_OK;
 }
 
-/* M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s) with the upper triangles M+, K+: here
-       v = D_t^- u,   w = D_x^- u,   -D_t^+ v + D_x^+ w = V'(u) */
-static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                struct gm_progress *progress)
-{
-    const double *past = work->level[0], *now = work->level[1];
-    double *next = work->level[2];
-    const double dx = problem->line.dx;
-    double *v = work->right, *w = work->guess;
-    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
-    for (size_t i = 0; i <= work->points; i++) {
-        w[i] = (now[i] - (now + i)[-1]) / dx;
-    }
-    for (size_t i = 0; i < work->points; i++) {
-        v[i] = (now[i] - past[i]) / dt;
-        next[i] = now[i] + dt * (v[i] + dt * ((w[i + 1] - w[i]) / dx - work->force[i]));
-    }
-    progress->evaluations++;
-    return GM_OK;
-}
-
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_two_step_row *row = scheme->coefficients;
@@ -131,7 +110,6 @@ static const struct gm_two_step_row rows[] = {
      .law = GM_LAW_NODES,
      .average = true,
      .keeps_change = true},
-    {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
 };
 
 static double longest_explicit(const struct gm_problem *problem, const double *y)
@@ -141,56 +119,31 @@ static double longest_explicit(const struct gm_problem *problem, const double *y
 
 static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
 
+#define OF_LEAPFROG .family = &gm_family_leapfrog, .needs = GM_NEEDS_WAVE
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "leapfrog",
-        .title = "leapfrog",
-        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
-        .reference =
-            "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
-            "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[0],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        .limit = &explicit_limit,
-    },
-    {
-        .name = "energy-conserving",
-        .title = "energy-conserving",
-        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
-        .reference = "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[1],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_KEEPS_ENERGY | GM_SYMMETRIC,
-    },
-    {
-        .name = "euler-box",
-        .title = "Euler box",
-        .formula =
-            "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
-        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_leapfrog,
-        .coefficients = &rows[2],
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        .limit = &explicit_limit,
-    },
+    GM_FIELD_SCHEME(
+        "leapfrog", "leapfrog", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
+        "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
+        "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
+        OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]),
+    GM_FIELD_SCHEME("energy-conserving", "energy-conserving", 2, GM_KEEPS_ENERGY | GM_SYMMETRIC,
+                    "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
+                    "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271", OF_LEAPFROG,
+                    .coefficients = &rows[1]),
+    GM_FIELD_SCHEME(
+        "euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
+        "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_LEAPFROG, .limit = &explicit_limit,
+        .coefficients = &rows[0]),
 };
 
 const struct gm_family gm_family_leapfrog = {
-    .kind = &gm_kind_field,
     .title = "two-step wave schemes",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_two_step_advance,
+    GM_FIELD_FAMILY,
+    GM_TWO_STEP_LOOP,
     .memory = memory,
     .start = start,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
     .form = gm_wave_form,
 };

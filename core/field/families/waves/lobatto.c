@@ -382,52 +382,33 @@ static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longe
 #define IN_SPACE                                                                                                                   \
     "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in " \
     "turn, D = 2Δx\n"
-#define LOBATTO                                                                                              \
-    .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS,                                   \
-    .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC
+
+#define OF_LOBATTO .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "lobatto-box2",
-        .title = "Lobatto box, r = 3, s = 2",
-        .formula = IN_SPACE "u″ = Lu − V′(u) with Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
-        .reference = "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847",
-        .coefficients = &rows[0],
-        .order = 2,
-        .limit = &verlet_limit,
-        LOBATTO,
-    },
-    {
-        .name = "lobatto-box4",
-        .title = "Lobatto box, r = s = 3",
-        .formula = IN_SPACE
+    GM_FIELD_SCHEME("lobatto-box2", "Lobatto box, r = 3, s = 2", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+                    IN_SPACE
+                    "u″ = Lu − V′(u) with Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
+                    "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847", OF_LOBATTO,
+                    .limit = &verlet_limit, .coefficients = &rows[0]),
+    GM_FIELD_SCHEME(
+        "lobatto-box4", "Lobatto box, r = s = 3", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        IN_SPACE
         "u″ = Lu − V′(u) = f:  uₕ = u + Δt v/2 + Δt²(f/12 + fₕ/24),  u₁ = u + Δt v + Δt²(f/6 + fₕ/3)\n"
         "v₁ = v + Δt(f + 4fₕ + f₁)/6:  Lobatto IIIA-IIIB with three stages in x and t",
-        .reference = "R.I. McLachlan, B.N. Ryland & Y. Sun, SIAM J. Sci. Comput. 36 (2014) A2199",
-        .coefficients = &rows[1],
-        .order = 4,
-        .limit = &three_limit,
-        LOBATTO,
-    },
-    {
-        .name = "lobatto-nystrom4",
-        .title = "Lobatto in x, Nyström in t",
-        .formula = IN_SPACE "u″ = Lu − V′(u) with Verlet: c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
-        .reference =
-            "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; M. Suzuki, Phys. "
-            "Lett. A 146 (1990) 319",
-        .coefficients = &rows[2],
-        .order = 4,
-        .limit = &suzuki_limit,
-        LOBATTO,
-    },
+        "R.I. McLachlan, B.N. Ryland & Y. Sun, SIAM J. Sci. Comput. 36 (2014) A2199", OF_LOBATTO,
+        .limit = &three_limit, .coefficients = &rows[1]),
+    GM_FIELD_SCHEME(
+        "lobatto-nystrom4", "Lobatto in x, Nyström in t", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        IN_SPACE "u″ = Lu − V′(u) with Verlet: c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
+        "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; M. Suzuki, Phys. "
+        "Lett. A 146 (1990) 319",
+        OF_LOBATTO, .limit = &suzuki_limit, .coefficients = &rows[2]),
 };
 
 const struct gm_family gm_family_lobatto = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic Lobatto collocation",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_FIELD_FAMILY,
     .loop = advance,
     .memory = memory,
     .start = start,

@@ -107,31 +107,22 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 static const struct gm_two_step_row row = {
     .step = centred_step, .start = first_level, .law = GM_LAW_CENTRED, .keeps_rates = true};
 
+#define OF_MIDPOINT_BOX .family = &gm_family_midpoint_box, .needs = GM_NEEDS_WAVE
+
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "midpoint-box",
-        .title = "midpoint box",
-        .formula = "M (sⁿ⁺¹ − sⁿ⁻¹)/2Δt + K (sᵢ₊₁ − sᵢ₋₁)/2Δx = ∇S(s)",
-        .reference =
-            "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
-        .family = &gm_family_midpoint_box,
-        .coefficients = &row,
-        .order = 2,
-        .needs = GM_NEEDS_WAVE,
-        .claims = GM_MULTISYMPLECTIC,
-    },
+    GM_FIELD_SCHEME(
+        "midpoint-box", "midpoint box", 2, GM_MULTISYMPLECTIC,
+        "M (sⁿ⁺¹ − sⁿ⁻¹)/2Δt + K (sᵢ₊₁ − sᵢ₋₁)/2Δx = ∇S(s)",
+        "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
+        OF_MIDPOINT_BOX, .coefficients = &row),
 };
 
 const struct gm_family gm_family_midpoint_box = {
-    .kind = &gm_kind_field,
     .title = "multisymplectic midpoint",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
-    .loop = gm_two_step_advance,
+    GM_FIELD_FAMILY,
+    GM_TWO_STEP_LOOP,
     .memory = memory,
     .start = start,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
     .form = gm_wave_form,
     .wave_energy = wave_energy,
 };

@@ -18,16 +18,8 @@
    advantage of a symplectic Phi is lost. The memory is h, 0, and the compensation of the sum of times.
    Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993), section II.4; Hairer, Lubich &
    Wanner (2006), section VIII.1. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/kind.h"
-#include "core/ode/families/families.h"
-#include "core/ode/families/splitting/splitting.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/base_scheme.h"
+#include "core/ode/families/family.h"
 #include "core/schemes.h"
 
 struct row {
@@ -37,252 +29,151 @@ struct row {
 
 enum { CONTROL, SLOPE, TIME_CARRY, REMEMBERED }; /* the memory; CONTROL is rho / Q, or h */
 
-struct workspace {
-    struct gm_scheme base;          /* Phi */
-    struct gm_splitting_row pieces; /* the pieces of Phi, made once, if it is a composition */
-    void *base_workspace;           /* workspace of Phi's loop; NULL: not needed */
-    double *state, *carry;          /* 2 n each: before and after a step */
-    double *field, *gradient;       /* n */
-    double storage[];
+struct work {
+    struct gm_base_scheme base; /* Phi */
+    double density;             /* Q at `after`; 0: not known */
+    double *after, *carry;      /* n each: after a step */
+    double *field, *gradient;   /* n */
 };
 
-static void workspace_close(void *data)
+static void close_base(void *base)
 {
-    struct workspace *workspace = data;
-    if (workspace && workspace->base_workspace) {
-        workspace->base.family->workspace_close(workspace->base_workspace);
-    }
-    free(workspace);
+    gm_base_close(base);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void *open_work(struct gm_members *members, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme)
 {
     const struct row *row = scheme->coefficients;
-    const struct gm_scheme *base = gm_scheme_find(row->base);
-    const size_t n = problem->n;
-    struct workspace *workspace = calloc(1, sizeof *workspace + 6 * n * sizeof(double));
-    if (!workspace) {
-        return NULL;
-    }
-    workspace->base = *base;
-    if (base->family == &gm_family_splitting) {
-        struct gm_splitting made;
-        workspace->pieces.splitting = *gm_splitting_of(base->coefficients, &made);
-        workspace->base.coefficients = &workspace->pieces;
-    }
-    workspace->state = workspace->storage;
-    workspace->carry = workspace->state + 2 * n;
-    workspace->field = workspace->carry + 2 * n;
-    workspace->gradient = workspace->field + n;
-    if (!gm_scheme_workspace_open(base, problem, &workspace->base_workspace)) {
-        workspace_close(workspace);
-        return NULL;
-    }
-    return workspace;
+    struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
+    gm_arena_keep(members->arena, &work->base, close_base);
+    gm_arena_need(members->arena, gm_base_open(&work->base, gm_scheme_find(row->base), problem));
+    work->after = members->scratch;
+    work->carry = work->after + members->n;
+    work->field = work->carry + members->n;
+    work->gradient = work->field + members->n;
+    return work;
 }
 
 static void workspace_reset(void *data)
 {
-    struct workspace *workspace = data;
-    if (workspace->base_workspace && workspace->base.family->workspace_reset) {
-        workspace->base.family->workspace_reset(workspace->base_workspace);
-    }
+    struct work *work = ((struct gm_members *)data)->family;
+    work->density = 0;
+    gm_base_reset(&work->base);
 }
 
 /* Computes Q and G at y; false if Q is not a density. If Q depends on coordinates alone and q' = p, no force
    is evaluated. */
-static bool look(const struct gm_problem *problem, const struct workspace *workspace, const double *y,
-                 double *density, double *slope, struct gm_progress *progress)
+static bool look(const struct gm_problem *problem, struct work *work, const double *y, double *slope,
+                 struct gm_progress *progress)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
     const bool moves_by_momenta = ode->monitor->of_places && ode->split && ode->split->unit_mass;
     const size_t count = moves_by_momenta ? problem->n / 2 : problem->n;
-    const double *rates = moves_by_momenta ? y + count : workspace->field;
-    ode->monitor->density(problem, y, density, workspace->gradient);
+    const double *rates = moves_by_momenta ? y + count : work->field;
+    ode->monitor->density(problem, y, &work->density, work->gradient);
     if (!moves_by_momenta) {
-        gm_field(problem, y, workspace->field, 1);
+        gm_field(problem, y, work->field, 1);
         progress->evaluations++;
     }
     *slope = 0;
     for (size_t c = 0; c < count; c++) {
-        *slope += workspace->gradient[c] * rates[c];
+        *slope += work->gradient[c] * rates[c];
     }
-    *slope /= *density;
-    return *density > 0 && isfinite(*density) && isfinite(*slope);
+    *slope /= work->density;
+    return work->density > 0 && isfinite(work->density) && isfinite(*slope);
 }
 
 /* the length of y_{n+1} - y_n - h f(y_n) */
-static double error_of(const struct gm_problem *problem, const struct workspace *workspace, double h,
-                       const double *before, const double *after)
+static double error_of(const struct gm_problem *problem, const struct work *work, double h, const double *y)
 {
     double sum = 0;
-    gm_field(problem, before, workspace->field, 1);
+    gm_field(problem, y, work->field, 1);
     for (size_t c = 0; c < problem->n; c++) {
-        const double difference = after[c] - before[c] - h * workspace->field[c];
+        const double difference = work->after[c] - y[c] - h * work->field[c];
         sum += difference * difference;
     }
     return sqrt(sum);
 }
 
-/* The step after one of length h with that error: no more than 5 times, no less than a fifth as long. */
-static double next_by_error(double h, double ds, double error)
+static enum gm_status monitored_step(const struct gm_task *task, struct work *work, const double *y,
+                                     double *memory, double *h, struct gm_progress *progress)
 {
-    return h * fmin(5, fmax(0.2, fabs(ds) / sqrt(error)));
-}
-
-/* A call of the loop, while it makes its steps: the state goes from one half of the workspace to the other. */
-struct course {
-    const struct gm_task *task;
-    const struct workspace *workspace;
-    gm_loop *advance;    /* the loop of Phi */
-    struct gm_task step; /* the task of that loop */
-    double *memory;
-    double density; /* Q at step.y; 0: it is not known */
-    struct gm_progress progress;
-};
-
-static struct course begin(const struct gm_task *task)
-{
-    const struct workspace *workspace = task->workspace;
-    const size_t n = task->problem->n;
-    struct course course = {
-        .task = task,
-        .workspace = workspace,
-        .advance = gm_scheme_loop(&workspace->base, task->problem),
-        .step = *task,
-        .memory = task->memory_out,
-        .progress = {.status = GM_OK, .t = task->t},
-    };
-    course.step.scheme = &workspace->base;
-    course.step.workspace = workspace->base_workspace;
-    course.step.steps = 1;
-    course.step.steps_before = 0; /* each is a run of its own */
-    course.step.y = workspace->state;
-    course.step.out = workspace->state + n;
-    course.step.memory = course.step.memory_out = NULL;
-    memcpy(workspace->state, task->y, n * sizeof(double));
-    if (task->carry) { /* a scheme without compensation leaves it unchanged */
-        course.step.carry = workspace->carry;
-        course.step.carry_out = workspace->carry + n;
-        memcpy(workspace->carry, task->carry, n * sizeof(double));
-        memcpy(workspace->carry + n, task->carry, n * sizeof(double));
+    const struct gm_problem *problem = task->problem;
+    const double half = task->dt / 2;
+    if (work->density == 0 || memcmp(work->after, y, problem->n * sizeof *y) != 0) {
+        gm_ode_of(problem)->monitor->density(problem, y, &work->density, NULL);
     }
-    return course;
-}
-
-/* Phi_h */
-static enum gm_status make_step(struct course *course, double h)
-{
-    course->step.dt = h;
-    const struct gm_progress made = course->advance(&course->step);
-    course->progress.evaluations += made.evaluations;
-    course->progress.solves += made.solves;
-    course->progress.iterations += made.iterations;
-    course->progress.unsolved = made.unsolved;
-    return made.done == 1 ? GM_OK : made.status;
-}
-
-/* The run continues from the step that was made. */
-static void take_step(struct course *course)
-{
-    struct gm_task *step = &course->step;
-    const double *y = step->out, *carry = step->carry_out;
-    step->out = (double *)step->y;
-    step->y = y;
-    step->carry_out = (double *)step->carry;
-    step->carry = carry;
-}
-
-static enum gm_status monitored_step(struct course *course, double *h)
-{
-    const struct gm_problem *problem = course->task->problem;
-    const double half = course->task->dt / 2;
-    double *memory = course->memory;
-    if (course->density == 0) {
-        gm_ode_of(problem)->monitor->density(problem, course->step.y, &course->density, NULL);
-    }
-    const double middle = memory[CONTROL] * course->density + half * memory[SLOPE];
+    const double middle = memory[CONTROL] * work->density + half * memory[SLOPE];
     *h = 2 * half / middle;
     if (!(middle > 0 && isfinite(middle) && *h != 0)) {
         return GM_STEP_COLLAPSE;
     }
-    const enum gm_status status = make_step(course, *h);
+    const enum gm_status status = gm_base_step(&work->base, task, *h, y, work->after, progress);
     if (status != GM_OK) {
         return status;
     }
-    if (!look(problem, course->workspace, course->step.out, &course->density, &memory[SLOPE],
-              &course->progress)) {
+    if (!look(problem, work, work->after, &memory[SLOPE], progress)) {
         return GM_STEP_COLLAPSE;
     }
-    memory[CONTROL] = (middle + half * memory[SLOPE]) / course->density;
+    memory[CONTROL] = (middle + half * memory[SLOPE]) / work->density;
     return memory[CONTROL] > 0 ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-static enum gm_status error_controlled_step(struct course *course, double *h)
+/* The next step is at most 5 times, and at least a fifth as long. */
+static enum gm_status error_controlled_step(const struct gm_task *task, struct work *work, const double *y,
+                                            double *memory, double *h, struct gm_progress *progress)
 {
-    const double ds = course->task->dt;
+    const double ds = task->dt;
     double error = 0;
     do {
-        *h = course->memory[CONTROL];
-        const enum gm_status status = make_step(course, *h);
+        *h = memory[CONTROL];
+        const enum gm_status status = gm_base_step(&work->base, task, *h, y, work->after, progress);
         if (status != GM_OK) {
             return status;
         }
-        error = error_of(course->task->problem, course->workspace, *h, course->step.y, course->step.out);
-        course->progress.evaluations++;
-        course->memory[CONTROL] = next_by_error(*h, ds, error);
+        error = error_of(task->problem, work, *h, y);
+        progress->evaluations++;
+        memory[CONTROL] = *h * fmin(5, fmax(0.2, fabs(ds) / sqrt(error)));
     } while (error > 2 * ds * ds);
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct row *row = task->scheme->coefficients;
-    const size_t bytes = task->problem->n * sizeof(double);
-    memcpy(task->memory_out, task->memory, REMEMBERED * sizeof(double));
-    struct course course = begin(task);
-    struct gm_progress *progress = &course.progress;
-    for (; progress->done < task->steps && progress->t < task->until; progress->done++) {
-        double h;
-        progress->status = row->by_error ? error_controlled_step(&course, &h) : monitored_step(&course, &h);
-        if (progress->status != GM_OK) {
-            return *progress;
-        }
-        take_step(&course);
-        const double before = progress->t, whole = course.memory[TIME_CARRY] + h;
-        progress->t += whole;
-        course.memory[TIME_CARRY] = whole + (before - progress->t);
-        if (progress->t == before) {
-            progress->status = GM_STEP_COLLAPSE;
-            return *progress;
-        }
+    struct work *work = members->family;
+    const size_t bytes = members->n * sizeof(double);
+    double h;
+    work->base.carry = members->carry;
+    work->base.carry_out = work->carry;
+    const enum gm_status status = (row->by_error ? error_controlled_step : monitored_step)(
+        task, work, members->y, members->memory, &h, progress);
+    if (status != GM_OK) {
+        return status;
     }
-    memcpy(task->out, course.step.y, bytes);
-    if (task->carry) {
-        memcpy(task->carry_out, course.step.carry, bytes);
+    memcpy(members->y, work->after, bytes);
+    if (members->carry) {
+        memcpy(members->carry, work->carry, bytes);
     }
-    return *progress;
-}
-
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return REMEMBERED * problem->m;
+    return gm_members_pass(progress, h, &members->memory[TIME_CARRY]);
 }
 
 static enum gm_status start(const struct gm_task *task)
 {
     const struct row *row = task->scheme->coefficients;
-    double *memory = task->memory_out;
-    if (row->by_error) {
-        struct course course = begin(task);
-        double h;
-        memory[CONTROL] = task->dt;
-        return error_controlled_step(&course, &h);
-    }
-    double density;
+    struct work *work = ((struct gm_members *)task->workspace)->family;
+    double *memory = task->memory_out, h;
     struct gm_progress none = {0};
-    const bool good = look(task->problem, task->workspace, task->y, &density, &memory[SLOPE], &none);
+    if (row->by_error) {
+        work->base.carry = task->carry;
+        work->base.carry_out = work->carry;
+        memory[CONTROL] = task->dt;
+        return error_controlled_step(task, work, task->y, memory, &h, &none);
+    }
+    const bool good = look(task->problem, work, task->y, &memory[SLOPE], &none);
+    work->density = 0; /* it is not that at `after` */
     memory[CONTROL] = memory[CONTROL] > 0 ? memory[CONTROL] : 1;
     return good ? GM_OK : GM_STEP_COLLAPSE;
 }
@@ -307,16 +198,10 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_controlled_steps = {
-    .kind = &gm_kind_ode,
     .title = "controlled steps",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_MEMBERS_WITH_MEMORY(.step = step, .open = open_work, .remembered = REMEMBERED, .vectors = 4),
     .parameters = gm_settings_of_sums,
-    .loop = loop,
-    .memory = memory,
     .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
     .workspace_reset = workspace_reset,
     .adaptive = true,
 };

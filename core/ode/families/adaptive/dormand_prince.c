@@ -7,14 +7,7 @@
    The run's dt is the distance of its rows: their states are values of the interpolant, and the scheme's own
    steps depend neither on dt nor on the end of the run. Each member of an ensemble has its own steps.
    E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.4 to II.6. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 #include "core/theory/coefficients.h"
 
 enum { STAGES = 7, ERROR = STAGES, DENSE };
@@ -258,12 +251,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, USED)) {
         return false;
     }
-    for (int j = 0; j < USED; j++) {
-        for (int i = j + 1; i < USED; i++) {
-            coefficients->a[0][i * USED + j] = gm_ball_written(a[i][j]);
-        }
-        coefficients->b[0][j] = gm_ball_written(a[USED][j]);
-    }
+    gm_coefficients_write(coefficients, 0, a[0], STAGES, a[USED]);
     return true;
 }
 
@@ -272,10 +260,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_dormand_prince = {
-    .kind = &gm_kind_ode,
     .title = "Dormand-Prince",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_tolerance,
     .coefficients_open = coefficients_open,
     .loop = loop,

@@ -12,16 +12,8 @@
    C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353; Razafindralandy et al. (2018), eqs. 55 and
    56. The run's dt gives the direction of time only; the memory is the next tau, 0 if no root exists, and
    the energy. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
 #include "core/ode/families/adaptive/variational_time.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { TAU = GM_VARIATIONAL_TAU, ENERGY = GM_VARIATIONAL_ENERGY, REMEMBERED };
 enum { ITERATIONS = 50 };

@@ -12,18 +12,8 @@
    momentum and the Laplace-Runge-Lenz vector. T. Levi-Civita, Acta Math. 42 (1920) 99; Y. Minesaki &
    Y. Nakamura, Phys. Lett. A 306 (2002) 127. */
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
-
-/* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
-typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
-                             double *t);
+#include "core/ode/families/family.h"
 
 static double square(double complex z)
 {
@@ -41,6 +31,7 @@ static void drift_by_midpoint(double ds, double binding, double complex *u, doub
     *t += ds * square(middle);
 }
 
+/* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 static void levi_civita(const struct gm_problem *problem, double ds, double binding, double *y, double *t)
 {
     double complex u = csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
@@ -63,9 +54,8 @@ static void levi_civita(const struct gm_problem *problem, double ds, double bind
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    fictitious_step *const *row = task->scheme->coefficients;
     const double before = progress->t;
-    (*row)(task->problem, task->dt, members->memory[0], members->y, &progress->t);
+    levi_civita(task->problem, task->dt, members->memory[0], members->y, &progress->t);
     progress->evaluations++;
     if (!isfinite(progress->t) || !((progress->t - before) * task->dt > 0)) {
         progress->t = before;
@@ -83,8 +73,7 @@ static enum gm_status start(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_levi_civita, .family = &gm_family_fictitious_time,
-     .coefficients = &(fictitious_step *const){levi_civita}, .needs = GM_NEEDS_KEPLER_SPLIT},
+    {GM_TEXTS_levi_civita, .family = &gm_family_fictitious_time, .needs = GM_NEEDS_KEPLER_SPLIT},
 };
 
 const struct gm_family gm_family_fictitious_time = {

@@ -13,16 +13,7 @@
 
    S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
    (1999) 2532. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/compositions.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { BINDING, TIME_CARRY, REMEMBERED };
 
@@ -101,13 +92,8 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
                            ? 0
                            : composition->steps + 1; /* drifts that evaluate the field */
     progress->evaluations += (unsigned long)(composition->steps + drifts);
-    const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
-    if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
-        return GM_STEP_COLLAPSE;
-    }
-    progress->t += whole;
-    memory[TIME_CARRY] = whole + (before - progress->t);
-    return GM_OK;
+    good = good && isfinite(at.time) && at.time * task->dt > 0;
+    return good ? gm_members_pass(progress, at.time, &memory[TIME_CARRY]) : GM_STEP_COLLAPSE;
 }
 
 static enum gm_status start(const struct gm_task *task)

@@ -10,16 +10,8 @@
    They are symplectic in the extended phase space: backward error analysis holds, and H - E stays small for
    exponentially long times, whatever the monitor. E. Hairer, Appl. Numer. Math. 25 (1997) 219; S. Reich, SIAM
    J. Numer. Anal. 36 (1999) 1549. The memory is E and what the sum of times carries over. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
 
 enum { ENERGY, TIME_CARRY, REMEMBERED };
 
@@ -107,10 +99,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
             members->y[c] += task->dt * row->b[j] * F[j * n + c];
         }
     }
-    const double before = progress->t, whole = members->memory[TIME_CARRY] + time;
-    progress->t += whole;
-    members->memory[TIME_CARRY] = whole + (before - progress->t);
-    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+    return gm_members_pass(progress, time, &members->memory[TIME_CARRY]);
 }
 
 static enum gm_status start(const struct gm_task *task)

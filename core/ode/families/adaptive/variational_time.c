@@ -17,13 +17,7 @@
    of restarts. */
 #include "core/ode/families/adaptive/variational_time.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum rule { RECTANGLE, RECTANGLE_RESTART, MIDPOINT };
 static const enum rule rectangle = RECTANGLE, rectangle_restart = RECTANGLE_RESTART, midpoint = MIDPOINT;

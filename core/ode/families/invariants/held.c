@@ -6,13 +6,9 @@
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/kind.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/variational/action.h"
 #include "core/schemes.h"
 
@@ -25,27 +21,6 @@ const struct gm_scheme *gm_holding_base(const struct gm_scheme *scheme)
 {
     const struct gm_holding *holding = scheme->coefficients;
     return holding->base ? gm_scheme_find(holding->base) : scheme->base;
-}
-
-enum gm_status gm_held_step(const struct gm_held *held, const struct gm_task *task, double h, const double *y,
-                            double *out, struct gm_progress *progress)
-{
-    const struct gm_task step = {.problem = &held->one,
-                                 .scheme = held->base,
-                                 .dt = h,
-                                 .steps = 1,
-                                 .limit = task->limit,
-                                 .y = y,
-                                 .out = out,
-                                 .until = INFINITY,
-                                 .workspace = held->workspace,
-                                 .settings = task->settings};
-    const struct gm_progress made = gm_scheme_loop(held->base, &held->one)(&step);
-    progress->evaluations += made.evaluations;
-    progress->solves += made.solves;
-    progress->iterations += made.iterations;
-    progress->unsolved = made.unsolved;
-    return made.done == 1 ? GM_OK : made.status;
 }
 
 static double dot(const double *a, const double *b, size_t n)
@@ -151,58 +126,45 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
 
 /* ---- the hooks ---- */
 
-void gm_held_close(void *data)
+static void close_base(void *base)
 {
-    struct gm_members *members = data;
-    struct gm_held *held = members ? members->family : NULL;
-    if (held) {
-        if (held->workspace) {
-            held->base->family->workspace_close(held->workspace);
-        }
-        gm_conserved_close(&held->conserved);
-    }
-    free(held);
-    free(members);
+    gm_base_close(base);
 }
 
-void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void close_conserved(void *conserved)
+{
+    gm_conserved_close(conserved);
+}
+
+void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
+                   const struct gm_scheme *scheme)
 {
     const struct gm_holding *holding = scheme->coefficients;
     const size_t n = problem->n, count = holding->count;
     char lacks[GM_FAULT_SENTENCE];
-    struct gm_members *members = gm_members_open(problem, gm_held_memory(problem, scheme) / problem->m, 0);
-    struct gm_held *held = members ? calloc(1, sizeof *held + (3 + 3 * count) * n * sizeof(double)) : NULL;
-    if (!held) {
-        free(members);
-        return NULL;
-    }
-    members->family = held;
+    struct gm_held *held = gm_arena_take(members->arena, 1, sizeof *held);
     held->holding = holding;
-    held->base = gm_holding_base(scheme);
-    held->one = *problem;
-    held->one.m = 1;
     held->n = n;
     held->count = count;
     double **const arrays[] = {&held->z, &held->next, &held->move};
     double **const rows[] = {&held->start_slopes, &held->slopes, &held->turned};
     for (size_t i = 0; i < 3; i++) {
-        *arrays[i] = held->storage + i * n;
-        *rows[i] = held->storage + (3 + i * count) * n;
+        *arrays[i] = gm_arena_take(members->arena, n, sizeof(double));
+        *rows[i] = gm_arena_take(members->arena, count * n, sizeof(double));
     }
-    if (!gm_scheme_workspace_open(held->base, &held->one, &held->workspace) ||
-        (count > 0 && !gm_conserved_open(&held->conserved, &held->one, holding->names, count, lacks))) {
-        gm_held_close(members);
-        return NULL;
+    gm_arena_keep(members->arena, &held->base, close_base);
+    gm_arena_need(members->arena, gm_base_open(&held->base, gm_holding_base(scheme), problem));
+    if (count > 0) {
+        gm_arena_need(members->arena,
+                      gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks));
+        gm_arena_keep(members->arena, &held->conserved, close_conserved);
     }
-    return members;
+    return held;
 }
 
 void gm_held_reset(void *data)
 {
-    const struct gm_held *held = ((struct gm_members *)data)->family;
-    if (held->workspace && held->base->family->workspace_reset) {
-        held->base->family->workspace_reset(held->workspace);
-    }
+    gm_base_reset(&((const struct gm_held *)((struct gm_members *)data)->family)->base);
 }
 
 size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)

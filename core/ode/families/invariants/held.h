@@ -3,6 +3,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 #define GM_CORE_ODE_FAMILIES_INVARIANTS_HELD_H
 
+#include "core/ode/families/base_scheme.h"
 #include "core/ode/kernel/conserved.h"
 #include "core/ode/kernel/members.h"
 
@@ -25,21 +26,15 @@ enum { GM_HELD_IS_SET, GM_HELD_CORRECTION, GM_HELD_TIME_CARRY, GM_HELD_VALUES };
 /* The family's data of a struct gm_members, whose y is one member's state. */
 struct gm_held {
     const struct gm_holding *holding;
-    const struct gm_scheme *base;
-    struct gm_problem one; /* the problem with one member */
-    void *workspace;       /* the base's */
+    struct gm_base_scheme base;
     struct gm_conserved conserved;
     size_t n, count;
     double *z, *next, *move;                /* n */
     double *start_slopes, *slopes, *turned; /* count * n, by rows */
     double values[GM_MOST_CONSERVED], scale[GM_MOST_CONSERVED], length[GM_MOST_CONSERVED];
     double turn[GM_MOST_CONSERVED][GM_MOST_CONSERVED];
-    double storage[];
 };
 
-/* out := a step h of the base from y. */
-enum gm_status gm_held_step(const struct gm_held *held, const struct gm_task *task, double h, const double *y,
-                            double *out, struct gm_progress *progress);
 /* Fills slopes and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
 void gm_held_turn(struct gm_held *held, const double *y);
 /* Returns the largest distance of the invariants at y from `values`, relative to their scale, after writing these
@@ -52,20 +47,17 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
                     size_t n, double *y);
 
 /* The hooks of these families. */
-void *gm_held_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
-void gm_held_close(void *members);
+void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
+                   const struct gm_scheme *scheme);
 void gm_held_reset(void *members);
 size_t gm_held_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_held_start(const struct gm_task *task);
 const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
 #define GM_HELD_FAMILY(make)                                                                                 \
-    .kind = &gm_kind_ode, .loop = gm_members_loop, .workspace_open = gm_held_open,                           \
-    .workspace_close = gm_held_close, .workspace_reset = gm_held_reset, .memory = gm_held_memory,            \
-    .start = gm_held_start, .lacks = gm_held_lacks, .members = &(const struct gm_member_family)              \
-    {                                                                                                        \
-        .step = make                                                                                         \
-    }
+    .kind = &gm_kind_ode, GM_MEMBERS_OF_NO_ROWS(.step = make, .open = gm_held_open),                         \
+    .workspace_reset = gm_held_reset, .memory = gm_held_memory, .start = gm_held_start,                      \
+    .lacks = gm_held_lacks
 
 /* An invariant is met at this part of its scale, an iteration ends after this number of corrections. */
 #define GM_HELD_MET 1e-12

@@ -9,16 +9,9 @@
    On systems with constraints g(q) = 0, G = dg/dq, a step of the motion with the multipliers of g'' = 0,
        (q, p) = Phi_h(y_0),   q_1 = q + M^-1 G' mu,  g(q_1) = 0,   p_1 = p + G' nu,  G v_1 = 0
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.2. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/linear/iteration.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/variational/manifold.h"
-#include "core/ode_scheme_texts.h"
 
 /* z := z + D(z)' lambda, D at the first z */
 static enum gm_status project(struct gm_held *held, const double *values)
@@ -44,7 +37,8 @@ static enum gm_status project_symmetrically(struct gm_held *held, const struct g
     gm_conserved_slopes(&held->conserved, y, held->start_slopes);
     for (int i = 0; i < GM_HELD_MOST; i++) {
         gm_held_move(y, held->start_slopes, mu, count, n, held->move);
-        const enum gm_status status = gm_held_step(held, task, task->dt, held->move, held->next, progress);
+        const enum gm_status status =
+            gm_base_step(&held->base, task, task->dt, held->move, held->next, progress);
         if (status != GM_OK) {
             return status;
         }
@@ -74,10 +68,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     if (held->holding->symmetric) {
         status = project_symmetrically(held, task, members->y, values, progress);
     } else {
-        status = gm_held_step(held, task, task->dt, members->y, held->z, progress);
+        status = gm_base_step(&held->base, task, task->dt, members->y, held->z, progress);
         memcpy(held->next, held->z, held->n * sizeof *held->z);
         if (status == GM_OK && held->holding->constraints) {
-            status = gm_manifold_project(&held->one, held->z) ? GM_OK : GM_NO_CONVERGENCE;
+            status = gm_manifold_project(&held->base.problem, held->z) ? GM_OK : GM_NO_CONVERGENCE;
         } else if (status == GM_OK) {
             status = project(held, values);
         }

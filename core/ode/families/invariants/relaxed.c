@@ -52,7 +52,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     struct gm_held *held = members->family;
     double *memory = members->memory, gamma;
-    enum gm_status status = gm_held_step(held, task, task->dt, members->y, held->z, progress);
+    enum gm_status status = gm_base_step(&held->base, task, task->dt, members->y, held->z, progress);
     for (size_t c = 0; c < held->n; c++) {
         held->move[c] = held->z[c] - members->y[c];
     }
@@ -62,10 +62,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     }
     memcpy(members->y, held->z, held->n * sizeof *held->z);
     memory[GM_HELD_CORRECTION] = gamma - 1;
-    const double before = progress->t, whole = memory[GM_HELD_TIME_CARRY] + gamma * task->dt;
-    progress->t += whole;
-    memory[GM_HELD_TIME_CARRY] = whole + (before - progress->t);
-    return progress->t == before ? GM_STEP_COLLAPSE : GM_OK;
+    return gm_members_pass(progress, gamma * task->dt, &memory[GM_HELD_TIME_CARRY]);
 }
 
 const struct gm_family gm_family_relaxed = {

@@ -4,13 +4,7 @@
    c_i Gauss' nodes, l_i Lagrange's polynomials on them, b_i = int l_i. Then H(y_1) - H(y_0) is a sum of
    g' B g = 0. Integrals are taken by Gauss' rule of five nodes, exact where H is a polynomial of degree 10 (s = 1)
    or 5 (s = 2). It conserves quadratic Casimirs as well. D. Cohen & E. Hairer, BIT 51 (2011) 91. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { MOST = 2, NODES = 5 };
 #define ROOT 0.28867513459481288225 /* sqrt(3)/6 */

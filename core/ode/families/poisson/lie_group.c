@@ -14,14 +14,8 @@
    crouch-grossman3, crouch-grossman4: products of exponentials at each stage,
        k_i = F(exp(a_i,i-1 k_i-1) ... exp(a_i1 k_1) y_0),   y_1 = exp(b_s k_s) ... exp(b_1 k_1) y_0
    P.E. Crouch & R. Grossman, J. Nonlinear Sci. 3 (1993) 1; B. Owren & A. Marthinsen, BIT 39 (1999) 116. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/poisson/turns.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
 
 enum { STAGES = 5, VECTORS = 7 /* vectors of scratch */ };
 

@@ -9,13 +9,7 @@
    of these two. Without 1 + |c|^2 it is the midpoint rule, which conserves both but is not a Poisson map.
    J. Moser & A.P. Veselov, Commun. Math. Phys. 139 (1991) 217; R.I. McLachlan & A. Zanna, Found. Comput. Math.
    5 (2005) 87. */
-#include <math.h>
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 struct rotation {
     const double *inertia;

@@ -14,18 +14,8 @@
    spherical-midpoint2:  y_1 = y_0 + h omega(z) x z,   z = |y_0| (y_0 + y_1) / |y_0 + y_1|,
    for each of several vectors, which turn one another. R.I. McLachlan, K. Modin & O. Verdier, Phys. Rev. E 89 (2014)
    061301; Math. Comp. 86 (2017) 2325. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/poisson/turns.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
-
-typedef enum gm_status one_step(const struct gm_problem *problem, double h, struct gm_members *members,
-                                struct gm_progress *progress);
 
 enum { MOST = 6 };
 
@@ -42,9 +32,11 @@ static void pull(const struct gm_problem *problem, double h, double *y, struct g
     }
 }
 
-static enum gm_status about_axes(const struct gm_problem *problem, double h, struct gm_members *members,
+static enum gm_status about_axes(const struct gm_task *task, struct gm_members *members,
                                  struct gm_progress *progress)
 {
+    const struct gm_problem *problem = task->problem;
+    const double h = task->dt;
     static const int axes[] = {0, 1, 2, 1, 0};
     double *y = members->y;
     pull(problem, h / 2, y, progress);
@@ -108,12 +100,12 @@ static bool sweep(void *data, const double *push, double *next, double *scale)
     return true;
 }
 
-static enum gm_status spherical_midpoint(const struct gm_problem *problem, double h,
-                                         struct gm_members *members, struct gm_progress *progress)
+static enum gm_status spherical_midpoint(const struct gm_task *task, struct gm_members *members,
+                                         struct gm_progress *progress)
 {
-    const size_t n = problem->n;
+    const size_t n = members->n;
     double *push = members->scratch + 2 * n, *next = push + n;
-    struct turn turn = {problem, h, members, progress};
+    struct turn turn = {task->problem, task->dt, members, progress};
     const struct gm_implicit_equations equations = {.size = n, .data = &turn, .roundoff = 12e-16};
     memset(push, 0, n * sizeof *push);
     if (!gm_sweeps_solve_by(&equations, sweep, next, push, progress)) {
@@ -128,11 +120,11 @@ static enum gm_status spherical_midpoint(const struct gm_problem *problem, doubl
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    one_step *const *row = task->scheme->coefficients;
-    return (*row)(task->problem, task->dt, members, progress);
+    gm_member_step *const *row = task->scheme->coefficients;
+    return (*row)(task, members, progress);
 }
 
-static one_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;
+static gm_member_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;
 
 static const struct gm_scheme schemes[] = {
     {GM_TEXTS_rotations2, .family = &gm_family_rotations, .coefficients = &by_axes, .needs = GM_NEEDS_AXES},

@@ -6,12 +6,8 @@
    rows are in explicit.def, which the loops over kernels include as well. */
 #include "core/ode/families/runge_kutta/explicit.h"
 
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/runge_kutta/implicit.h"
-#include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"
 
 /* The loop for an n chosen at run time, through the problem's field. */
@@ -101,28 +97,17 @@ static struct gm_progress advance(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-#define GM_EXPLICIT(identifier, order_, claims_, tableau_, name_, title_, formula_, reference_)              \
-    {                                                                                                        \
-        .name = name_,                                                                                       \
-        .title = title_,                                                                                     \
-        .formula = formula_,                                                                                 \
-        .reference = reference_,                                                                             \
-        .family = &gm_family_explicit,                                                                       \
-        .coefficients = &gm_explicit_##identifier,                                                           \
-        .order = order_,                                                                                     \
-        .claims = claims_,                                                                                   \
-    },
+#define GM_EXPLICIT(identifier, ...)                                                                         \
+    {GM_TEXTS_##identifier, .family = &gm_family_explicit, .coefficients = &gm_explicit_##identifier},
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 };
 
 const struct gm_family gm_family_explicit = {
-    .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_EXPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "explicit Runge-Kutta",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .carries_passive = true,

@@ -20,10 +20,9 @@ enum gm_explicit_row {
 };
 
 /* The rows as compile-time constants: in a loop made for one row its zeros vanish. */
-#define GM_TABLEAU(...) __VA_ARGS__
-#define GM_EXPLICIT(identifier, order_, claims_, tableau_, ...)                                              \
+#define GM_EXPLICIT(identifier, ...)                                                                         \
     __attribute__((unused)) static const struct gm_tableau gm_explicit_##identifier = {                      \
-        .listed = GM_EXPLICIT_##identifier, tableau_};
+        .listed = GM_EXPLICIT_##identifier, __VA_ARGS__};
 #include "core/ode/families/runge_kutta/explicit.def"
 #undef GM_EXPLICIT
 

@@ -92,7 +92,6 @@ GM_INLINE mask K(explicit_own_step)(const struct K(explicit_terms) * table, stru
 #define GM_DRIVE K(explicit_own_drive)
 #define GM_ROW struct K(explicit_terms)
 #define GM_STEP K(explicit_own_step)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 
 /* The weights are all there, as in the loops of the list. */

@@ -8,16 +8,8 @@
    Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/runge_kutta/implicit.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/linear/settled.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/runge_kutta/modes.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
 #include "core/ode/kernel/stage_solver.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
@@ -74,7 +66,9 @@ struct work {
 static void workspace_close(void *workspace)
 {
     struct work *work = workspace;
-    gm_implicit_modes_close(work->modes);
+    if (work->modes) {
+        gm_members_close(work->modes);
+    }
     free(work->tiles);
     free(work);
 }
@@ -88,7 +82,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         return NULL;
     }
     if (gm_ode_of(problem)->semilinear && problem->m == 1) {
-        work->modes = gm_implicit_modes_open(problem, row);
+        work->modes = gm_members_workspace(problem, scheme);
     } else {
         work->tiles =
             gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
@@ -428,7 +422,7 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_task part = *task;
     if (work->modes) {
         part.workspace = work->modes;
-        return gm_implicit_modes_advance(&part);
+        return gm_members_loop(&part);
     }
     part.workspace = work->tiles;
     return gm_tiles_advance(&part, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
@@ -469,14 +463,13 @@ bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coef
 }
 
 const struct gm_family gm_family_implicit = {
-    .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
+    .members = &gm_implicit_modes,
     .carries_passive = true,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

@@ -242,27 +242,22 @@ GM_IMPLICIT_STEP(any, row->stages, GM_TABLEAU_STAGES)
 #define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_1)
 #define GM_STEP K(implicit_step_1)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 #define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_2)
 #define GM_STEP K(implicit_step_2)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 #define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_3)
 #define GM_STEP K(implicit_step_3)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 #define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_4)
 #define GM_STEP K(implicit_step_4)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 #define GM_ROW struct gm_tableau
 #define GM_DRIVE K(implicit_drive_any)
 #define GM_STEP K(implicit_step_any)
-#define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
 
 __attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)

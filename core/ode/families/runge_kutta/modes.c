@@ -6,13 +6,10 @@
 #include "core/ode/families/runge_kutta/modes.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "core/linear/complex_matrix.h"
-#include "core/linear/iteration.h"
-#include "core/linear/modes.h"
+#include "core/linear/fourier.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/kernel/tiles.h"
 
 enum { LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_TABLEAU_STAGES * LARGEST };
@@ -25,36 +22,27 @@ struct work {
     double complex *matrix;                     /* the equations of one mode */
 };
 
-void gm_implicit_modes_close(void *workspace)
+static void close_modes(void *modes)
 {
-    struct work *work = workspace;
-    if (work) {
-        gm_modes_close(&work->modes);
-        free(work->z);
-        free(work->state);
-    }
-    free(work);
+    gm_modes_close(modes);
 }
 
-void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_tableau *row)
+static void *open_work(struct gm_members *members, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme)
 {
     const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields,
-                 stages = (size_t)row->stages, unknowns = stages * fields;
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
-        return NULL;
-    }
+                 stages = (size_t)((const struct gm_tableau *)scheme->coefficients)->stages,
+                 unknowns = stages * fields;
+    struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
+    gm_arena_keep(members->arena, &work->modes, close_modes);
+    gm_arena_need(members->arena, gm_modes_open(&work->modes, n / fields, fields));
     work->stages = stages;
     work->n = n;
-    work->z = malloc((2 * stages + 2) * n * sizeof *work->z);
-    work->state = malloc(((stages + 2) * n + unknowns * unknowns) * sizeof *work->state);
-    if (!gm_modes_open(&work->modes, n / fields, fields) || !work->z || !work->state) {
-        gm_implicit_modes_close(work);
-        return NULL;
-    }
+    work->z = gm_arena_take(members->arena, (2 * stages + 2) * n, sizeof *work->z);
     work->next = work->z + stages * n;
     work->at = work->next + stages * n;
     work->rest = work->at + n;
+    work->state = gm_arena_take(members->arena, (stages + 2) * n + unknowns * unknowns, sizeof *work->state);
     work->increment = work->state + n;
     work->slopes = work->increment + n;
     work->matrix = work->slopes + stages * n;
@@ -156,34 +144,21 @@ static bool find_slopes(struct substep *substep)
     return gm_sweeps_solve(&equations, work->next, work->z, substep->progress);
 }
 
-struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct gm_tableau *row = task->scheme->coefficients;
-    struct work *work = task->workspace;
-    const size_t n = work->n;
-    double *y = task->out;
-    struct gm_progress progress = {.status = GM_OK};
-    memcpy(y, task->y, n * sizeof *y);
-    if (task->carry) {
-        memcpy(task->carry_out, task->carry, n * sizeof *y);
-    }
-    for (; progress.done < task->steps; progress.done++) {
-        for (int substep = 0; substep < row->composition->steps; substep++) {
-            const double h = task->dt * gm_composition_fraction(row->composition, substep);
-            struct substep made = {.task = task, .work = work, .y = y, .h = h, .progress = &progress};
-            if (!find_slopes(&made)) {
-                progress.status = GM_NO_CONVERGENCE;
-                return progress;
-            }
-            combine(work, h, row->b, work->at);
-            gm_tile_add(y, 1, work->at, task->carry ? task->carry_out : NULL, n);
+    struct work *work = members->family;
+    for (int i = 0; i < row->composition->steps; i++) {
+        const double h = task->dt * gm_composition_fraction(row->composition, i);
+        struct substep substep = {.task = task, .work = work, .y = members->y, .h = h, .progress = progress};
+        if (!find_slopes(&substep)) {
+            return GM_NO_CONVERGENCE;
         }
-        for (size_t c = 0; c < n; c++) {
-            if (!(fabs(y[c]) <= task->limit)) {
-                progress.status = GM_BLOW_UP;
-                return progress;
-            }
-        }
+        combine(work, h, row->b, work->at);
+        gm_tile_add(members->y, 1, work->at, members->carry, work->n);
     }
-    return progress;
+    return GM_OK;
 }
+
+const struct gm_member_family gm_implicit_modes = {.step = step, .open = open_work};

@@ -8,14 +8,8 @@
    If a stage depends on itself or a later one, all are found by fixed-point iteration. A last component that
    is the time moves with the stages. The family has no rows: they are user-defined. E.J. Nystrom (1925);
    E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
-#include "core/ode/families/runge_kutta/nystrom.h"
-
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
+#include "core/ode/families/runge_kutta/row.h"
 
 /* The scratch: the forces at the stages, the velocity at p0, a state and its slope, and the next forces. */
 struct scratch {

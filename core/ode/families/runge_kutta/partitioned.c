@@ -5,15 +5,9 @@
    symplectic if b = d and b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler
    methods. Solved to round-off by fixed-point iteration, and if that does not contract by Newton's method.
    Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
-#include "core/ode/families/runge_kutta/partitioned.h"
-
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
+#include "core/ode/families/runge_kutta/row.h"
 #include "core/ode/kernel/stage_solver.h"
-#include "core/ode_scheme_texts.h"
 #include "core/theory/coefficients.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
@@ -78,18 +72,11 @@ static const struct gm_scheme schemes[] = {
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const struct gm_partitioned_row *tableau = scheme->coefficients;
-    const size_t stages = tableau->stages;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)stages)) {
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)tableau->stages)) {
         return false;
     }
-    for (size_t i = 0; i < stages; i++) {
-        for (size_t j = 0; j < stages; j++) {
-            coefficients->a[GM_SIDE_Q][i * stages + j] = gm_ball_written(tableau->a[i][j]);
-            coefficients->a[GM_SIDE_P][i * stages + j] = gm_ball_written(tableau->c[i][j]);
-        }
-        coefficients->b[GM_SIDE_Q][i] = gm_ball_written(tableau->b[i]);
-        coefficients->b[GM_SIDE_P][i] = gm_ball_written(tableau->d[i]);
-    }
+    gm_coefficients_write(coefficients, GM_SIDE_Q, tableau->a[0], GM_TABLEAU_STAGES, tableau->b);
+    gm_coefficients_write(coefficients, GM_SIDE_P, tableau->c[0], GM_TABLEAU_STAGES, tableau->d);
     return true;
 }
 

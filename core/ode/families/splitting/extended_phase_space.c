@@ -14,16 +14,7 @@
        h Omega         0.5    0.25    0.15
        omega, tao2      5      20     40 at least
        omega, tao4      2      10     40 at least */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/compositions.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 /* One copy moves by f = (H_p, -H_q) taken at (q of one, p of the other): q of the second, p of the first. */
 static void shear(const struct gm_problem *problem, double h, double *first, double *second, double *scratch)

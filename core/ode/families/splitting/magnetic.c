@@ -6,13 +6,7 @@
    symmetric, and preserve the volume of (x, v).
 
    For H = c |p - A(x, t)|^2/2 + phi the state is (x, p), v = c (p - A). */
-#include <math.h>
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
+#include "core/ode/families/family.h"
 
 enum { MOST = 3 };
 

@@ -10,21 +10,15 @@
    J. Laskar & P. Robutel, Celest. Mech. Dyn. Astron. 80 (2001) 39. */
 #include "core/ode/families/splitting/parts.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
+#include "core/ode/families/base_scheme.h"
 #include "core/ode/families/composition.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/families/splitting/linear_flow.h"
-#include "core/ode/kernel/loops.h"
-#include "core/ode/kernel/members.h"
-#include "core/ode_scheme_texts.h"
 
 /* The ways in which the flow of a part is computed, with the words for them. */
 enum how { KICK, ROTATION, KEPLER, SHEAR, SERIES, EXPONENTIAL, VOLUME, BRACKET, STEPS, HOWS };
@@ -44,14 +38,12 @@ struct part {
     struct gm_tape tape;
     /* KICK: the force on the momenta */
     void (*force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
-    /* STEPS: the part as a problem, and the scheme */
-    const struct gm_scheme *by;
-    struct gm_problem problem;
+    /* STEPS: the scheme, with the part as its problem */
+    struct gm_base_scheme by;
     struct gm_ode ode;
     struct gm_loops loops;
     struct gm_sparse jacobian;
     struct gm_tape slopes;
-    void *workspace;
 };
 
 struct flow {
@@ -100,19 +92,16 @@ static void part_jacobian(const struct gm_problem *problem, const double *y, dou
     }
 }
 
-static void close_steps(void *data)
+static void close_steps(void *by)
 {
-    struct part *part = data;
-    if (part->workspace) {
-        part->by->family->workspace_close(part->workspace);
-    }
+    gm_base_close(by);
 }
 
 /* Opens a part that takes steps of a scheme, which may need a Jacobian and no other structure. */
 static void open_steps(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
 {
     const size_t n = work->problem->n;
-    const struct gm_scheme *by = part->by;
+    const struct gm_scheme *by = part->by.scheme;
     if (!gm_scheme_composes(by) || by->needs & ~(unsigned)GM_NEEDS_JACOBIAN || n > GM_NEWTON_LARGEST) {
         gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s",
                         GM_NEWTON_LARGEST, name, by->name);
@@ -125,13 +114,13 @@ static void open_steps(struct work *work, struct part *part, const char *name, c
                  gm_tape_open(&part->slopes, &work->graph, slopes, part->jacobian.count, n, NULL));
     part->how = STEPS;
     part->loops = (struct gm_loops){.field = part_field, .jacobian = part_jacobian};
-    part->problem = (struct gm_problem){
+    const struct gm_problem problem = {
         .name = name, .kind = &gm_kind_ode, .n = n, .m = 1, .parameters = part, .facets = &part->ode};
     for (int isa = 0; isa < GM_ISA_COUNT; isa++) {
         part->ode.loops[isa] = &part->loops;
     }
-    gm_arena_keep(work->arena, part, close_steps);
-    gm_arena_need(work->arena, gm_scheme_workspace_open(by, &part->problem, &part->workspace));
+    gm_arena_keep(work->arena, &part->by, close_steps);
+    gm_arena_need(work->arena, gm_base_open(&part->by, by, &problem));
 }
 
 static const char *name_of(size_t i, const void *names)
@@ -211,7 +200,7 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
     const struct gm_ode *ode = gm_ode_of(work->problem);
     const char *name = named->name;
     const bool given = named->by || is_given(ode->parts, name);
-    part->by = named->by;
+    part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
         part->how = KEPLER;
     } else if (!given && ode->kepler_split && strcmp(name, "interaction") == 0) {
@@ -343,8 +332,8 @@ static void list_parts(struct work *work)
     if (timed > 1 || (timed > 0 && work->carrier == row->parts)) {
         gm_arena_refuse(work->arena, "the time in one part, and another part that moves it");
     }
-    for (int i = 0; i < row->row.splitting.count; i++) {
-        add_flow(work, (size_t)row->row.splitting.pieces[i].piece, row->row.splitting.pieces[i].fraction);
+    for (int i = 0; i < row->splitting.count; i++) {
+        add_flow(work, (size_t)row->splitting.pieces[i].piece, row->splitting.pieces[i].fraction);
     }
     if (row->corrector != 0) {
         open_corrector(work, row->parts);
@@ -474,26 +463,15 @@ static void make_matrix(struct work *work, struct flow *flow, double h)
     }
 }
 
-/* Makes a step of the part's own scheme. */
-static bool advance_steps(const struct gm_task *task, struct work *work, struct part *part, double h,
+/* Makes a step of the part's own scheme, whose evaluations are not those of the last part. */
+static bool advance_steps(const struct gm_task *task, struct work *work, const struct part *part, double h,
                           double *y, struct gm_progress *progress)
 {
-    struct gm_task substep = *task;
-    gm_loop *advance = gm_scheme_loop(part->by, &part->problem);
-    substep.problem = &part->problem;
-    substep.scheme = part->by;
-    substep.workspace = part->workspace;
-    substep.steps = 1;
-    substep.dt = h;
-    substep.y = y;
-    substep.out = work->moved;
-    substep.carry = NULL;
-    const struct gm_progress made = advance(&substep);
-    progress->solves += made.solves;
-    progress->iterations += made.iterations;
-    progress->unsolved = made.unsolved;
+    const unsigned long evaluations = progress->evaluations;
+    const enum gm_status status = gm_base_step(&part->by, task, h, y, work->moved, progress);
+    progress->evaluations = evaluations;
     memcpy(y, work->moved, work->problem->n * sizeof *y);
-    return made.done == 1;
+    return status == GM_OK;
 }
 
 /* The flow of one member; false: it is not found. */
@@ -651,10 +629,10 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
 #include "core/corrected_schemes.def"
 #undef GM_SCHEME_ROW
 #undef GM_SCHEME_TEXTS
-static const struct gm_parts_row interaction_kepler = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
                                                        .list = {{"interaction", NULL}, {"kepler", NULL}}},
-                                 rest_linear = {.row.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
+                                 rest_linear = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                 .parts = 2,
                                                 .list = {{"rest", NULL}, {"linear", NULL}}},
                                  once = {.parts = 0}, twice = {.of_pieces = &gm_composition_none},
@@ -678,10 +656,8 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_parts = {
-    .kind = &gm_kind_ode,
     .title = "splitting by parts",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

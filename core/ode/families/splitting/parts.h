@@ -9,7 +9,7 @@ enum { GM_MOST_PARTS = 16 };
 
 /* The coefficients of a splitting by parts: the flows of `list` in turns, a piece's number is its part's. */
 struct gm_parts_row {
-    struct gm_splitting_row row; /* first: what reads splittings reads these */
+    struct gm_splitting splitting; /* first: what reads splittings reads these */
     double corrector; /* c: before and behind each step, p += c h^3 B'' M^-1 B' of parts A, B; 0: none */
     size_t parts;     /* 0: the pieces of the system's own, palindromic in the steps of `of_pieces` */
     struct gm_named_part {

@@ -9,16 +9,12 @@
    II.5. */
 #include "core/ode/families/splitting/splitting.h"
 
-#include <stdlib.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/loops.h"
+#include "core/ode/families/family.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
 /* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) static const struct gm_splitting_row identifier = {__VA_ARGS__};
+#define GM_SCHEME_ROW(identifier, ...) static const struct gm_splitting identifier = {__VA_ARGS__};
 #define GM_SCHEME_TEXTS(...)
 #include "core/splitting_schemes.def"
 #undef GM_SCHEME_ROW
@@ -37,8 +33,7 @@ static const struct gm_scheme schemes[] = {
    before. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
+    const struct gm_splitting *splitting = scheme->coefficients;
     const int stages = splitting->count;
     if (!gm_coefficients_open(
             coefficients, scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
@@ -102,9 +97,7 @@ GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
-    return gm_tiles_advance(task, table, task->problem->m == 1 ? step_one : step_many);
+    return gm_tiles_advance(task, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -114,12 +107,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 }
 
 const struct gm_family gm_family_splitting = {
-    .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_SPLITTING,
     .coefficients_open = coefficients_open,
     .title = "splitting",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,

@@ -85,8 +85,7 @@ GM_INLINE mask K(kick_drift_kick)(const struct gm_three *three, struct K(block) 
 
 __attribute__((unused)) static struct gm_progress K(splitting_run)(const struct gm_task *task)
 {
-    struct gm_splitting made;
-    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
+    const struct gm_splitting *table = task->scheme->coefficients;
     if (table->count == 3 && table->pieces[0].piece == GM_KICK && table->pieces[1].piece == GM_DRIFT &&
         table->pieces[2].piece == GM_KICK && !task->carry) {
         const struct gm_three three = {.first = table->pieces[0].fraction,

@@ -22,16 +22,9 @@
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
 #include "core/ode/families/variational/discrete_lagrangian.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
-#include "core/ode/kernel/members.h"
+#include "core/ode/families/family.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
-#include "core/ode_scheme_texts.h"
 
 /* The scratch: the basis at the points, unknowns, and their equations. */
 struct step {
@@ -54,8 +47,9 @@ static size_t unknowns_of(const struct gm_problem *problem, const struct gm_vari
 }
 
 /* The unknowns, and the scratch of Newton's method; the tables, and three vectors of coordinates. */
-static size_t room_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
+static size_t room_of(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
+    const struct gm_variational_row *rule = scheme->coefficients;
     const size_t unknowns = unknowns_of(problem, rule);
     return 2 * rule->points * (rule->degree + 1) + 3 * (problem->n / 2) + unknowns +
            gm_newton_scratch(unknowns) + gm_manifold_scratch_size(problem);
@@ -95,20 +89,19 @@ static void basis(const struct gm_variational_row *rule, size_t j, double c, dou
     }
 }
 
-void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
+/* Fills the tables. */
+static void *open_tables(struct gm_members *members, const struct gm_problem *problem,
+                         const struct gm_scheme *scheme)
 {
     const struct gm_variational_row *rule = scheme->coefficients;
-    struct gm_members *members = gm_members_open(problem, 0, room_of(problem, rule));
-    if (members) {
-        const struct step step = lay(problem, rule, members->scratch);
-        for (size_t i = 0; i < rule->points && !rule->tables; i++) {
-            for (size_t j = 0; j <= rule->degree; j++) {
-                const size_t at = i * (rule->degree + 1) + j;
-                basis(rule, j, rule->c[i], &step.values[at], &step.slopes[at]);
-            }
+    const struct step step = lay(problem, rule, members->scratch);
+    for (size_t i = 0; i < rule->points && !rule->tables; i++) {
+        for (size_t j = 0; j <= rule->degree; j++) {
+            const size_t at = i * (rule->degree + 1) + j;
+            basis(rule, j, rule->c[i], &step.values[at], &step.slopes[at]);
         }
     }
-    return members;
+    return NULL;
 }
 
 /* leaves out the friction, F + c p, if it is solved apart */
@@ -308,7 +301,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     double *y = members->y;
     step.task = task;
     step.progress = progress;
-    step.friction = rule->damped ? gm_ode_of(problem)->action->friction(problem) : 0;
+    step.friction = rule->damped ? *gm_ode_of(problem)->action->friction : 0;
     const double fades = exp(-step.friction * task->dt / 2);
     if (rule->late) {
         memset(step.manifold.at + half, 0, half * sizeof *y);
@@ -343,7 +336,8 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     return GM_OK;
 }
 
-const struct gm_member_family gm_variational_members = {.step = make_step};
+const struct gm_member_family gm_variational_members = {
+    .step = make_step, .open = open_tables, .room = room_of};
 
 #define TRAPEZOIDAL .degree = 1, .points = 2, .control = {0, 1}, .b = {0.5, 0.5}, .c = {0, 1}
 #define MIDPOINT .degree = 1, .points = 1, .control = {0, 1}, .b = {1}, .c = {0.5}
@@ -404,13 +398,11 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_discrete_lagrangian = {
-    .kind = &gm_kind_ode,
     .title = "variational, with fixed step",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_sums,
     .loop = gm_members_loop,
     .members = &gm_variational_members,
-    .workspace_open = gm_variational_workspace,
-    .workspace_close = free,
+    .workspace_open = gm_members_workspace,
+    .workspace_close = gm_members_close,
 };

@@ -19,8 +19,7 @@ struct gm_variational_row {
     void (*tables)(const struct gm_settings *settings, double *values, double *slopes);
 };
 
-/* The step of such rows, and its workspace, which free closes. */
+/* The steps of such rows. */
 extern const struct gm_member_family gm_variational_members;
-void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
 
 #endif

@@ -9,14 +9,8 @@
    For every Lagrangian, whose mass matrix M may be of Q: with Q = x + sqrt(beta) d, and d stationary,
        h/2 sum over both ends of  2 L(Q, v +- d / (h sqrt(2))) - L(Q, v +- d sqrt(2) / h),   v = (x_1 - x_0) / h,
    + at x_0, - at x_1; the velocities are such that their mean is v, and that of their squares v^2 - d^2/h^2. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/ode/families/families.h"
+#include "core/ode/families/family.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
-#include "core/ode_scheme_texts.h"
 
 /* Writes the tables over x_0, d_0, d_1, x_1 at two points of each end. */
 static void tables(const struct gm_settings *settings, double *values, double *slopes)
@@ -40,13 +34,11 @@ static const struct gm_scheme schemes[] = {
 };
 
 const struct gm_family gm_family_newmark = {
-    .kind = &gm_kind_ode,
     .title = "variational Newmark",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS,
     .parameters = gm_settings_of_newmark,
     .loop = gm_members_loop,
     .members = &gm_variational_members,
-    .workspace_open = gm_variational_workspace,
-    .workspace_close = free,
+    .workspace_open = gm_members_workspace,
+    .workspace_close = gm_members_close,
 };

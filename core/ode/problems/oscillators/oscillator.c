@@ -5,7 +5,27 @@
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(oscillator)
-GM_ENERGY_DECLARE(oscillator)
+
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
+    (void)problem;
+    for (size_t i = 0; i < m; i++) {
+        value[i] = (y[m + i] * y[m + i] + y[i] * y[i]) / 2;
+    }
+}
+
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    return gm_hamiltonian_read(problem, "(p^2 + q^2)/2", graph, node);
+}
+
+static void potential(const struct gm_problem *problem, double q, double values[3])
+{
+    (void)problem;
+    values[0] = q * q / 2;
+    values[1] = q;
+    values[2] = 1;
+}
 
 const struct gm_problem gm_problem_oscillator = {
     .name = "oscillator",
@@ -18,9 +38,8 @@ const struct gm_problem gm_problem_oscillator = {
             .quadratic = true,
             .linear = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator,
-                                                          .formula = gm_formula_oscillator},
-            .lagrangian = &(const struct gm_lagrangian){.potential = gm_potential_oscillator},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
+            .lagrangian = &(const struct gm_lagrangian){.potential = potential},
             .loops = GM_LOOPS(oscillator),
         },
 };
