@@ -640,7 +640,7 @@ static void kick_aside(const struct gm_problem *problem, double ds, double bindi
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
                              double *t);
 
-/* A step of logh2's family that is made in one of these ways; its memory begins with B. */
+/* A step of logh2's or levi-civita's family that is made in one of these ways; its memory begins with B. */
 static enum gm_status make_wrong(fictitious_step *made, const struct gm_task *task,
                                  struct gm_members *members, struct gm_progress *progress)
 {
@@ -690,17 +690,20 @@ static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
 static void a_fictitious_time_gone_wrong(void **unused)
 {
     (void)unused;
-    fictitious_step *const one_drift = half_drifts_as_one, *const aside = kick_aside;
     struct gm_scheme wrong = changed("levi-civita");
+    struct gm_family family = *wrong.family;
+    struct gm_member_family members = *family.members;
+    wrong.family = &family;
     wrong.order = 1;
-    wrong.coefficients = &one_drift;
+    family.members = &members;
+    members.step = make_one_drift;
     struct gm_certificate certificate = gm_certify(&wrong);
     assert_true(certificate.order_holds);
     assert_true(certificate.claims[12].holds);                                          /* bilinear */
     assert_true(certificate.claims[1].measured && certificate.claims[1].defect > 1e-6); /* symmetric */
     assert_false(certificate.claims[2].holds);                                          /* reversible */
     assert_false(certificate.holds);
-    wrong.coefficients = &aside;
+    members.step = make_aside;
     certificate = gm_certify(&wrong);
     assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
     assert_false(certificate.claims[12].holds);
