@@ -4,6 +4,7 @@
        dI/dt = sum_i dI/dy_i f_i(y) = 0
    for the values of the parameters. */
 #include "core/ode/user/data.h"
+#include "core/ode/user/model.h"
 
 #include <stdarg.h>
 #include <stdio.h>

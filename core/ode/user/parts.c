@@ -5,6 +5,7 @@
        linear, rest          the terms of degree 1 of the rates, and all others
        kepler, interaction   |p|^2/2 - 1/|q|, and all else */
 #include "core/ode/user/data.h"
+#include "core/ode/user/model.h"
 
 #include <stdlib.h>
 #include <string.h>
