@@ -335,12 +335,14 @@ static bool wait_for_one(struct series *series)
 {
     int end = 0;
     pid_t process;
-    for (bool told = false; (process = waitpid(-1, &end, WNOHANG)) == 0; told |= gm_interrupted) {
-        for (size_t i = 0; i < series->worker_count && gm_interrupted && !told; i++) {
+    for (bool told = false; (process = waitpid(-1, &end, WNOHANG)) == 0;) {
+        const bool interrupted = gm_interrupted; /* it may change during the loop */
+        for (size_t i = 0; i < series->worker_count && interrupted && !told; i++) {
             if (series->workers[i].process) {
                 kill(series->workers[i].process, SIGTERM);
             }
         }
+        told = interrupted;
         nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
     }
     for (size_t i = 0; i < series->worker_count && process > 0; i++) {
