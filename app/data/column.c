@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bytes at places of open files; parts of files that grow, and those that are lines. */
-#include "app/data/format.h"
+#include "app/data/column.h"
 
 #include <errno.h>
 #include <libdeflate.h>

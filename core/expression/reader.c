@@ -73,27 +73,6 @@ bool gm_fail(struct gm_fault *fault, size_t offset, const char *format, ...)
     return false;
 }
 
-bool gm_fail_first(struct gm_first_fault *first, size_t offset, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    if (!first->failed) {
-        tell(first->fault, offset, format, arguments);
-    }
-    va_end(arguments);
-    first->failed = true;
-    return false;
-}
-
-bool gm_fail_memory(struct gm_first_fault *first)
-{
-    if (!first->failed) {
-        *first->fault = (struct gm_fault){0};
-    }
-    first->failed = first->no_memory = true;
-    return false;
-}
-
 __attribute__((format(printf, 3, 4))) static gm_node_id fail(struct reader *reader, size_t offset,
                                                              const char *format, ...)
 {

@@ -28,17 +28,6 @@ struct gm_fault {
 __attribute__((format(printf, 3, 4))) bool gm_fail(struct gm_fault *fault, size_t offset, const char *format,
                                                    ...);
 
-/* The first fault of a text; faults that follow from it are not reported. */
-struct gm_first_fault {
-    struct gm_fault *fault;
-    bool failed, no_memory;
-};
-/* Writes the first fault alone. Returns false. */
-__attribute__((format(printf, 3, 4))) bool gm_fail_first(struct gm_first_fault *first, size_t offset,
-                                                         const char *format, ...);
-/* Reports out of memory: a fault without a sentence, unless another one came first. Returns false. */
-bool gm_fail_memory(struct gm_first_fault *first);
-
 /* A name in a formula. */
 struct gm_name {
     const char *text;
