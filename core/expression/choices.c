@@ -30,42 +30,56 @@ static const char *word_at(size_t i, const void *choice)
     return ((const struct gm_written_choice *)choice)->words[i];
 }
 
-static size_t find(const char *word, size_t count, const char *(*at)(size_t i, const void *data),
-                   const void *data)
+/* The names of choices, or the words of one. */
+struct list {
+    const char *what, *(*at)(size_t i, const void *data);
+    const void *data;
+    size_t count;
+};
+
+static struct list names_of(const struct gm_written_choices *choices)
+{
+    return (struct list){"choice", name_at, choices, choices->count};
+}
+
+static struct list words_of(const struct gm_written_choice *choice)
+{
+    return (struct list){"word", word_at, choice, choice->count};
+}
+
+static size_t find(const char *word, struct list list)
 {
     size_t i = 0;
-    while (i < count && strcmp(at(i, data), word) != 0) {
+    while (i < list.count && strcmp(list.at(i, list.data), word) != 0) {
         i++;
     }
     return i;
 }
 
 /* Finds a word among others; else false, with a fault that proposes the nearest. */
-static bool seek(const char *text, struct gm_span span, size_t count,
-                 const char *(*at)(size_t i, const void *data), const void *data, size_t *found,
+static bool seek(const char *text, struct gm_span span, struct list list, size_t *found,
                  struct gm_fault *fault)
 {
     char word[GM_CHOICE_SIZE];
     if (span.begin == span.end) {
-        return gm_fail(fault, span.begin, "a %s was expected", at == name_at ? "choice" : "word");
+        return gm_fail(fault, span.begin, "a %s was expected", list.what);
     }
-    *found = copy(text, span, word) ? find(word, count, at, data) : count;
-    const char *near = *found < count ? NULL : gm_nearest(word, count, at, data);
-    return *found < count ||
-           gm_fail(fault, span.begin, "there is no %s \"%s\"%s%s", at == name_at ? "choice" : "word", word,
-                   near ? "; did you mean " : "", near ? near : "");
+    *found = copy(text, span, word) ? find(word, list) : list.count;
+    const char *near = *found < list.count ? NULL : gm_nearest(word, list.count, list.at, list.data);
+    return *found < list.count || gm_fail(fault, span.begin, "there is no %s \"%s\"%s%s", list.what, word,
+                                          near ? "; did you mean " : "", near ? near : "");
 }
 
 const struct gm_written_choice *gm_choice_named(const struct gm_written_choices *choices, const char *name)
 {
-    const size_t found = find(name, choices->count, name_at, choices);
+    const size_t found = find(name, names_of(choices));
     return found < choices->count ? &choices->list[found] : NULL;
 }
 
 bool gm_choices_take(struct gm_written_choices *choices, const char *name, const char *word)
 {
     struct gm_written_choice *choice = (struct gm_written_choice *)gm_choice_named(choices, name);
-    const size_t found = choice ? find(word, choice->count, word_at, choice) : GM_MOST_CHOICE_WORDS;
+    const size_t found = choice ? find(word, words_of(choice)) : GM_MOST_CHOICE_WORDS;
     if (choice && found < choice->count) {
         choice->chosen = found;
     }
@@ -87,7 +101,7 @@ static bool read_words(struct gm_written_choice *choice, const char *text, struc
                 fault, word.begin,
                 "a word of a choice has 1 to %d bytes without blanks, quotes, # and =", GM_CHOICE_SIZE - 1);
         }
-        if (find(copied, choice->count, word_at, choice) < choice->count) {
+        if (find(copied, words_of(choice)) < choice->count) {
             return gm_fail(fault, word.begin, "%s is named twice", copied);
         }
         choice->count++;
@@ -123,7 +137,7 @@ static bool read_choice(struct gm_written_choices *choices, const char *text, st
     }
     choices->count++;
     return read_words(choice, text, (struct gm_span){of + 4, head.end}, fault) &&
-           seek(text, standard, choice->count, word_at, choice, &choice->standard, fault) &&
+           seek(text, standard, words_of(choice), &choice->standard, fault) &&
            gm_choices_take(choices, choice->name, choice->words[choice->standard]);
 }
 
@@ -171,7 +185,7 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
         return true;
     }
     gm_span_take(text, &rest, "=", &name);
-    if (!seek(text, name, blocks->choices->count, name_at, blocks->choices, &number, fault)) {
+    if (!seek(text, name, names_of(blocks->choices), &number, fault)) {
         return false;
     }
     const struct gm_written_choice *choice = &blocks->choices->list[number];
@@ -182,7 +196,7 @@ static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fa
     *blocks = (struct blocks){blocks->choices, text, choice, false, true, name.begin};
     do {
         gm_span_take(text, &rest, ",", &word);
-        if (!seek(text, word, choice->count, word_at, choice, &number, fault)) {
+        if (!seek(text, word, words_of(choice), &number, fault)) {
             return false;
         }
         blocks->holds = blocks->holds || number == choice->chosen;

@@ -384,6 +384,10 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
         return product_with_reciprocal(graph, a, b, simple);
     } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
         *simple = times_above(graph, b, a);
+    } else if (is_operation(graph, a, GM_CONSTANT) && is_operation(graph, b, GM_OPERATION_MULTIPLY) &&
+               is_reciprocal(graph, graph->nodes[b].a)) {
+        const gm_node_id other = graph->nodes[b].b;
+        *simple = times(graph, times_above(graph, graph->nodes[b].a, a), other);
     } else if (is_reciprocal(graph, b)) {
         *simple = times(graph, b, a);
     } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {

@@ -93,7 +93,7 @@ bool gm_formula_residue(const struct gm_formula *graph, gm_node_id constant, uin
      -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
      x x -> x^2    sqrt(x) sqrt(x) -> x    (x / y) / z -> x / (y z)
      constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, and above:
-     (c / x) (d y) -> ((c d) / x) y, (c / x) (d / y) -> (c d) / (x y),
+     (c / x) (d y) -> ((c d) / x) y, d ((c / x) y) -> ((c d) / x) y, (c / x) (d / y) -> (c d) / (x y),
      (c x) / (d y) -> (c / d) (x / y) if c / d is exact, else c (x / y) */
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
                             gm_node_id b);

@@ -253,26 +253,27 @@ static struct sized size_of(enum gm_operation operation, struct sized a, struct 
     return (struct sized){value, size};
 }
 
-static struct sized size_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
-                               uint64_t seed, const double *fixed, size_t variables, struct sized *values)
+static struct sized size_there(const struct gm_random_values *random, uint64_t seed, struct sized *values)
 {
-    for (size_t k = 0; k < count; k++) {
-        const gm_node_id i = parts[k];
+    const struct gm_formula *graph = random->graph;
+    for (size_t k = 0; k < random->count; k++) {
+        const gm_node_id i = random->parts[k];
         const struct gm_node *node = &graph->nodes[i];
         gm_residue residue;
         const bool cancels = node->operation == GM_CONSTANT && node->a && /* 0.1 + 0.2 - 0.3 */
                              gm_formula_residue(graph, i, &residue) && residue == 0;
         double value = cancels ? 0 : node->value;
         if (node->operation == GM_VARIABLE) {
-            const uint64_t random = gm_mixed(seed ^ gm_mixed(node->a));
-            value = ((double)(random >> 12) * 0x1p-52 * 1.8 + .2) * (random & 1 && seed % 2 ? -1 : 1);
+            const uint64_t drawn = gm_mixed(seed ^ gm_mixed(node->a));
+            value = ((double)(drawn >> 12) * 0x1p-52 * 1.8 + .2) * (drawn & 1 && seed % 2 ? -1 : 1);
             value *= seed % 4 == 3 ? 10 : 1; /* beyond a bound that a formula may have */
-            value = node->a < variables && !isnan(fixed[node->a]) ? fixed[node->a] : value;
+            const bool given = node->a < random->variables && !isnan(random->fixed[node->a]);
+            value = given ? random->fixed[node->a] : value;
         }
         values[i] = node->operation > GM_VARIABLE ? size_of(node->operation, values[node->a], values[node->b])
                                                   : (struct sized){value, fabs(value)};
     }
-    return values[parts[count - 1]];
+    return values[random->parts[random->count - 1]];
 }
 
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
@@ -311,7 +312,7 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
         const double bound = here == enough ? small : rounding;
         int tests = here < 0 && -here == refuting ? -1 : 0;
         for (uint64_t i = 0; i < tries && tests >= 0 && tests < (proved ? 1 : TESTS); i++) {
-            const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
+            const struct sized there = size_there(&random, i, &memory->sized);
             if (isfinite(there.value) && isfinite(there.size)) {
                 tests = fabs(there.value) <= bound * there.size ? tests + 1 : -1;
             }

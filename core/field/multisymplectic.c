@@ -79,7 +79,7 @@ struct flow {
     size_t state, memory; /* sizes of each */
 };
 
-/* gm_map: a state, followed by the memory, to both a step later. */
+/* The image of a map: a state, followed by the memory, to both a step later. */
 static bool one_step(const void *context, const double *from, double *to)
 {
     const struct flow *flow = context;
@@ -99,7 +99,7 @@ void gm_law_differentiate(const struct gm_law *law, const double *y, const doubl
     if (memory) {
         memcpy(from + flow.state, memory, flow.memory * sizeof *from);
     }
-    if (!gm_differentiate(one_step, &flow, size, from, direction, size, slope)) {
+    if (!gm_differentiate(&(const struct gm_map){one_step, &flow, size, size}, from, direction, slope)) {
         gm_arena_leave(law->arena);
     }
 }

@@ -324,7 +324,7 @@ size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, si
     for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
         const struct gm_scheme *scheme = gm_scheme_find(name);
         bool is_there = scheme && scheme->family->kind == there;
-        for (size_t i = 0; scheme && !is_there && i < gm_scheme_count(); i++) { /* kinds may share a name */
+        for (size_t i = 0; scheme && there && !is_there && i < gm_scheme_count(); i++) { /* kinds may share a name */
             const struct gm_scheme *other = gm_scheme_at(i);
             is_there = other->family->kind == there && strcmp(other->name, scheme->name) == 0;
         }

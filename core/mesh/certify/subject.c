@@ -176,6 +176,7 @@ bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_
     const double start[2 * GM_MESH_SUBJECT_POINTS] = {0};
     double along[2 * GM_MESH_SUBJECT_POINTS] = {0};
     along[direction] = 1;
-    return gm_differentiate(observe_shifted, &(const struct observation){subject, kind, observe, context},
-                            2 * subject->mesh.points, start, along, count, derivative);
+    const struct observation observation = {subject, kind, observe, context};
+    const struct gm_map map = {observe_shifted, &observation, 2 * subject->mesh.points, count};
+    return gm_differentiate(&map, start, along, derivative);
 }

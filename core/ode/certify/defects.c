@@ -47,7 +47,7 @@ static bool differentiate(const struct gm_subject *subject, double dt, double le
     derivative->largest = 0;
     for (size_t column = 0; column < n; column++) {
         along[column] = length;
-        if (!gm_differentiate(make_step, derivative, n, from, along, 2 * n, slope)) {
+        if (!gm_differentiate(&(const struct gm_map){make_step, derivative, n, 2 * n}, from, along, slope)) {
             return false;
         }
         along[column] = 0;
