@@ -45,11 +45,14 @@ read_answer() {
     done <err
 }
 
+# Seconds of processor time after which an answer counts as one that never comes; a test of short commands sets fewer.
+longest=600
+
 # status STATUS WORDS...: the exit status, without a sign of a crash; what it said is in out and err
 status() {
     wanted=$1
     shift
-    timeout 600 "$geomint" "$@" >out 2>err </dev/null
+    (ulimit -t "$longest" && exec timeout 600 "$geomint" "$@") >out 2>err </dev/null
     got=$?
     read_answer
     [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 300 err)"

@@ -5,6 +5,7 @@ set -u
 source=$(cd "$(dirname "$0")/../.." && pwd) || exit 1
 meshes=$source/tests/reference/meshes
 . "$(dirname "$0")/answers.sh"
+longest=60
 
 # the four words of a painter, by the option and by the variable, for whatever paints; for nothing else
 painters='--painter and GEOMINT_PAINTER take auto, osmesa, egl or own$'

@@ -5,6 +5,7 @@
 set -u
 meshes=$2
 . "$(dirname "$0")/answers.sh"
+longest=60
 
 # every answer is put by, and all are looked at together, at the end
 mkdir answers

@@ -52,6 +52,7 @@ class Session:
             os.read(0, 1)  # until the size is set
             os.chdir(self.folder)
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
             for number in NUMBERS.values():
                 signal.signal(number, signal.SIG_DFL)
             os.execve(command[0], command, environ)
