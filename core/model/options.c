@@ -56,9 +56,8 @@ void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *ite
 static void add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
 {
     gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers);
-    const double number = gm_reading_number(reading, span);
+    const double number = gm_reading_finite(reading, span);
     option->numbers[option->count++] = number;
-    gm_system_refuse_if(reading->system, !isfinite(number), span.begin, "this is not a finite number");
 }
 
 /* Numbers separated by commas; "usual" stands for the default list. */
@@ -201,7 +200,9 @@ static void read_braces(struct gm_reading *reading, struct gm_system_item *item,
         format.begin, "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     const char *name = reading->text + formula.begin;
     const size_t length = gm_name_length(name, formula.end - formula.begin);
-    const bool is_key = gm_reading_reserves(name, length) && !gm_formula_reserves(name, length) &&
+    const bool named = gm_system_is_room(reading->system) ? formula.begin + length == formula.end
+                                                          : gm_reading_reserves(name, length),
+               is_key = named && !gm_formula_reserves(name, length) &&
                         !gm_reading_entry(reading, name, length, false, 0);
     formula.begin += is_key ? length : 0;
     const bool alone = is_key && formula.begin == formula.end;

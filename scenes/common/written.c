@@ -87,6 +87,20 @@ void gm_written_options(struct gm_observable *observable, const struct gm_system
     observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);
 }
 
+void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene)
+{
+    const struct gm_system_item *item;
+    struct gm_figure *figures = NULL;
+    size_t count = 0;
+    for (; (item = gm_system_item_of(system, GM_WORD_FIGURE, count)); count++) {
+        figures = gm_arena_resize(arena, figures, count + 1, sizeof *figures);
+        figures[count] =
+            (struct gm_figure){.name = item->name, .statement = item->text, .arguments = item->words};
+    }
+    scene->figures = figures;
+    scene->figure_count = count;
+}
+
 size_t gm_written_schemes(struct gm_arena *arena, const char *text, const struct gm_problem *problem,
                           const char **schemes)
 {

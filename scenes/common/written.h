@@ -27,6 +27,9 @@ bool gm_listed_word(const char **list, char *word, size_t size);
 /* Applies the options of a system's line to its observable: title, unit, angle, log, missing. */
 void gm_written_options(struct gm_observable *observable, const struct gm_system_item *item);
 
+/* Takes the lines figure: of a system into its scene. */
+void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene);
+
 enum { GM_MOST_PREFERRED = 32 };
 /* Reads the schemes of a list separated by blanks or commas, at most GM_MOST_PREFERRED. Returns their number,
    0 if the text is NULL. Refuses one that is unknown or does not fit. */

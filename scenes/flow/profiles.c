@@ -99,11 +99,8 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                            points[count + 1], published);
         }
     }
-    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
-    struct gm_span caption;
-    picture->caption = gm_room_said(room, "caption", 0, &caption) ? gm_room_text(picture, room, caption)
-                       : known                                    ? "Grey, broad: exact."
-                                                                  : "";
+    const char *caption = gm_room_of(&lanes[0]->problem)->system.texts[GM_WORD_CAPTION];
+    picture->caption = caption ? gm_picture_text(picture, "%s", caption) : known ? "Grey, broad: exact." : "";
 }
 
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
