@@ -231,35 +231,25 @@ static void read_pairs(struct room_reading *here, struct gm_room_line *line, str
         }
         size_t equals = rest.begin + length;
         equals += strspn(text + equals, " \t\r\n");
-        if (equals >= rest.end || text[equals] != '=') {
-            gm_system_refuse(room, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
-                             keys[key]);
-        }
+        gm_system_refuse_if(room, equals >= rest.end || text[equals] != '=',
+                            equals < rest.end ? equals : rest.begin, "%s: needs = and a value", keys[key]);
         equals++;
         const size_t end = next_key(text, (struct gm_span){equals, rest.end});
-        if (given >> key & 1) {
-            gm_system_refuse(room, rest.begin, "%s = is given twice", keys[key]);
-        }
+        gm_system_refuse_if(room, given >> key & 1, rest.begin, "%s = is given twice", keys[key]);
         const struct gm_span formula = gm_span_trimmed(text, (struct gm_span){equals, end});
         read_formula(here, formula, word, (enum gm_room_key)key, &line->value[key]);
         given |= 1u << key;
         rest.begin = end;
     }
     const unsigned missing = pairs[word].must & ~given;
-    if (missing) {
-        gm_system_refuse(room, line->place, "%s: needs %s", word_of(word),
-                         list_keys(missing & -missing, "", list, sizeof list));
-    }
-    if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
-        gm_system_refuse(room, line->place, "wall: holds its temperature = or gives heat =, not both");
-    }
-    if (given & PLACE && (given & PLACE) != PLACE) {
-        gm_system_refuse(room, line->place, "%s: has x = and y =, or neither", word_of(word));
-    }
-    if (pairs[word].some && !(given & pairs[word].some)) {
-        gm_system_refuse(room, line->place, "%s: needs %s", word_of(word),
-                         list_keys(pairs[word].some, " or ", list, sizeof list));
-    }
+    gm_system_refuse_if(room, missing, line->place, "%s: needs %s", word_of(word),
+                        list_keys(missing & -missing, "", list, sizeof list));
+    gm_system_refuse_if(room, given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1, line->place,
+                        "wall: holds its temperature = or gives heat =, not both");
+    gm_system_refuse_if(room, given & PLACE && (given & PLACE) != PLACE, line->place,
+                        "%s: has x = and y =, or neither", word_of(word));
+    gm_system_refuse_if(room, pairs[word].some && !(given & pairs[word].some), line->place, "%s: needs %s",
+                        word_of(word), list_keys(pairs[word].some, " or ", list, sizeof list));
 }
 
 /* The rest of a line that has a name in front, which may be in double quotes. */
@@ -396,41 +386,26 @@ static void add_formula(struct room_reading *here, struct gm_system_item *item, 
     gm_item_add(&here->reading, item, gm_reading_formula(&here->reading, span));
 }
 
-/* Adds a number. */
-static double add_number(struct room_reading *here, struct gm_system_item *item, struct gm_span span)
-{
-    const double number = gm_reading_finite(&here->reading, span);
-    gm_item_add(&here->reading, item, gm_formula_constant(&here->room->system.graph, number));
-    return number;
-}
-
-/* low .. high */
-static void add_range(struct room_reading *here, struct gm_system_item *item, struct gm_span span)
-{
-    const size_t dots = gm_span_until(here->reading.text, span, "..");
-    gm_system_refuse_if(here->reading.system, dots == span.end, span.begin,
-                        "a range was expected, low .. high");
-    add_formula(here, item, (struct gm_span){span.begin, dots}, MEASURES);
-    add_formula(here, item, (struct gm_span){dots + 2, span.end}, MEASURES);
-    const struct gm_node *ends[2];
-    for (size_t i = 0; i < 2; i++) {
-        ends[i] = &here->room->system.graph.nodes[item->nodes[item->count - 2 + i]];
-    }
-    gm_system_refuse_if(here->reading.system,
-                        ends[0]->operation == GM_CONSTANT && ends[1]->operation == GM_CONSTANT &&
-                            !(ends[0]->value < ends[1]->value),
-                        span.begin, "a range's lower end comes first");
-}
-
 /* graph: KEY; low .. high */
 static void read_graph(struct room_reading *here, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value, piece;
     gm_span_take(here->reading.text, &rest, ";", &piece);
     struct gm_system_item *item = gm_reading_item(&here->reading, line, piece);
-    if (gm_span_take(here->reading.text, &rest, ";", &piece)) {
-        add_range(here, item, piece);
+    if (!gm_span_take(here->reading.text, &rest, ";", &piece)) {
+        return;
     }
+    const size_t dots = gm_span_until(here->reading.text, piece, "..");
+    gm_system_refuse_if(here->reading.system, dots == piece.end, piece.begin,
+                        "a range was expected, low .. high");
+    add_formula(here, item, (struct gm_span){piece.begin, dots}, MEASURES);
+    add_formula(here, item, (struct gm_span){dots + 2, piece.end}, MEASURES);
+    const struct gm_node *nodes = here->room->system.graph.nodes, *low = &nodes[item->nodes[0]],
+                         *high = &nodes[item->nodes[1]];
+    gm_system_refuse_if(here->reading.system,
+                        low->operation == GM_CONSTANT && high->operation == GM_CONSTANT &&
+                            !(low->value < high->value),
+                        piece.begin, "a range's lower end comes first");
 }
 
 /* side: NAME; x = 0, y > 4 */
@@ -474,34 +449,27 @@ static void read_colours(struct room_reading *here, const struct gm_read_line *l
     static const char *const words[] = {"vorticity", "speed", NULL};
     struct gm_span rest = line->value, piece;
     while (gm_span_take(here->reading.text, &rest, ",", &piece)) {
-        struct gm_span value = piece;
-        const struct gm_span word = take_word(&here->reading, &value);
+        const size_t place = piece.begin;
+        const struct gm_span word = take_word(&here->reading, &piece);
         struct gm_system_item *item = gm_reading_item(&here->reading, line, word);
-        gm_system_refuse_if(here->reading.system,
-                            !words[gm_span_among(here->reading.text, word, words)] ||
-                                !(add_number(here, item, value) > 0),
-                            piece.begin, "colours: end at positive numbers: vorticity 5, speed 1");
-    }
-}
-
-/* Adds numbers separated by commas. */
-static void add_numbers(struct room_reading *here, struct gm_system_item *item, struct gm_span rest)
-{
-    struct gm_span piece;
-    while (gm_span_take(here->reading.text, &rest, ",", &piece)) {
-        add_number(here, item, piece);
+        const bool known = words[gm_span_among(here->reading.text, word, words)];
+        item->value = known ? gm_reading_finite(&here->reading, piece) : 0;
+        gm_system_refuse_if(here->reading.system, !(item->value > 0), place,
+                            "colours: end at positive numbers: vorticity 5, speed 1");
     }
 }
 
 static void read_levels(struct room_reading *here, const struct gm_read_line *line)
 {
-    add_numbers(here, gm_reading_item(&here->reading, line, (struct gm_span){0, 0}), line->value);
+    gm_item_numbers(&here->reading, gm_reading_item(&here->reading, line, (struct gm_span){0, 0}),
+                    line->value);
 }
 
 /* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
 static void read_profile(struct room_reading *here, const struct gm_read_line *line)
 {
     static const char *const quantities[] = {"u", "v", "scalar", NULL};
+    static const size_t numbers[] = {2, 4, 5};
     struct gm_reading *reading = &here->reading;
     struct gm_span rest = line->value, head, piece;
     gm_span_take(reading->text, &rest, ";", &head);
@@ -514,17 +482,16 @@ static void read_profile(struct room_reading *here, const struct gm_read_line *l
                             line->value.begin, "a profile shows u, v or scalar");
         *letters++ = reading->text[word.begin];
     }
-    for (size_t end = 1; end <= 2; end++) {
+    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
         gm_span_take(reading->text, &rest, ";", &piece);
-        add_numbers(here, item, piece);
-        gm_system_refuse_if(reading->system, item->count != 2 * end, line->value.begin,
+        gm_system_refuse_if(reading->system, gm_item_numbers(reading, item, piece) != numbers[i],
+                            line->value.begin,
                             "a profile has a name and quantities, two places and a number of points");
     }
     gm_span_take(reading->text, &rest, ";", &piece);
-    add_number(here, item, piece);
-    if (gm_span_take(reading->text, &rest, ";", &piece)) {
-        add_range(here, item, piece);
-    }
+    const struct gm_written_range range = gm_reading_range(reading, piece);
+    item->low = range.low;
+    item->high = range.high;
     item->text = rest.begin < rest.end ? gm_reading_text(reading, rest) : NULL;
 }
 
@@ -532,20 +499,18 @@ static void read_profile(struct room_reading *here, const struct gm_read_line *l
 static void read_table(struct room_reading *here, const struct gm_read_line *line)
 {
     struct gm_reading *reading = &here->reading;
-    struct gm_span rest = line->value, head, condition, key, piece;
+    struct gm_span rest = line->value, head, value, piece;
     gm_span_take(reading->text, &rest, ";", &head);
-    gm_span_take(reading->text, &rest, ";", &condition);
-    gm_span_take(reading->text, &condition, "=", &key);
+    gm_span_take(reading->text, &rest, ";", &value);
+    gm_span_take(reading->text, &value, "=", &piece);
     struct gm_system_item *item = gm_reading_item(reading, line, take_word(reading, &head));
     item->words = gm_reading_text(reading, head);
-    item->text = gm_reading_text(reading, key);
-    add_number(here, item, condition);
+    item->text = gm_reading_text(reading, piece);
+    item->value = gm_reading_finite(reading, value);
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
-        add_number(here, item, take_word(reading, &piece));
-        if (piece.begin < piece.end) {
-            add_number(here, item, piece);
-        } else {
-            gm_item_add(reading, item, gm_formula_constant(&reading->system->graph, NAN));
+        gm_item_numbers(reading, item, take_word(reading, &piece));
+        if (gm_item_numbers(reading, item, piece) % 2 == 1) {
+            gm_item_number(reading, item, NAN);
         }
     }
 }
@@ -916,10 +881,8 @@ static double value_at_vertex(const struct gm_room *room, const struct gm_room_l
                               enum gm_room_key key, const double *point)
 {
     const double at[4] = {0, point[0], point[1], 0}, value = gm_room_value(room, line, key, at, 0);
-    if (!isfinite(value)) {
-        gm_system_refuse(&room->system, line->value[key].place, "the %s is not finite at (%.4g, %.4g)",
-                         keys[key], point[0], point[1]);
-    }
+    gm_system_refuse_if(&room->system, !isfinite(value), line->value[key].place,
+                        "the %s is not finite at (%.4g, %.4g)", keys[key], point[0], point[1]);
     return value;
 }
 
@@ -937,17 +900,14 @@ static void start_carried(const struct gm_room *room, const struct gm_room_line 
 static void place_thing(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    double at[2], w[3];
+    double at[2], w[3] = {0};
     size_t triangle = 0;
     gm_room_point(room, line, at);
     const double place[4] = {0, at[0], at[1], 0}, rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
-    if (!locate(complex, at, &triangle, w)) {
-        gm_system_refuse(&room->system, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name,
-                         at[0], at[1]);
-    }
-    if (!isfinite(rate)) {
-        gm_system_refuse(&room->system, line->value[GM_ROOM_RATE].place, "the rate is not finite");
-    }
+    gm_system_refuse_if(&room->system, !locate(complex, at, &triangle, w), line->place,
+                        "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0], at[1]);
+    gm_system_refuse_if(&room->system, !isfinite(rate), line->value[GM_ROOM_RATE].place,
+                        "the rate is not finite");
     if (line->word == GM_ROOM_SOURCE) {
         flow->smoking[flow->smoking_count++] = (struct gm_flow_place){{at[0], at[1]}, (int)triangle};
     }
@@ -1026,10 +986,10 @@ static const char *groups_of(const struct gm_room *room, const struct gm_room_li
 static void take_edge(const struct gm_room *room, unsigned char *side, size_t i)
 {
     const struct gm_room_line *line = &room->lines[i];
-    if (*side != 0 && *side != i + 1) {
-        gm_system_refuse(&room->system, line->place, "curves of the group %.63s have a line already: %.63s",
-                         groups_of(room, line), groups_of(room, &room->lines[*side - 1]));
-    }
+    const struct gm_room_line *other = *side != 0 ? &room->lines[*side - 1] : line;
+    gm_system_refuse_if(&room->system, other != line, line->place,
+                        "curves of the group %.63s have a line already: %.63s", groups_of(room, line),
+                        groups_of(room, other));
     *side = (unsigned char)(i + 1);
 }
 
@@ -1050,17 +1010,16 @@ static void name_groups(const struct gm_room *room, const struct gm_triangulatio
                 take_edge(room, &side_of[b], i);
             }
         }
-        if (!met) {
-            gm_system_refuse(&room->system, line->place,
-                             tag != 0
-                                 ? "no edge of the mesh's boundary belongs to \"%.60s\""
-                                 : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
-                             name, gm_triangulation_group_names(mesh, names, sizeof names));
-        }
+        gm_triangulation_group_names(mesh, names, sizeof names);
+        gm_system_refuse_if(&room->system, !met, line->place,
+                            tag != 0
+                                ? "no edge of the mesh's boundary belongs to \"%.60s\""
+                                : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
+                            name, names);
         for (const char *before = list; before < at; before += strcspn(before, ",") + 1) {
-            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
-                gm_system_refuse(&room->system, line->place, "the group \"%.60s\" is named twice", name);
-            }
+            gm_system_refuse_if(&room->system,
+                                strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',',
+                                line->place, "the group \"%.60s\" is named twice", name);
         }
     }
 }
@@ -1116,10 +1075,8 @@ static struct gm_side side_from(const struct profile *profile)
     const double at[4] = {[3] = profile->t};
     const bool inlet = line->word == GM_ROOM_INLET;
     const double slip = gm_room_value(profile->room, line, GM_ROOM_SLIP, at, 0);
-    if (slip != 0 && slip != 1) {
-        gm_system_refuse(&profile->room->system, line->value[GM_ROOM_SLIP].place,
-                         "slip is 1, or 0 where the wall holds the air");
-    }
+    gm_system_refuse_if(&profile->room->system, slip != 0 && slip != 1, line->value[GM_ROOM_SLIP].place,
+                        "slip is 1, or 0 where the wall holds the air");
     const struct gm_side side = {.kind = inlet                                        ? GM_EDGE_INLET
                                          : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
                                          : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
@@ -1133,10 +1090,9 @@ static struct gm_side side_from(const struct profile *profile)
                                  .profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL,
                                  .varying = varying_at,
                                  .data = profile};
-    if (line->value[GM_ROOM_FLOW].place != 0 && !(side.flow >= 0 && isfinite(side.flow))) {
-        gm_system_refuse(&profile->room->system, line->value[GM_ROOM_FLOW].place,
-                         "a flow is a number that is not negative");
-    }
+    gm_system_refuse_if(&profile->room->system,
+                        line->value[GM_ROOM_FLOW].place != 0 && !(side.flow >= 0 && isfinite(side.flow)),
+                        line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
     return side;
 }
 
@@ -1213,12 +1169,9 @@ static void set_sides(const struct gm_room *room, const unsigned char *side_of, 
     }
     const enum gm_boundary_fault fault = gm_flow_set_sides(flow, side_of, sides, room->outlet);
     give_motion(profiles, side_of, flow);
-    if (bad.line) {
-        gm_system_refuse(&room->system, bad.line->value[bad.key].place,
-                         bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"
-                                                       : "the %s is not finite at (%.4g, %.4g)",
-                         keys[bad.key], bad.at[0], bad.at[1]);
-    }
+    gm_system_refuse_if(&room->system, bad.line, bad.line ? bad.line->value[bad.key].place : 0,
+                        "the %s%s is not finite at (%.4g, %.4g)", keys[bad.key],
+                        bad.key == GM_ROOM_TANGENTIAL ? " speed" : "", bad.at[0], bad.at[1]);
     if (fault != GM_BOUNDARY_OK) {
         refuse_boundary(room, flow, fault);
     }
@@ -1326,9 +1279,8 @@ static void make_flow(struct gm_arena *arena, void *data)
     if (!isnan(room->buoyancy)) {
         gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature);
     }
-    if (room->count >= GM_ROOM_SIDES) {
-        gm_system_refuse(&room->system, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1);
-    }
+    gm_system_refuse_if(&room->system, room->count >= GM_ROOM_SIDES, 0,
+                        "a room has at most %d lines with names", GM_ROOM_SIDES - 1);
     name_sides(room, making->mesh, flow->side_of);
     set_sides(room, flow->side_of, 0, flow);
     place_things(room, flow);

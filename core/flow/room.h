@@ -63,11 +63,11 @@ struct gm_room_line {
     } value[GM_ROOM_KEYS];
 };
 
-/* A room: a system whose lines have, beside those of systems, items with these nodes. side: left and right sides
-   of its conditions, whose signs are its text. time: the unit. colours: the end of the colours of `name`. levels:
-   each. graph: low, high, or none. profile: both ends, points, and low and high of its axis or none; `words` are the
-   letters of its quantities, `text` is a label. table: the value of parameter `text`, then positions and values on the profile
-   `words`. */
+/* A room: a system whose lines have, beside those of systems, these items. Nodes: side: left and right sides of its
+   conditions, whose signs are its text; time: the unit; graph: low, high, or none. Values: levels; profile: both
+   ends and the number of points, its words are the letters of its quantities and its text is a label; table: positions
+   and values on the profile in its words, if the parameter in its text is item.value. colours: the end of the
+   colours of `name` is item.value. */
 struct gm_room {
     struct gm_user_system system;
     struct gm_read_line *said; /* its lines that hold */

@@ -163,6 +163,10 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
 /* Adds a node, or the nodes of formulas separated by commas, to an item. */
 void gm_item_add(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node);
 void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
+/* Adds a number, or numbers separated by commas, to the values of an item without other options; returns how
+   many it has now. */
+void gm_item_number(struct gm_reading *reading, struct gm_system_item *item, double number);
+size_t gm_item_numbers(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
 /* Reads options, separated by semicolons, into the item of their line. */
 void gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
 /* Reads a text with {FORMULA}, {FORMULA:pi} and the like into an item. The formulas become its nodes, in

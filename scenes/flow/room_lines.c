@@ -185,76 +185,64 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
+static void make_profiles(struct gm_user_room *user_room)
+{
+    const struct gm_user_system *system = &user_room->room.system;
+    size_t *count = &user_room->profile_count;
+    const struct gm_system_item *item;
+    for (; (item = gm_system_item_of(system, GM_WORD_PROFILE, *count)); ++*count) {
+        const double *numbers = item->options->numbers;
+        user_room->profiles =
+            gm_arena_resize(user_room->arena, user_room->profiles, *count + 1, sizeof *user_room->profiles);
+        user_room->profiles[*count] =
+            (struct gm_room_profile){item, numbers, numbers + 2, (size_t)fmin(fmax(numbers[4], 2), 1e6)};
+    }
+}
+
+static const struct gm_room_profile *find_profile(const struct gm_user_room *user_room, const char *name)
+{
+    size_t i = 0;
+    while (i < user_room->profile_count && strcmp(user_room->profiles[i].item->name, name) != 0) {
+        i++;
+    }
+    return i < user_room->profile_count ? &user_room->profiles[i] : NULL;
+}
+
+static void make_tables(struct gm_user_room *user_room)
+{
+    const struct gm_user_system *system = &user_room->room.system;
+    size_t *count = &user_room->table_count;
+    const struct gm_system_item *item;
+    for (; (item = gm_system_item_of(system, GM_WORD_TABLE, *count)); ++*count) {
+        const struct gm_room_table table = {
+            item, find_profile(user_room, item->words), gm_scene_parameter(&user_room->scene, item->text),
+            item->options ? item->options->numbers : NULL, item->options ? item->options->count / 2 : 0};
+        gm_system_refuse_if(system, !table.profile || !table.row, item->place,
+                            "a table has a name and a profile, the value of a parameter, and points");
+        user_room->tables =
+            gm_arena_resize(user_room->arena, user_room->tables, *count + 1, sizeof *user_room->tables);
+        user_room->tables[*count] = table;
+    }
+}
+
 /* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
 static void observe(struct gm_user_room *user_room, const struct gm_system_item *item)
 {
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_observable *row = gm_room_observable(item->name, along);
-    size_t profile = 0, i = 0;
-    while (along && profile < user_room->profile_count &&
-           strcmp(user_room->profiles[profile].name, along) != 0) {
-        profile++;
-    }
+    const struct gm_room_profile *profile = along ? find_profile(user_room, along) : user_room->profiles;
+    size_t i = 0;
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
         i++;
     }
     if (i == user_room->observable_count) {
-        gm_system_refuse_if(&user_room->room.system,
-                            !row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count),
+        gm_system_refuse_if(&user_room->room.system, !row || i == GM_ROOM_OBSERVED || (along && !profile),
                             item->place,
                             "this is nothing that is observed of a room, or of a profile that it has");
         user_room->observables[i] = *row;
-        user_room->subjects[user_room->observable_count++].number = profile;
+        user_room->subjects[user_room->observable_count++].profile = profile;
     }
     gm_written_options(&user_room->observables[i], item);
-}
-
-static void make_profiles(struct gm_user_room *user_room)
-{
-    const struct gm_room *room = &user_room->room;
-    const struct gm_system_item *item;
-    for (size_t i = 0; (item = gm_system_item_of(&room->system, GM_WORD_PROFILE, i)); i++) {
-        double numbers[7] = {[5] = NAN, [6] = NAN};
-        for (size_t k = 0; k < item->count; k++) {
-            numbers[k] = gm_room_evaluate(room, item->nodes[k]);
-        }
-        user_room->profiles =
-            gm_arena_resize(user_room->arena, user_room->profiles, i + 1, sizeof *user_room->profiles);
-        user_room->profiles[i] = (struct gm_room_profile){.name = item->name,
-                                                          .a = {numbers[0], numbers[1]},
-                                                          .b = {numbers[2], numbers[3]},
-                                                          .count = (size_t)fmin(fmax(numbers[4], 2), 1e6),
-                                                          .quantities = item->words,
-                                                          .label = item->text,
-                                                          .range = {numbers[5], numbers[6]}};
-        user_room->profile_count = i + 1;
-    }
-}
-
-static void make_tables(struct gm_user_room *user_room)
-{
-    const struct gm_room *room = &user_room->room;
-    const struct gm_system_item *item;
-    for (size_t i = 0; (item = gm_system_item_of(&room->system, GM_WORD_TABLE, i)); i++) {
-        struct gm_room_table table = {.name = item->name,
-                                      .row = gm_scene_parameter(&user_room->scene, item->text),
-                                      .value = gm_room_evaluate(room, item->nodes[0]),
-                                      .count = (item->count - 1) / 2};
-        for (size_t k = 0; k < user_room->profile_count; k++) {
-            table.profile = strcmp(user_room->profiles[k].name, item->words) == 0 ? &user_room->profiles[k]
-                                                                                  : table.profile;
-        }
-        gm_system_refuse_if(&room->system, !table.profile || !table.row, item->place,
-                            "a table has a name and a profile, the value of a parameter, and points");
-        table.points = gm_arena_take(user_room->arena, item->count, sizeof *table.points);
-        for (size_t k = 1; k < item->count; k++) {
-            table.points[k - 1] = gm_room_evaluate(room, item->nodes[k]);
-        }
-        user_room->tables =
-            gm_arena_resize(user_room->arena, user_room->tables, i + 1, sizeof *user_room->tables);
-        user_room->tables[i] = table;
-        user_room->table_count = i + 1;
-    }
 }
 
 /* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
@@ -320,18 +308,13 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
         memset(look->told, 0, sizeof look->told);
     }
-    double *levels = item ? gm_picture_memory(picture, item->count * sizeof *levels) : NULL;
-    for (size_t i = 0; levels && i < item->count; i++) {
-        levels[i] = gm_room_evaluate(room, item->nodes[i]);
-    }
-    look->levels = levels;
-    look->level_count = levels ? item->count : 0;
+    look->levels = item ? item->options->numbers : NULL;
+    look->level_count = item ? item->options->count : 0;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_COLOURS, i)); i++) {
-        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) =
-            gm_room_evaluate(room, item->nodes[0]);
+        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles |= user_room->profiles[i].quantities[0] != 0;
+        look->profiles |= user_room->profiles[i].item->words[0] != 0;
     }
     const bool graphs = gm_room_said(room, GM_WORD_GRAPH);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
