@@ -817,29 +817,29 @@ void gm_room_close(struct gm_room *room)
 
 /* ---- the flow on its mesh ---- */
 
-/* The values along a side; the first place with a value that is not finite is stored. */
+/* The value of a key at the part s of a side, the point x, y and the time t, which has to be finite. */
+static double finite_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                           const double at[4], double standard)
+{
+    const double value = gm_room_value(room, line, key, at, standard);
+    gm_system_refuse_if(&room->system, !isfinite(value), line ? line->value[key].place : 0,
+                        "the %s%s is not finite at (%.4g, %.4g)", keys[key],
+                        key == GM_ROOM_TANGENTIAL ? " speed" : "", at[1], at[2]);
+    return value;
+}
+
+/* The values along a side at a time. */
 struct profile {
     const struct gm_room *room;
     const struct gm_room_line *line;
-    struct bad *bad;
     double t, reference; /* reference: the default temperature */
-};
-
-struct bad {
-    const struct gm_room_line *line; /* NULL: all values are finite */
-    enum gm_room_key key;
-    double at[2];
 };
 
 static double value_at(const struct profile *profile, enum gm_room_key key, double standard, double s,
                        const double at[2])
 {
-    const double place[4] = {s, at[0], at[1], profile->t},
-                 value = gm_room_value(profile->room, profile->line, key, place, standard);
-    if (!isfinite(value) && !profile->bad->line) {
-        *profile->bad = (struct bad){profile->line, key, {at[0], at[1]}};
-    }
-    return value;
+    const double place[4] = {s, at[0], at[1], profile->t};
+    return finite_value(profile->room, profile->line, key, place, standard);
 }
 
 static double speed_at(const void *data, double s, const double at[2])
@@ -876,23 +876,14 @@ static bool locate(const struct gm_complex *complex, const double at[2], size_t 
     return false;
 }
 
-/* A quantity at a vertex, which has to be finite. */
-static double value_at_vertex(const struct gm_room *room, const struct gm_room_line *line,
-                              enum gm_room_key key, const double *point)
-{
-    const double at[4] = {0, point[0], point[1], 0}, value = gm_room_value(room, line, key, at, 0);
-    gm_system_refuse_if(&room->system, !isfinite(value), line->value[key].place,
-                        "the %s is not finite at (%.4g, %.4g)", keys[key], point[0], point[1]);
-    return value;
-}
-
-/* A carried quantity at the start, at vertices that do not hold it. */
-static void start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                          const struct gm_complex *complex, const bool *fixed, double *value)
+/* A quantity of a line at the vertices that do not hold it; NULL: at all. */
+static void put_values(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                       const struct gm_complex *complex, const bool *fixed, double *value)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
-        const double here = value_at_vertex(room, line, key, complex->point + 2 * v);
-        value[v] = fixed[v] ? value[v] : here;
+        const double at[4] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
+                     here = finite_value(room, line, key, at, 0);
+        value[v] = fixed && fixed[v] ? value[v] : here;
     }
 }
 
@@ -922,20 +913,21 @@ static void place_things(const struct gm_room *room, struct gm_flow *flow)
     const struct gm_complex *complex = flow->complex;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
+        /* a source without a place: its rate is that of a unit of area, everywhere */
+        const bool spread = line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place == 0;
         if (line->word == GM_ROOM_START) {
-            start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta);
-            start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
-                          flow->temperature);
-        } else if (line->word == GM_ROOM_PROBE ||
-                   (line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place > 0)) {
+            put_values(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta);
+            put_values(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed, flow->temperature);
+            flow->vorticity = line->value[GM_ROOM_VORTICITY].place > 0
+                                  ? gm_arena_take(room->system.arena, complex->vertices, sizeof(double))
+                                  : NULL;
+            put_values(room, line, GM_ROOM_VORTICITY, complex, NULL, flow->vorticity);
+        } else if (line->word == GM_ROOM_PROBE || (line->word == GM_ROOM_SOURCE && !spread)) {
             place_thing(room, line, flow);
         }
-        /* a source without a place: its rate is that of a unit of area, everywhere */
-        for (size_t v = 0;
-             line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place == 0 && v < complex->vertices;
-             v++) {
-            flow->source[v] +=
-                complex->star0[v] * value_at_vertex(room, line, GM_ROOM_RATE, complex->point + 2 * v);
+        for (size_t v = 0; spread && v < complex->vertices; v++) {
+            const double at[4] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0};
+            flow->source[v] += complex->star0[v] * finite_value(room, line, GM_ROOM_RATE, at, 0);
         }
     }
 }
@@ -1159,19 +1151,15 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
 static void set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow)
 {
-    struct bad bad = {0};
     struct gm_side sides[GM_ROOM_SIDES];
     struct profile profiles[GM_ROOM_SIDES];
     for (size_t i = 0; i <= room->count; i++) {
         profiles[i] =
-            (struct profile){room, i > 0 ? &room->lines[i - 1] : NULL, &bad, t, flow->reference_temperature};
+            (struct profile){room, i > 0 ? &room->lines[i - 1] : NULL, t, flow->reference_temperature};
         sides[i] = side_from(&profiles[i]);
     }
     const enum gm_boundary_fault fault = gm_flow_set_sides(flow, side_of, sides, room->outlet);
     give_motion(profiles, side_of, flow);
-    gm_system_refuse_if(&room->system, bad.line, bad.line ? bad.line->value[bad.key].place : 0,
-                        "the %s%s is not finite at (%.4g, %.4g)", keys[bad.key],
-                        bad.key == GM_ROOM_TANGENTIAL ? " speed" : "", bad.at[0], bad.at[1]);
     if (fault != GM_BOUNDARY_OK) {
         refuse_boundary(room, flow, fault);
     }

@@ -318,24 +318,12 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
                   double *y, char *sentence)
 {
     (void)scheme;
-    const struct gm_room *room = gm_room_of(problem);
-    const struct gm_flow *flow = gm_flow_of(problem);
-    const struct gm_room_line *line = gm_room_line(room, GM_ROOM_START);
-    const size_t place = line ? line->value[GM_ROOM_VORTICITY].place : 0;
-    double *omega = place > 0 ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
-    struct gm_fault fault = {.sentence = "the boundary does not determine the stream function at the start"};
-    bool good = place == 0 || omega;
-    for (size_t v = 0; omega && good && v < flow->complex->vertices; v++) {
-        const double *p = flow->complex->point + 2 * v, at[4] = {0, p[0], p[1], 0};
-        omega[v] = gm_room_value(room, line, GM_ROOM_VORTICITY, at, 0);
-        good = isfinite(omega[v]) ||
-               gm_fail(&fault, place, "the vorticity is not finite at (%.4g, %.4g)", p[0], p[1]);
-    }
-    good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
+    const struct gm_fault fault = {.sentence =
+                                       "the boundary does not determine the stream function at the start"};
+    const bool good = gm_flow_start(gm_flow_of(problem), y);
     if (!good) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, sentence);
     }
-    free(omega);
     return good;
 }
 
