@@ -225,8 +225,9 @@ static void read_braces(struct gm_reading *reading, struct gm_system_item *item,
         format.begin, "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     const char *name = reading->text + formula.begin;
     const size_t length = gm_name_length(name, formula.end - formula.begin);
-    const bool named = gm_system_is_room(reading->system) ? formula.begin + length == formula.end
-                                                          : gm_reading_reserves(name, length),
+    const bool named = gm_reading_reserves(name, length) ||
+                       (gm_system_is_room(reading->system) && /* which has keys from lines */
+                        gm_line_word(reading->words, reading->text, formula) < GM_WORDS),
                is_key = named && !gm_formula_reserves(name, length) &&
                         !gm_reading_entry(reading, name, length, false, 0);
     formula.begin += is_key ? length : 0;

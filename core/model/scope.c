@@ -61,7 +61,8 @@ void gm_reading_lines(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
     const bool room = gm_system_is_room(system);
-    struct gm_read_lines lines = {.words = room ? &words_of_rooms : &words,
+    reading->words = room ? &words_of_rooms : &words;
+    struct gm_read_lines lines = {.words = reading->words,
                                   .choices = &system->choices,
                                   .inside = room ? IN_BLOCKS : ~0u,
                                   .text = reading->text,

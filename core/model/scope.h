@@ -41,6 +41,7 @@ struct gm_reading {
     const char *text;
     size_t length;
     struct gm_arena *scratch; /* until the text is read */
+    const struct gm_line_words *words;
     struct gm_read_line *lines;
     size_t line_count;
     struct gm_entry *entries;

@@ -39,6 +39,24 @@ struct gm_parameter gm_written_row(struct gm_arena *arena, const struct gm_syste
     };
 }
 
+struct gm_parameter gm_written_choice(struct gm_arena *arena, const struct gm_user_system *system, size_t i,
+                                      const char *usual, size_t offset)
+{
+    const struct gm_written_choice *choice = &system->choices.list[i];
+    const char **words = gm_arena_take(arena, choice->count + 1, sizeof *words);
+    const char *meaning = gm_arena_keep(arena, gm_span_words(system->source, choice->meaning), free);
+    for (size_t k = 0; k < choice->count; k++) {
+        words[k] = choice->words[k];
+    }
+    return (struct gm_parameter){.key = choice->name,
+                                 .unit = "",
+                                 .help = meaning[0] ? meaning : usual,
+                                 .type = GM_CHOICE,
+                                 .offset = offset,
+                                 .standard = choice->words[choice->chosen],
+                                 .choices = words};
+}
+
 static void set_timing(struct gm_arena *arena, const struct gm_user_system *system, enum gm_system_word word,
                        double value, struct gm_parameter *row)
 {

@@ -16,6 +16,9 @@ const char *gm_written_number(struct gm_arena *arena, double value, const char *
    meaning. */
 struct gm_parameter gm_written_row(struct gm_arena *arena, const struct gm_system_variable *variable,
                                    double value, const char *usual, size_t offset);
+/* The row of a system's choice number `i`, whose values are its words. */
+struct gm_parameter gm_written_choice(struct gm_arena *arena, const struct gm_user_system *system, size_t i,
+                                      const char *usual, size_t offset);
 /* Sets the rows of dt and until: these defaults, and ranges and meanings from the system's lines. */
 void gm_written_timing(struct gm_arena *arena, const struct gm_user_system *system, double dt, double until,
                        struct gm_parameter *rows);

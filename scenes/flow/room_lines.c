@@ -112,22 +112,13 @@ static void check_row(struct gm_user_room *user_room, const struct gm_parameter 
 static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
 {
     const struct gm_user_system *system = &user_room->room.system;
-    const struct gm_written_choices *choices = &system->choices;
-    for (; *count < choices->count && choices->list[*count].place < place; ++*count) {
-        const struct gm_written_choice *choice = &choices->list[*count];
-        const char **words = gm_arena_take(user_room->arena, choice->count + 1, sizeof *words);
-        for (size_t i = 0; i < choice->count; i++) {
-            words[i] = choice->words[i];
-        }
-        gm_system_refuse_if(system, find_row(choice->name), choice->place, "this name is reserved");
-        const char *meaning =
-            gm_arena_keep(user_room->arena, gm_span_words(system->source, choice->meaning), free);
-        struct gm_parameter *row =
-            add_row(user_room, &(const struct gm_parameter)GM_CHOICE_ROW(struct gm_flows, choices[0], "",
-                                                                         words[choice->standard], words,
-                                                                         meaning[0] ? meaning : "a choice"));
-        row->key = choice->name;
-        row->offset += sizeof(int) * *count;
+    for (; *count < system->choices.count && system->choices.list[*count].place < place; ++*count) {
+        const struct gm_parameter row =
+            gm_written_choice(user_room->arena, system, *count, "a choice",
+                              offsetof(struct gm_flows, choices) + sizeof(int) * *count);
+        gm_system_refuse_if(system, find_row(row.key), system->choices.list[*count].place,
+                            "this name is reserved");
+        add_row(user_room, &row);
     }
 }
 
@@ -328,25 +319,6 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     }
 }
 
-/* Checks the keys in a subtitle and in graphs. */
-static void check_look(struct gm_user_room *user_room)
-{
-    const struct gm_user_system *system = &user_room->room.system;
-    const struct gm_read_line *line = gm_room_said(&user_room->room, GM_WORD_SUBTITLE);
-    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_SUBTITLE, 0);
-    struct gm_span rest = line ? line->value : (struct gm_span){0, 0}, key;
-    bool nonzero;
-    for (size_t i = 0; take_brace(system->source, &rest, &key, &key, &nonzero); i++) {
-        const char *name = gm_arena_keep(user_room->arena, gm_span_words(system->source, key), free);
-        gm_system_refuse_if(system,
-                            item->nodes[i] == GM_NO_NODE && !gm_scene_parameter(&user_room->scene, name),
-                            key.begin, "there is no name %s", name);
-    }
-    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_GRAPH, i)); i++) {
-        check_observable(user_room, item->name, item->place);
-    }
-}
-
 /* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
    over it. NAN if setup refuses. */
 static double courant_time(const void *parameters)
@@ -450,7 +422,9 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     if (lanes) {
         scene->lanes = check_words(user_room, system->texts[GM_WORD_LANES], lanes->value.begin);
     }
-    check_look(user_room);
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_GRAPH, i)); i++) {
+        check_observable(user_room, item->name, item->place);
+    }
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }
