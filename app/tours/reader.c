@@ -28,7 +28,7 @@ static const struct gm_line_word lines[WORDS] = {
     {"answer", GM_LINE_ADDED, 0},  {"show", GM_LINE_ADDED, 0},  {"until", GM_LINE_ADDED, 0},
     {"seconds", GM_LINE_ADDED, 0}, {"at", GM_LINE_ADDED, 0},    {"study", GM_LINE_ADDED, 0},
     {"watch", GM_LINE_ADDED, 0},   {"try", GM_LINE_ADDED, 0}};
-static const struct gm_line_words line_words = {"a tour", lines, WORDS, "; docs/tours.md names them"};
+static const struct gm_line_words line_words = {"a tour", lines, WORDS, "; docs/tours.md names them", 0};
 
 struct entry {
     enum word word;

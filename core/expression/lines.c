@@ -120,18 +120,20 @@ bool gm_lines_next(const char *text, size_t length, size_t *at, struct gm_text_l
     return false;
 }
 
+/* The word number `i`; "" if it is of another kind. */
+static const char *word_at(size_t i, const void *data)
+{
+    const struct gm_line_words *words = data;
+    return words->kinds == 0 || words->kinds & words->list[i].kinds ? words->list[i].word : "";
+}
+
 size_t gm_line_word(const struct gm_line_words *words, const char *text, struct gm_span word)
 {
     size_t i = 0;
-    while (i < words->count && !gm_span_is(text, word, words->list[i].word)) {
+    while (i < words->count && !gm_span_is(text, word, word_at(i, words))) {
         i++;
     }
     return i;
-}
-
-static const char *word_at(size_t i, const void *words)
-{
-    return ((const struct gm_line_words *)words)->list[i].word;
 }
 
 bool gm_line_find(const struct gm_line_words *words, const char *text, const struct gm_text_line *line,

@@ -30,6 +30,7 @@ struct gm_line_words {
     } * list;
     size_t count;
     const char *help; /* follows "a room has no line "x"" if no word is near */
+    unsigned kinds;   /* only words of one of these kinds are known; 0: all words are */
 };
 /* The index of a word in the list, or their number. */
 size_t gm_line_word(const struct gm_line_words *words, const char *text, struct gm_span word);

@@ -442,18 +442,3 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
     list_inflow(flow);
     return GM_BOUNDARY_OK;
 }
-
-enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
-                                            enum gm_vertex_kind outlet, double theta)
-{
-    struct gm_side sides[GM_EDGE_SLIP + 1];
-    for (int kind = 0; kind <= GM_EDGE_SLIP; kind++) {
-        sides[kind] = (struct gm_side){
-            .kind = (enum gm_edge_kind)kind,
-            .flow = NAN,
-            .speed = kind == GM_EDGE_INLET || kind == GM_EDGE_LID ? speed : 0,
-            .theta = kind == GM_EDGE_INLET ? theta : 0,
-        };
-    }
-    return gm_flow_set_sides(flow, kinds, sides, outlet);
-}

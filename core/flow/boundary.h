@@ -57,9 +57,4 @@ enum gm_boundary_fault {
 enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned char *side_of,
                                          const struct gm_side *sides, enum gm_vertex_kind outlet);
 
-/* Sets a boundary with one side per kind of edge: inlets have this speed, lids move with it; theta is held
-   at 0 on walls and lids and at `theta` in inlets. */
-enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
-                                            enum gm_vertex_kind outlet, double theta);
-
 #endif

@@ -72,6 +72,7 @@ struct gm_flow {
     double *sheet;
     bool *theta_fixed;
     double *theta;                          /* given values; elsewhere the start's */
+    double *vorticity;                      /* of the start; NULL: none */
     double *source;                         /* source of the scalar at each vertex, per unit of time; NULL:
                                                none */
     bool heat;                              /* temperature is carried, with the scalar's diffusivity */
@@ -155,6 +156,13 @@ bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
 /* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
    omega less its mean on a closed surface. */
 bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
+
+/* The one of these that the flow has. */
+static inline bool gm_flow_start(const struct gm_flow *flow, double *y)
+{
+    return flow->vorticity ? gm_flow_start_vorticity(flow, flow->vorticity, y)
+                           : gm_flow_start_irrotational(flow, y);
+}
 
 /* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);

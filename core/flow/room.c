@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
+/* Rooms of files: the lines that systems do not have, and what they say to sides of a mesh's boundary. */
 #include "core/flow/room.h"
 #include "core/basics.h"
+#include "core/expression/number.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,53 +25,37 @@ static const char *const keys[GM_ROOM_KEYS] = {
 /* The lines that hold pairs key = formula: the keys they may have, those that they must, and those of which
    they need one; and of what they are the only one of their name. */
 static const struct {
+    enum gm_system_word word;
     unsigned may, must, some;
     enum { SIDE, THING, START, EXACT } names; /* the last two have none */
 } pairs[] = {
-    [GM_ROOM_INLET] = {ENTERING | CARRIED, 0, ENTERING, SIDE},
-    [GM_ROOM_OUTLET] = {1u << GM_ROOM_FLOW, 0, 0, SIDE},
-    [GM_ROOM_WALL] = {CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT | 1u << GM_ROOM_SLIP, 0, 0,
+    [GM_ROOM_INLET] = {GM_WORD_INLET, ENTERING | CARRIED, 0, ENTERING, SIDE},
+    [GM_ROOM_OUTLET] = {GM_WORD_OUTLET, 1u << GM_ROOM_FLOW, 0, 0, SIDE},
+    [GM_ROOM_WALL] = {GM_WORD_WALL,
+                      CARRIED | 1u << GM_ROOM_TANGENTIAL | 1u << GM_ROOM_HEAT | 1u << GM_ROOM_SLIP, 0, 0,
                       SIDE},
-    [GM_ROOM_BOUNDARY] = {MOTION | CARRIED, 1u << GM_ROOM_STREAM_FUNCTION, 0, SIDE},
-    [GM_ROOM_SOURCE] = {1u << GM_ROOM_RATE | PLACE, 1u << GM_ROOM_RATE, 0, THING},
-    [GM_ROOM_PROBE] = {PLACE, PLACE, 0, THING},
-    [GM_ROOM_START] = {CARRIED | 1u << GM_ROOM_VORTICITY, 0, CARRIED | 1u << GM_ROOM_VORTICITY, START},
-    [GM_ROOM_EXACT] = {MOTION | 1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TOTAL_PRESSURE, 0,
+    [GM_ROOM_BOUNDARY] = {GM_WORD_BOUNDARY, MOTION | CARRIED, 1u << GM_ROOM_STREAM_FUNCTION, 0, SIDE},
+    [GM_ROOM_SOURCE] = {GM_WORD_SOURCE, 1u << GM_ROOM_RATE | PLACE, 1u << GM_ROOM_RATE, 0, THING},
+    [GM_ROOM_PROBE] = {GM_WORD_PROBE, PLACE, PLACE, 0, THING},
+    [GM_ROOM_START] = {GM_WORD_ROOM_START, CARRIED | 1u << GM_ROOM_VORTICITY, 0,
+                       CARRIED | 1u << GM_ROOM_VORTICITY, START},
+    [GM_ROOM_EXACT] = {GM_WORD_ROOM_EXACT, MOTION | 1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TOTAL_PRESSURE, 0,
                        1u << GM_ROOM_STREAM_FUNCTION, EXACT},
 };
-enum { PAIRS = GM_COUNT(pairs), PARAMETER = PAIRS };
 
-/* All lines; those with pairs first, in the order of enum gm_room_word. FREE: also in a block of a choice. */
-enum { FREE = 1 };
-static const char reference[] = "reference-temperature";
-static const struct gm_line_word words[] = {
-    {"inlet", GM_LINE_ADDED, FREE},      {"outlet", GM_LINE_ADDED, FREE}, {"wall", GM_LINE_ADDED, FREE},
-    {"boundary", GM_LINE_ADDED, FREE},   {"source", GM_LINE_ADDED, FREE}, {"probe", GM_LINE_ADDED, FREE},
-    {"start", GM_LINE_ONCE, FREE},       {"exact", GM_LINE_ONCE, FREE},   {"parameter", GM_LINE_ADDED, 0},
-    {"geomint", GM_LINE_ONCE, 0},        {"title", GM_LINE_ONCE, 0},      {"about", GM_LINE_ONCE, 0},
-    {"watch", GM_LINE_ONCE, 0},          {"reference", GM_LINE_ONCE, 0},  {"units", GM_LINE_ONCE, 0},
-    {"scalar", GM_LINE_ONCE, 0},         {"time", GM_LINE_ONCE, FREE},    {"subtitle", GM_LINE_ONCE, FREE},
-    {"caption", GM_LINE_ONCE, FREE},     {"mesh", GM_LINE_ONCE, FREE},    {"viscosity", GM_LINE_ONCE, 0},
-    {"diffusivity", GM_LINE_ONCE, 0},    {"reynolds", GM_LINE_ONCE, 0},   {"schmidt", GM_LINE_ONCE, 0},
-    {"buoyancy", GM_LINE_ONCE, 0},       {reference, GM_LINE_ONCE, 0},    {"dt", GM_LINE_ONCE, 0},
-    {"until", GM_LINE_ONCE, 0},          {"colours", GM_LINE_ONCE, FREE}, {"levels", GM_LINE_ONCE, FREE},
-    {"exact-while", GM_LINE_ONCE, FREE}, {"schemes", GM_LINE_ONCE, 0},    {"lanes", GM_LINE_ONCE, 0},
-    {"work", GM_LINE_ONCE, 0},           {"stability", GM_LINE_ONCE, 0},  {"graph", GM_LINE_ADDED, FREE},
-    {"table", GM_LINE_ADDED, 0},         {"figure", GM_LINE_ADDED, 0},    {"side", GM_LINE_NAMED, FREE},
-    {"observe", GM_LINE_NAMED, 0},       {"profile", GM_LINE_NAMED, 0}};
-static const struct gm_line_words line_words = {
-    "a room", words, GM_COUNT(words), "; geomint list office --source prints a room with its lines"};
+/* The variables that a formula may hold, by their numbers among a room's; the time has one more. */
+enum {
+    TIME = GM_ROOM_VARIABLES,
+    AT = 1u << GM_ROOM_AT_X | 1u << GM_ROOM_AT_Y,
+    MEASURES =
+        1u << GM_ROOM_PERIMETER | 1u << GM_ROOM_AREA | 1u << GM_ROOM_INLET_LENGTH | 1u << GM_ROOM_UNTIL,
+    ALL = (2u << TIME) - 1
+};
 
-/* The variables of formulas. */
-enum { PART, X, Y, TIME, VARIABLES };
-static const char *const variables[VARIABLES] = {"s", "x", "y", "t"};
-
-static const char *const measures[GM_ROOM_MEASURES] = {"perimeter", "area", "inlet_length", "until"};
-
-/* A formula that is read, and the variables that it may hold. */
-struct reading {
-    const struct gm_room *room;
-    struct gm_formula *graph;
+/* A room while it is read, and the variables that the formula may hold that is read now. */
+struct room_reading {
+    struct gm_reading reading; /* first */
+    struct gm_room *room;
     unsigned may;
     bool timed; /* it holds t */
 };
@@ -80,7 +64,7 @@ struct reading {
    exact solution, may change in time. */
 static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
 {
-    const unsigned along = 1u << X | 1u << Y | (word == GM_ROOM_INLET ? 1u << PART : 0),
+    const unsigned along = AT | (word == GM_ROOM_INLET ? 1u << GM_ROOM_PART : 0),
                    changes = word <= GM_ROOM_BOUNDARY || word == GM_ROOM_EXACT ? 1u << TIME : 0;
     return key == GM_ROOM_SLIP                            ? 0
            : key == GM_ROOM_FLOW || key == GM_ROOM_CENTRE ? changes
@@ -88,211 +72,79 @@ static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
                                                           : along | changes;
 }
 
-const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name)
+static const char *withheld(struct gm_reading *reading, gm_node_id part)
 {
-    for (size_t i = 0; i < room->parameter_count; i++) {
-        if (strcmp(room->parameters[i].name, name) == 0) {
-            return &room->parameters[i];
+    struct room_reading *here = (struct room_reading *)reading;
+    const struct gm_user_system *system = reading->system;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, part, &count);
+    unsigned held = 0;
+    for (size_t i = 0; parts && i < count; i++) {
+        const struct gm_node *node = &system->graph.nodes[parts[i]];
+        if (node->operation == GM_VARIABLE) {
+            held |= 1u << (node->a == system->n ? TIME : node->a - system->velocities);
+        }
+    }
+    free(parts);
+    gm_arena_need(system->arena, parts != NULL);
+    here->timed |= held >> TIME & 1;
+    held &= ~here->may;
+    return held >> TIME & 1
+               ? "what a room's boundary gives may change in time: no start, no source and no place"
+           : held >> GM_ROOM_PART & 1 ? "s runs along an inlet; only the inlet's formulas may contain it"
+           : held & AT ? "a flow is that of a whole side, and a place is two numbers: neither holds x and y"
+           : held      ? "measures of the flow are for the lines time:, graph: and subtitle:"
+                       : NULL;
+}
+
+const struct gm_system_variable *gm_room_parameter(const struct gm_room *room, const char *name)
+{
+    const struct gm_user_system *system = &room->system;
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        if (strcmp(system->variables[i].name, name) == 0) {
+            return &system->variables[i];
         }
     }
     return NULL;
 }
 
-static const char *known(size_t i, const void *data)
+const struct gm_read_line *gm_room_said(const struct gm_room *room, enum gm_system_word word)
 {
-    const struct gm_room *room = ((const struct reading *)data)->room;
-    return i < VARIABLES                           ? variables[i]
-           : i - VARIABLES < room->parameter_count ? room->parameters[i - VARIABLES].name
-                                                   : NULL;
-}
-
-static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
-{
-    struct reading *reading = data;
-    char whole[GM_ROOM_NAME];
-    snprintf(whole, sizeof whole, "%.*s", (int)(name->length < sizeof whole ? name->length : 0), name->text);
-    const struct gm_room_parameter *parameter = gm_room_parameter(reading->room, whole);
-    if (parameter ? isnan(parameter->value) : gm_choice_named(&reading->room->choices, whole) != NULL) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%s is a word, not a number", whole);
-        return GM_REFUSED;
+    size_t i = 0;
+    while (i < room->said_count && room->said[i].word != word) {
+        i++;
     }
-    if (parameter && !name->indexed && !name->initial) {
-        *node = gm_formula_constant(reading->graph, parameter->value);
-        return GM_KNOWN;
-    }
-    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
-        if (strcmp(whole, measures[i]) == 0 && !isnan(reading->room->measures[i])) {
-            *node = gm_formula_constant(reading->graph, reading->room->measures[i]);
-            return GM_KNOWN;
-        }
-    }
-    for (size_t i = 0; i < VARIABLES; i++) {
-        if (strcmp(whole, variables[i]) != 0 || name->initial) {
-            continue;
-        }
-        if (name->indexed) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%s is one number, and has no index", variables[i]);
-            return GM_REFUSED;
-        }
-        if (!(reading->may >> i & 1)) {
-            snprintf(sentence, GM_FAULT_SENTENCE, "%s",
-                     i == TIME
-                         ? "what a room's boundary gives may change in time: no start, no source and no place"
-                     : i == PART
-                         ? "s runs along an inlet; only the inlet's formulas may contain it"
-                         : "a flow is that of a whole side, and a place is two numbers: neither holds "
-                           "x and y");
-            return GM_REFUSED;
-        }
-        reading->timed = reading->timed || i == TIME;
-        *node = gm_formula_variable(reading->graph, i);
-        return GM_KNOWN;
-    }
-    return GM_UNKNOWN;
+    return i < room->said_count ? &room->said[i] : NULL;
 }
 
-static bool read_node(struct reading *reading, struct gm_span span, gm_node_id *node, struct gm_fault *fault)
+double gm_room_evaluate(const struct gm_room *room, gm_node_id node)
 {
-    const struct gm_scope scope = {.find = find, .known = known, .data = reading, .lines = true};
-    return gm_formula_read(reading->graph, reading->room->text, span.begin, span.end, &scope, node, fault);
+    gm_formula_evaluate(&room->system.graph, node + 1, room->values, room->scratch);
+    return room->scratch[node];
 }
 
-void gm_room_refuse(const struct gm_room *room, size_t place, const char *format, ...)
+static void put_place(const struct gm_room *room, const double at[4])
 {
-    char sentence[GM_FAULT_SENTENCE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
-    va_end(arguments);
-    gm_fail(room->fault, place, "%s", sentence);
-    gm_arena_refuse(room->arena, "%s", sentence);
-}
-
-void gm_room_need(const struct gm_room *room, bool good)
-{
-    const char *sentence = room->fault->sentence;
-    if (!good) {
-        gm_arena_refuse(room->arena, "%s", sentence[0] ? sentence : "not enough memory");
-    }
-}
-
-/* Returns true if a text is a number, which it reads. Leaves the body if memory for its value is refused. */
-static bool read_number(const struct gm_room *room, const char *text, double *number)
-{
-    const unsigned long refusals = gm_memory_refusals();
-    const bool is_read = gm_number_parse(text, number);
-    gm_room_need(room, gm_memory_refusals() == refusals);
-    return is_read;
-}
-
-char *gm_room_keep(const struct gm_room *room, struct gm_span span)
-{
-    return gm_arena_keep(room->arena, gm_span_words(room->text, span), free);
-}
-
-static void read_formula(struct gm_room *room, struct gm_span span, enum gm_room_word word,
-                         enum gm_room_key key, struct gm_room_formula *value)
-{
-    struct reading reading = {room, &room->graph, may_hold(word, key), false};
-    gm_node_id node = 0;
-    gm_room_need(room, read_node(&reading, span, &node, room->fault));
-    room->timed = room->timed || (reading.timed && word <= GM_ROOM_BOUNDARY);
-    value->place = span.begin;
-    value->part = gm_arena_keep(room->arena, gm_formula_parts(&room->graph, node, &value->parts), free);
+    const struct gm_user_system *system = &room->system;
+    memcpy(room->values + system->velocities + GM_ROOM_PART, at, 3 * sizeof *at);
+    room->values[system->n] = at[3];
 }
 
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                     const double at[VARIABLES], double standard)
+                     const double at[4], double standard)
 {
     const struct gm_room_formula *value = line ? &line->value[key] : NULL;
     if (!value || value->place == 0) {
         return standard;
     }
-    gm_formula_evaluate_parts(&room->graph, value->part, value->parts, at, room->scratch);
+    put_place(room, at);
+    gm_formula_evaluate_parts(&room->system.graph, value->part, value->parts, room->values, room->scratch);
     return room->scratch[value->part[value->parts - 1]];
-}
-
-/* The value of a formula at a place. */
-static bool read_value(const struct gm_room *room, struct gm_span span, unsigned may,
-                       const double at[VARIABLES], double *value, struct gm_fault *fault)
-{
-    struct gm_formula graph;
-    struct reading reading = {room, &graph, may, false};
-    gm_node_id node = 0;
-    gm_formula_open(&graph);
-    bool good = read_node(&reading, span, &node, fault);
-    double *values = good ? malloc((graph.count + 1) * sizeof *values) : NULL;
-    good = values != NULL;
-    if (good) {
-        gm_formula_evaluate(&graph, node + 1, at, values);
-        *value = values[node];
-    }
-    free(values);
-    gm_formula_close(&graph);
-    return good;
-}
-
-bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault)
-{
-    const double origin[VARIABLES] = {0};
-    return read_value(room, span, 0, origin, number, fault) &&
-           (isfinite(*number) || gm_fail(fault, span.begin, "this is not a finite number"));
-}
-
-bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
-                      struct gm_fault *fault)
-{
-    const size_t dots = gm_span_until(room->text, span, "..");
-    if (dots == span.end) {
-        return gm_fail(fault, span.begin, "a range was expected, low .. high");
-    }
-    return gm_room_number(room, (struct gm_span){span.begin, dots}, &range->least, fault) &&
-           gm_room_number(room, (struct gm_span){dots + 2, span.end}, &range->most, fault) &&
-           (range->least < range->most || gm_fail(fault, span.begin, "a range's lower end comes first"));
-}
-
-static const struct gm_read_line *find_line(const struct gm_room *room, const char *word, size_t number)
-{
-    for (size_t i = 0; i < room->said_count; i++) {
-        if (strcmp(words[room->said[i].word].word, word) == 0 && number-- == 0) {
-            return &room->said[i];
-        }
-    }
-    return NULL;
-}
-
-bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value)
-{
-    const struct gm_read_line *line = find_line(room, word, number);
-    *value = line ? line->value : (struct gm_span){0, 0};
-    return line;
-}
-
-/* Takes the first word of a span off its front. */
-static struct gm_span take_word(const struct gm_room *room, struct gm_span *rest)
-{
-    struct gm_span word = {rest->begin, rest->begin};
-    while (word.end < rest->end && !strchr(" \t\r\n", room->text[word.end])) {
-        word.end++;
-    }
-    *rest = gm_span_trimmed(room->text, (struct gm_span){word.end, rest->end});
-    return word;
-}
-
-bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
-                    struct gm_span *value)
-{
-    while (gm_span_take(room->text, &pieces, ";", value)) {
-        if (gm_span_is(room->text, take_word(room, value), word)) {
-            return true;
-        }
-    }
-    return false;
 }
 
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double point[2])
 {
-    const double origin[VARIABLES] = {0};
+    const double origin[4] = {0};
     point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0);
     point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0);
 }
@@ -304,6 +156,13 @@ const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room
         i++;
     }
     return i < room->count ? &room->lines[i] : NULL;
+}
+
+/* ---- pairs key = formula ---- */
+
+static const char *word_of(enum gm_room_word word)
+{
+    return gm_system_words[pairs[word].word].word;
 }
 
 /* The start of the next "key =" in a span, or its end; "=" in parentheses belongs to the index of a sum. */
@@ -337,216 +196,387 @@ static const char *list_keys(unsigned set, const char *between, char *list, size
     return list;
 }
 
-static void read_pairs(struct gm_room *room, struct gm_room_line *line, struct gm_span rest)
+static void read_formula(struct room_reading *here, struct gm_span span, enum gm_room_word word,
+                         enum gm_room_key key, struct gm_room_formula *value)
 {
+    struct gm_room *room = here->room;
+    here->may = may_hold(word, key);
+    here->timed = false;
+    const gm_node_id node = gm_reading_formula(&here->reading, span);
+    room->timed = room->timed || (here->timed && word <= GM_ROOM_BOUNDARY);
+    value->place = span.begin;
+    value->part =
+        gm_arena_keep(room->system.arena, gm_formula_parts(&room->system.graph, node, &value->parts), free);
+}
+
+static void read_pairs(struct room_reading *here, struct gm_room_line *line, struct gm_span rest)
+{
+    const struct gm_user_system *room = here->reading.system;
+    const char *text = here->reading.text;
     const enum gm_room_word word = line->word;
     unsigned given = 0;
     char list[160];
     while (rest.begin < rest.end) {
-        const size_t length = gm_name_length(room->text + rest.begin, rest.end - rest.begin);
+        const size_t length = gm_name_length(text + rest.begin, rest.end - rest.begin);
         int key = GM_ROOM_KEYS - 1;
         while (key >= 0 &&
-               (strncmp(room->text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
+               (strncmp(text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
             key--;
         }
         if (length == 0 || key < 0 || !(pairs[word].may >> key & 1)) {
-            gm_room_refuse(room, rest.begin, "%s: takes %s%s", words[word].word,
-                           list_keys(pairs[word].may, ", ", list, sizeof list),
-                           given || pairs[word].names >= START ? ""
-                                                               : "; a name with blanks is in double quotes");
+            gm_system_refuse(
+                room, rest.begin, "%s: takes %s%s", word_of(word),
+                list_keys(pairs[word].may, ", ", list, sizeof list),
+                given || pairs[word].names >= START ? "" : "; a name with blanks is in double quotes");
         }
         size_t equals = rest.begin + length;
-        equals += strspn(room->text + equals, " \t\r\n");
-        if (equals >= rest.end || room->text[equals] != '=') {
-            gm_room_refuse(room, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
-                           keys[key]);
-        }
+        equals += strspn(text + equals, " \t\r\n");
+        gm_system_refuse_if(room, equals >= rest.end || text[equals] != '=',
+                            equals < rest.end ? equals : rest.begin, "%s: needs = and a value", keys[key]);
         equals++;
-        const size_t end = next_key(room->text, (struct gm_span){equals, rest.end});
-        if (given >> key & 1) {
-            gm_room_refuse(room, rest.begin, "%s = is given twice", keys[key]);
-        }
-        const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
-        read_formula(room, formula, word, (enum gm_room_key)key, &line->value[key]);
+        const size_t end = next_key(text, (struct gm_span){equals, rest.end});
+        gm_system_refuse_if(room, given >> key & 1, rest.begin, "%s = is given twice", keys[key]);
+        const struct gm_span formula = gm_span_trimmed(text, (struct gm_span){equals, end});
+        read_formula(here, formula, word, (enum gm_room_key)key, &line->value[key]);
         given |= 1u << key;
         rest.begin = end;
     }
     const unsigned missing = pairs[word].must & ~given;
-    if (missing) {
-        gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
-                       list_keys(missing & -missing, "", list, sizeof list));
-    }
-    if (given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1) {
-        gm_room_refuse(room, line->place, "wall: holds its temperature = or gives heat =, not both");
-    }
-    if (given & PLACE && (given & PLACE) != PLACE) {
-        gm_room_refuse(room, line->place, "%s: has x = and y =, or neither", words[word].word);
-    }
-    if (pairs[word].some && !(given & pairs[word].some)) {
-        gm_room_refuse(room, line->place, "%s: needs %s", words[word].word,
-                       list_keys(pairs[word].some, " or ", list, sizeof list));
-    }
+    gm_system_refuse_if(room, missing, line->place, "%s: needs %s", word_of(word),
+                        list_keys(missing & -missing, "", list, sizeof list));
+    gm_system_refuse_if(room, given >> GM_ROOM_TEMPERATURE & given >> GM_ROOM_HEAT & 1, line->place,
+                        "wall: holds its temperature = or gives heat =, not both");
+    gm_system_refuse_if(room, given & PLACE && (given & PLACE) != PLACE, line->place,
+                        "%s: has x = and y =, or neither", word_of(word));
+    gm_system_refuse_if(room, pairs[word].some && !(given & pairs[word].some), line->place, "%s: needs %s",
+                        word_of(word), list_keys(pairs[word].some, " or ", list, sizeof list));
 }
 
-static void read_line(struct gm_room *room, const struct gm_read_line *said)
+/* The rest of a line that has a name in front, which may be in double quotes. */
+static struct gm_span take_name(const struct gm_reading *reading, struct gm_room_line *line,
+                                struct gm_span value)
 {
-    const enum gm_room_word word = (enum gm_room_word)said->word;
-    struct gm_span value = said->value;
-    room->lines = gm_arena_resize(room->arena, room->lines, room->count + 1, sizeof *room->lines);
-    struct gm_room_line *line = &room->lines[room->count];
-    *line = (struct gm_room_line){.word = word, .place = value.begin};
-    if (pairs[word].names < START) {
-        const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
-        struct gm_span name = {value.begin + quoted, value.begin + quoted};
-        while (name.end < value.end &&
-               (quoted ? room->text[name.end] != '"' : !strchr(" \t\r\n", room->text[name.end]))) {
-            name.end++;
-        }
-        const size_t length = name.end - name.begin;
-        if (quoted && name.end == value.end) {
-            gm_room_refuse(room, value.begin, "%s: the name has no closing quote", words[word].word);
-        }
-        if (length == 0 || length >= GM_ROOM_NAME) {
-            gm_room_refuse(room, line->place, "%s: needs a name, of at most 63 bytes", words[word].word);
-        }
-        memcpy(line->name, room->text + name.begin, length);
-        value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
+    const char *text = reading->text;
+    const bool quoted = value.begin < value.end && text[value.begin] == '"';
+    struct gm_span name = {value.begin + quoted, value.begin + quoted};
+    while (name.end < value.end && (quoted ? text[name.end] != '"' : !strchr(" \t\r\n", text[name.end]))) {
+        name.end++;
     }
+    const size_t length = name.end - name.begin;
+    gm_system_refuse_if(reading->system, quoted && name.end == value.end, value.begin,
+                        "%s: the name has no closing quote", word_of(line->word));
+    gm_system_refuse_if(reading->system, length == 0 || length >= GM_ROOM_NAME, line->place,
+                        "%s: needs a name, of at most 63 bytes", word_of(line->word));
+    memcpy(line->name, text + name.begin, length);
+    return gm_reading_between(reading, name.end + quoted, value.end);
+}
+
+static void read_line(struct room_reading *here, const struct gm_read_line *said, enum gm_room_word word)
+{
+    struct gm_room *room = here->room;
+    gm_reading_reserve(&here->reading, (void **)&room->lines, room->count, sizeof *room->lines);
+    struct gm_room_line *line = &room->lines[room->count];
+    *line = (struct gm_room_line){.word = word, .place = said->value.begin};
+    const bool named = pairs[word].names < START;
+    const struct gm_span rest = named ? take_name(&here->reading, line, said->value) : said->value;
     for (size_t i = 0; i < room->count; i++) {
-        if (pairs[room->lines[i].word].names == pairs[word].names &&
-            strcmp(room->lines[i].name, line->name) == 0) {
-            gm_room_refuse(room, line->place, "%.63s%s",
-                           pairs[word].names >= START ? words[word].word : line->name,
-                           pairs[word].names >= START ? ": is given twice" : " is named twice");
-        }
+        gm_system_refuse_if(&room->system,
+                            pairs[room->lines[i].word].names == pairs[word].names &&
+                                strcmp(room->lines[i].name, line->name) == 0,
+                            line->place, "%.63s is named twice", line->name);
     }
     room->count++;
-    read_pairs(room, line, value);
+    read_pairs(here, line, rest);
+}
+
+/* ---- the mesh ---- */
+
+/* Takes the first word off the front. */
+static struct gm_span take_word(const struct gm_reading *reading, struct gm_span *rest)
+{
+    const size_t end = rest->begin + strcspn(reading->text + rest->begin, " \t\r\n");
+    const struct gm_span word = {rest->begin, end < rest->end ? end : rest->end};
+    *rest = gm_reading_between(reading, word.end, rest->end);
+    return word;
+}
+
+/* keep x, y */
+static void read_kept(struct gm_reading *reading, struct gm_room *room, struct gm_span value)
+{
+    double *at = room->fixed + 2 * room->rectangle.fixed_count++;
+    struct gm_span piece;
+    for (int c = 0; c < 2; c++) {
+        gm_span_take(reading->text, &value, ",", &piece);
+        at[c] = gm_reading_finite(reading, piece);
+    }
+    gm_system_refuse_if(reading->system, value.begin < value.end, value.begin, "keep: has two numbers, x, y");
 }
 
 /* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ...,
-   or flat-torus; ... Returns false if the line names a file. */
-static bool read_rectangle(struct gm_room *room, struct gm_span rest)
+   or flat-torus; ...; or a file */
+static void read_mesh(struct room_reading *here, const struct gm_read_line *line)
 {
+    struct gm_reading *reading = &here->reading;
+    struct gm_room *room = here->room;
     struct gm_rectangle *rectangle = &room->rectangle;
-    const size_t place = rest.begin;
-    struct gm_span value, piece;
+    struct gm_span rest = line->value, value;
     double edges = 0, strips = 0, multiple = 0;
     const struct {
         const char *word;
-        double *number;
-        struct gm_room_range range;
-        char *key; /* key of a whole number; NULL: any number */
-    } options[] = {{"width", &rectangle->width, {1e-9, 1e9}, NULL},
-                   {"height", &rectangle->height, {1e-9, 1e9}, NULL},
-                   {"irregular", &rectangle->irregular, {0, 0.45}, NULL},
-                   {"edges", &edges, {1, 100000}, room->edges},
-                   {"strips", &strips, {0, 100000}, room->strips},
-                   {"multiple", &multiple, {1, 100000}, (char[GM_ROOM_NAME]){0}}};
-    gm_span_take(room->text, &rest, ";", &value);
-    rectangle->torus = gm_span_is(room->text, value, "flat-torus");
-    room->rectangular = rectangle->torus || gm_span_is(room->text, value, "rectangle");
+        double *number, least, most;
+        char **key; /* key of a whole number; NULL: any number */
+    } options[] = {{"width", &rectangle->width, 1e-9, 1e9, NULL},
+                   {"height", &rectangle->height, 1e-9, 1e9, NULL},
+                   {"irregular", &rectangle->irregular, 0, 0.45, NULL},
+                   {"edges", &edges, 1, 100000, &room->edges},
+                   {"strips", &strips, 0, 100000, &room->strips},
+                   {"multiple", &multiple, 1, 100000, &(char *){NULL}}};
+    gm_span_take(reading->text, &rest, ";", &value);
+    rectangle->torus = gm_span_is(reading->text, value, "flat-torus");
+    room->rectangular = rectangle->torus || gm_span_is(reading->text, value, "rectangle");
     rectangle->fixed = room->fixed;
-    while (room->rectangular && gm_span_take(room->text, &rest, ";", &value)) {
-        const struct gm_span word = take_word(room, &value);
+    room->edges = room->strips = gm_reading_text(reading, (struct gm_span){0, 0});
+    if (!room->rectangular) {
+        room->system.texts[GM_WORD_MESH] = gm_reading_text(reading, line->value);
+        return;
+    }
+    while (gm_span_take(reading->text, &rest, ";", &value)) {
+        const struct gm_span word = take_word(reading, &value);
         size_t i = 0;
-        while (i < GM_COUNT(options) && !gm_span_is(room->text, word, options[i].word)) {
+        while (i < GM_COUNT(options) && !gm_span_is(reading->text, word, options[i].word)) {
             i++;
         }
         if (i < GM_COUNT(options)) {
-            const struct gm_room_range range = options[i].range;
-            double *number = options[i].number;
-            gm_room_need(room, gm_room_number(room, value, number, room->fault));
-            if (*number < range.least || *number > range.most ||
-                (options[i].key && *number != floor(*number))) {
-                gm_room_refuse(room, value.begin, "%s: is a %snumber from %g to %g", options[i].word,
-                               options[i].key ? "whole " : "", range.least, range.most);
-            }
+            const double number = *options[i].number = gm_reading_finite(reading, value);
+            gm_system_refuse_if(&room->system,
+                                number < options[i].least || number > options[i].most ||
+                                    (options[i].key && number != floor(number)),
+                                value.begin, "%s: is a %snumber from %g to %g", options[i].word,
+                                options[i].key ? "whole " : "", options[i].least, options[i].most);
             if (options[i].key) {
-                snprintf(options[i].key, GM_ROOM_NAME, "%.*s", (int)(value.end - value.begin),
-                         room->text + value.begin);
+                *options[i].key = gm_reading_text(reading, value);
             }
-        } else if (gm_span_is(room->text, word, "along") && gm_span_is(room->text, value, "y")) {
+        } else if (gm_span_is(reading->text, word, "along") && gm_span_is(reading->text, value, "y")) {
             rectangle->transposed = true;
-        } else if (gm_span_is(room->text, word, "keep") &&
+        } else if (gm_span_is(reading->text, word, "keep") &&
                    rectangle->fixed_count * 2 < GM_COUNT(room->fixed)) {
-            double *at = room->fixed + 2 * rectangle->fixed_count++;
-            for (int c = 0; c < 2; c++) {
-                gm_span_take(room->text, &value, ",", &piece);
-                gm_room_need(room, gm_room_number(room, piece, &at[c], room->fault));
-            }
-            if (value.begin < value.end) {
-                gm_room_refuse(room, value.begin, "keep: has two numbers, x, y");
-            }
+            read_kept(reading, room, value);
         } else {
-            gm_room_refuse(room, word.begin,
-                           "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
-                           "up to %zu keep",
-                           GM_COUNT(room->fixed) / 2);
+            gm_system_refuse(
+                &room->system, word.begin,
+                "a rectangle has width, height, edges, strips, irregular, multiple, along y, and "
+                "up to %zu keep",
+                GM_COUNT(room->fixed) / 2);
         }
     }
     rectangle->edges = (long)edges;
     rectangle->strips = (long)strips;
     room->multiple = (long)multiple;
-    if (room->rectangular && !(rectangle->width > 0 && rectangle->height > 0 && edges > 0)) {
-        gm_room_refuse(room, place, "a rectangle has a width, a height and a number of edges");
-    }
-    return room->rectangular;
+    gm_system_refuse_if(&room->system, !(rectangle->width > 0 && rectangle->height > 0 && edges > 0),
+                        line->value.begin, "a rectangle has a width, a height and a number of edges");
 }
 
-/* Refuses a name with another meaning in formulas, on a command line (except `show`) or in tables. */
-static void check_free(const struct gm_room *room, const char *name, size_t place)
+/* ---- items: their nodes are described in core/flow/room.h ---- */
+
+/* Adds a formula that may hold some of the variables. */
+static void add_formula(struct room_reading *here, struct gm_system_item *item, struct gm_span span,
+                        unsigned may)
 {
-    bool reserved = strcmp(name, "show") != 0 && gm_reading_reserves(name, strlen(name));
-    for (size_t i = 0; i < VARIABLES; i++) {
-        reserved |= strcmp(name, variables[i]) == 0;
+    here->may = may;
+    gm_item_add(&here->reading, item, gm_reading_formula(&here->reading, span));
+}
+
+/* graph: KEY; low .. high */
+static void read_graph(struct room_reading *here, const struct gm_read_line *line)
+{
+    struct gm_span rest = line->value, piece;
+    gm_span_take(here->reading.text, &rest, ";", &piece);
+    struct gm_system_item *item = gm_reading_item(&here->reading, line, piece);
+    if (!gm_span_take(here->reading.text, &rest, ";", &piece)) {
+        return;
     }
-    for (size_t i = 0; i < GM_ROOM_MEASURES; i++) {
-        reserved |= strcmp(name, measures[i]) == 0;
-    }
-    if (reserved) {
-        gm_room_refuse(room, place, "the name %.60s" GM_RESERVED, name);
+    const size_t dots = gm_span_until(here->reading.text, piece, "..");
+    gm_system_refuse_if(here->reading.system, dots == piece.end, piece.begin,
+                        "a range was expected, low .. high");
+    add_formula(here, item, (struct gm_span){piece.begin, dots}, MEASURES);
+    add_formula(here, item, (struct gm_span){dots + 2, piece.end}, MEASURES);
+    const struct gm_node *nodes = here->room->system.graph.nodes, *low = &nodes[item->nodes[0]],
+                         *high = &nodes[item->nodes[1]];
+    gm_system_refuse_if(here->reading.system,
+                        low->operation == GM_CONSTANT && high->operation == GM_CONSTANT &&
+                            !(low->value < high->value),
+                        piece.begin, "a range's lower end comes first");
+}
+
+/* side: NAME; x = 0, y > 4 */
+static void read_side(struct room_reading *here, const struct gm_read_line *line)
+{
+    const char *text = here->reading.text;
+    struct gm_user_system *system = here->reading.system;
+    struct gm_span rest = line->value, condition;
+    gm_span_take(text, &rest, ";", &condition);
+    struct gm_system_item *item = gm_reading_item(&here->reading, line, condition);
+    char *signs = item->text = gm_arena_take(system->arena, rest.end - rest.begin + 1, 1);
+    while (gm_span_take(text, &rest, ",", &condition)) {
+        size_t sign = condition.begin;
+        while (sign < condition.end && !strchr("=<>", text[sign])) {
+            sign++;
+        }
+        gm_system_refuse_if(system, sign == condition.end, condition.begin,
+                            "a condition was expected, x = 0");
+        add_formula(here, item, (struct gm_span){condition.begin, sign}, AT);
+        add_formula(here, item, (struct gm_span){sign + 1, condition.end}, AT);
+        *signs++ = text[sign];
     }
 }
 
-/* NAME = VALUE; low .. high; meaning */
-static void read_parameter(struct gm_room *room, struct gm_span rest, const struct gm_room_input *input)
+/* time: F; unit, meaning, or the unit alone */
+static void read_time(struct room_reading *here, const struct gm_read_line *line)
 {
-    struct gm_span head, piece, after;
-    struct gm_room_range range = {NAN, NAN};
-    room->parameters =
-        gm_arena_resize(room->arena, room->parameters, room->parameter_count + 1, sizeof *room->parameters);
-    struct gm_room_parameter *parameter = &room->parameters[room->parameter_count++];
-    *parameter = (struct gm_room_parameter){.value = NAN, .place = rest.begin};
-    gm_span_take(room->text, &rest, ";", &head);
-    const size_t equals = gm_span_until(room->text, head, "=");
-    const struct gm_span value = {equals < head.end ? equals + 1 : equals, head.end};
-    after = rest;
-    if (gm_span_take(room->text, &after, ";", &piece) && gm_span_until(room->text, piece, "..") < piece.end) {
-        gm_room_need(room, gm_room_range_of(room, piece, &range, room->fault));
-        rest = after;
+    struct gm_span rest = line->value, unit;
+    gm_span_take(here->reading.text, &rest, ";", &unit);
+    rest = gm_span_trimmed(here->reading.text, rest);
+    here->room->system.texts[GM_WORD_TIME] =
+        gm_reading_text(&here->reading, rest.begin < rest.end ? rest : line->value);
+    if (rest.begin < rest.end) {
+        add_formula(here, gm_reading_item(&here->reading, line, (struct gm_span){0, 0}), unit, MEASURES);
     }
-    parameter->low = range.least;
-    parameter->high = range.most;
-    parameter->name = gm_room_keep(room, (struct gm_span){head.begin, equals});
-    parameter->text = gm_room_keep(room, value);
-    parameter->meaning = gm_room_keep(room, rest);
-    const size_t letters = strlen(parameter->name);
-    if (gm_room_parameter(room, parameter->name) != parameter || letters == 0 || letters >= GM_ROOM_NAME ||
-        gm_choice_named(&room->choices, parameter->name) ||
-        gm_name_length(parameter->name, letters) != letters) {
-        gm_room_refuse(room, head.begin, "parameter: needs a new name, for example height = 1");
+}
+
+/* colours: vorticity F, speed F */
+static void read_colours(struct room_reading *here, const struct gm_read_line *line)
+{
+    static const char *const words[] = {"vorticity", "speed", NULL};
+    struct gm_span rest = line->value, piece;
+    while (gm_span_take(here->reading.text, &rest, ",", &piece)) {
+        const size_t place = piece.begin;
+        const struct gm_span word = take_word(&here->reading, &piece);
+        struct gm_system_item *item = gm_reading_item(&here->reading, line, word);
+        const bool known = words[gm_span_among(here->reading.text, word, words)];
+        item->value = known ? gm_reading_finite(&here->reading, piece) : 0;
+        gm_system_refuse_if(here->reading.system, !(item->value > 0), place,
+                            "colours: end at positive numbers: vorticity 5, speed 1");
     }
-    for (size_t i = 0; i < input->count; i++) {
-        if (strcmp(input->given[i].name, parameter->name) == 0) {
-            parameter->text = gm_arena_print(room->arena, "%s", input->given[i].text);
+}
+
+static void read_levels(struct room_reading *here, const struct gm_read_line *line)
+{
+    gm_item_numbers(&here->reading, gm_reading_item(&here->reading, line, (struct gm_span){0, 0}),
+                    line->value);
+}
+
+/* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
+static void read_profile(struct room_reading *here, const struct gm_read_line *line)
+{
+    static const char *const quantities[] = {"u", "v", "scalar", NULL};
+    static const size_t numbers[] = {2, 4, 5};
+    struct gm_reading *reading = &here->reading;
+    struct gm_span rest = line->value, head, piece;
+    gm_span_take(reading->text, &rest, ";", &head);
+    char *letters = gm_arena_take(reading->system->arena, head.end - head.begin + 1, 1);
+    struct gm_system_item *item = gm_reading_item(reading, line, take_word(reading, &head));
+    item->words = letters;
+    while (head.begin < head.end) {
+        const struct gm_span word = take_word(reading, &head);
+        gm_system_refuse_if(reading->system, !quantities[gm_span_among(reading->text, word, quantities)],
+                            line->value.begin, "a profile shows u, v or scalar");
+        *letters++ = reading->text[word.begin];
+    }
+    for (size_t i = 0; i < GM_COUNT(numbers); i++) {
+        gm_span_take(reading->text, &rest, ";", &piece);
+        gm_system_refuse_if(reading->system, gm_item_numbers(reading, item, piece) != numbers[i],
+                            line->value.begin,
+                            "a profile has a name and quantities, two places and a number of points");
+    }
+    gm_span_take(reading->text, &rest, ";", &piece);
+    const struct gm_written_range range = gm_reading_range(reading, piece);
+    item->low = range.low;
+    item->high = range.high;
+    item->text = rest.begin < rest.end ? gm_reading_text(reading, rest) : NULL;
+}
+
+/* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
+static void read_table(struct room_reading *here, const struct gm_read_line *line)
+{
+    struct gm_reading *reading = &here->reading;
+    struct gm_span rest = line->value, head, value, piece;
+    gm_span_take(reading->text, &rest, ";", &head);
+    gm_span_take(reading->text, &rest, ";", &value);
+    gm_span_take(reading->text, &value, "=", &piece);
+    struct gm_system_item *item = gm_reading_item(reading, line, take_word(reading, &head));
+    item->words = gm_reading_text(reading, head);
+    item->text = gm_reading_text(reading, piece);
+    item->value = gm_reading_finite(reading, value);
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        gm_item_numbers(reading, item, take_word(reading, &piece));
+        if (gm_item_numbers(reading, item, piece) % 2 == 1) {
+            gm_item_number(reading, item, NAN);
         }
     }
-    read_number(room, parameter->text, &parameter->value);
-    check_free(room, parameter->name, head.begin);
 }
 
-/* Returns true if the values of two lines begin with the same name. */
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE */
+static void read_observed(struct room_reading *here, const struct gm_read_line *line)
+{
+    struct gm_span rest = line->value, key;
+    gm_span_take(here->reading.text, &rest, ";", &key);
+    gm_options_read(&here->reading, gm_reading_item(&here->reading, line, key), rest);
+}
+
+static void read_validity(struct room_reading *here, const struct gm_read_line *line)
+{
+    here->room->unsolved = !(gm_reading_finite(&here->reading, line->value) > 0);
+}
+
+/* Texts in which braces have no meaning. */
+static void read_text(struct room_reading *here, const struct gm_read_line *line)
+{
+    here->room->system.texts[line->word] = gm_reading_text(&here->reading, line->value);
+}
+
+/* True if the text is a number, which is read. */
+static bool read_number(const struct gm_room *room, const char *text, double *number)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    const bool is_read = gm_number_parse(text, number);
+    gm_arena_need(room->system.arena, gm_memory_refusals() == refusals);
+    return is_read;
+}
+
+/* Reads a line with a single number. */
+static void read_single(struct room_reading *here, const struct gm_read_line *line)
+{
+    struct gm_room *room = here->room;
+    const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
+                               reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
+    const struct {
+        enum gm_system_word word;
+        double *number;
+        struct gm_room_range range;
+    } rows[] = {
+        {GM_WORD_VISCOSITY, &room->viscosity, gm_room_viscosity},
+        {GM_WORD_DIFFUSIVITY, &room->diffusivity, positive},
+        {GM_WORD_REYNOLDS, &room->reynolds, reynolds},
+        {GM_WORD_SCHMIDT, &room->schmidt, gm_room_schmidt},
+        {GM_WORD_BUOYANCY, &room->buoyancy, any},
+        {GM_WORD_REFERENCE_TEMPERATURE, &room->reference_temperature, any},
+    };
+    size_t i = 0;
+    while (rows[i].word != line->word) {
+        i++;
+    }
+    const double least = rows[i].range.least, most = rows[i].range.most;
+    double *number = rows[i].number;
+    const char *word = gm_system_words[line->word].word, *text = gm_reading_text(&here->reading, line->value);
+    gm_system_refuse_if(&room->system,
+                        !read_number(room, text, number) || !isfinite(*number) ||
+                            (least >= 0 && !(*number > 0)),
+                        line->value.begin, "%s: is a %s number", word, least >= 0 ? "positive" : "finite");
+    gm_system_refuse_if(&room->system, !(*number >= least && *number <= most), line->value.begin,
+                        "%s: lies between %g and %g", word, least, most);
+}
+
+/* True if the values of two lines begin with the same name. */
 static bool share_name(const char *one, const char *other)
 {
     const size_t letters = strcspn(one, "; \t\r\n");
@@ -554,131 +584,116 @@ static bool share_name(const char *one, const char *other)
 }
 
 /* Refuses a line that is named like one before it with the same word. */
-static void check_name(const struct gm_room *room, size_t i)
+static void check_name(const struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const struct gm_read_line *line = &room->said[i];
-    for (size_t k = 0; k < i && words[line->word].identity == GM_LINE_NAMED; k++) {
-        if (room->said[k].word == line->word &&
-            share_name(room->text + room->said[k].value.begin, room->text + line->value.begin)) {
-            gm_room_refuse(room, line->place, "%s: is given twice", words[line->word].word);
-        }
+    for (const struct gm_read_line *other = reading->lines; other->place < line->place; other++) {
+        gm_system_refuse_if(reading->system,
+                            other->word == line->word && share_name(reading->text + other->value.begin,
+                                                                    reading->text + line->value.begin),
+                            line->place, "%s: is given twice", gm_system_words[line->word].word);
     }
 }
 
-/* Reads a line with a single value; other lines are read by the room's scene. */
-static void read_single(struct gm_room *room, const struct gm_read_line *line)
+/* Reads a line that systems do not have, or with another meaning. */
+static bool read_own(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const struct gm_room_range any = {-DBL_MAX, DBL_MAX}, positive = {DBL_MIN, DBL_MAX},
-                               reynolds = {1 / gm_room_viscosity.most, 1 / gm_room_viscosity.least};
-    const struct {
-        const char *word;
-        char **text;
-        double *number;
-        struct gm_room_range range;
-    } rows[] = {
-        {"title", &room->title, NULL, any},
-        {"about", &room->about, NULL, any},
-        {"mesh", &room->mesh, NULL, any},
-        {"units", &room->units, NULL, any},
-        {"scalar", &room->scalar, NULL, any},
-        {"viscosity", NULL, &room->viscosity, gm_room_viscosity},
-        {"diffusivity", NULL, &room->diffusivity, positive},
-        {"reynolds", NULL, &room->reynolds, reynolds},
-        {"schmidt", NULL, &room->schmidt, gm_room_schmidt},
-        {"buoyancy", NULL, &room->buoyancy, any},
-        {reference, NULL, &room->reference_temperature, any},
-        {"dt", NULL, &room->dt, gm_room_dt},
-        {"until", NULL, &room->until, gm_room_until},
-    };
-    for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        struct gm_span value = line->value, rest = line->value, piece;
-        if (strcmp(words[line->word].word, rows[i].word) != 0) {
-            continue;
-        }
-        if (rows[i].text) {
-            const bool rectangle = rows[i].text == &room->mesh && read_rectangle(room, value);
-            *rows[i].text = rectangle ? NULL : gm_room_keep(room, value);
-            return;
-        }
-        char number[64];
-        gm_span_take(room->text, &rest, ";", &value);
-        snprintf(number, sizeof number, "%.*s", (int)(value.end - value.begin), room->text + value.begin);
-        const double least = rows[i].range.least, most = rows[i].range.most;
-        if (!read_number(room, number, rows[i].number) || !isfinite(*rows[i].number) ||
-            (least >= 0 && !(*rows[i].number > 0))) {
-            gm_room_refuse(room, value.begin, "%s: is a %s number", rows[i].word,
-                           least >= 0 ? "positive" : "finite");
-        }
-        if (rows[i].number == &room->dt && gm_span_take(room->text, &rest, ";", &piece)) {
-            gm_room_need(room, gm_room_range_of(room, piece, &room->dt_range, room->fault));
-        }
-        if (!(*rows[i].number >= least && *rows[i].number <= most)) {
-            gm_room_refuse(room, value.begin, "%s: lies between %g and %g", rows[i].word, least, most);
-        }
-        return;
+    static const struct {
+        enum gm_system_word word;
+        void (*read)(struct room_reading *here, const struct gm_read_line *line);
+    } rows[] = {{GM_WORD_TITLE, read_text},       {GM_WORD_CAPTION, read_text},
+                {GM_WORD_TIME, read_time},        {GM_WORD_MESH, read_mesh},
+                {GM_WORD_SIDE, read_side},        {GM_WORD_EXACT_WHILE, read_validity},
+                {GM_WORD_VISCOSITY, read_single}, {GM_WORD_DIFFUSIVITY, read_single},
+                {GM_WORD_REYNOLDS, read_single},  {GM_WORD_SCHMIDT, read_single},
+                {GM_WORD_BUOYANCY, read_single},  {GM_WORD_REFERENCE_TEMPERATURE, read_single},
+                {GM_WORD_OBSERVE, read_observed}, {GM_WORD_PROFILE, read_profile},
+                {GM_WORD_TABLE, read_table},      {GM_WORD_GRAPH, read_graph},
+                {GM_WORD_COLOURS, read_colours},  {GM_WORD_LEVELS, read_levels}};
+    struct room_reading *here = (struct room_reading *)reading;
+    if (gm_system_words[line->word].identity == GM_LINE_NAMED) {
+        check_name(reading, line);
     }
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
+        if (pairs[i].word == line->word) {
+            read_line(here, line, (enum gm_room_word)i);
+            return true;
+        }
+    }
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        if (rows[i].word == line->word) {
+            rows[i].read(here, line);
+            return true;
+        }
+    }
+    here->may = MEASURES; /* of texts */
+    return false;
 }
+
+/* ---- the whole ---- */
 
 /* The start of the first line with this word; 0: none. */
-static size_t place_of(const struct gm_room *room, const char *word)
+static size_t place_of(const struct gm_room *room, enum gm_system_word word)
 {
-    const struct gm_read_line *line = find_line(room, word, 0);
+    const struct gm_read_line *line = gm_room_said(room, word);
     return line ? line->place : 0;
 }
 
-/* Completes values, and refuses missing ones and those that are given twice. */
-static void complete(struct gm_room *room, const struct gm_room_input *input)
+double gm_room_timing(const struct gm_room *room, enum gm_system_word word, double otherwise)
 {
+    const struct gm_system_item *item = gm_system_item_of(&room->system, word, 0);
+    return item ? item->value : otherwise;
+}
+
+/* Viscosity and diffusivity, from numbers, parameters and given values. */
+static void complete_numbers(struct gm_room *room, const struct gm_room_input *input)
+{
+    const struct gm_user_system *system = &room->system;
     const struct {
-        const char *name;
+        enum gm_system_word word;
         double *number;
-    } numbers[] = {
-        {"viscosity", &room->viscosity}, {"reynolds", &room->reynolds}, {"schmidt", &room->schmidt}};
+    } numbers[] = {{GM_WORD_VISCOSITY, &room->viscosity},
+                   {GM_WORD_REYNOLDS, &room->reynolds},
+                   {GM_WORD_SCHMIDT, &room->schmidt}};
     for (size_t i = 0; i < GM_COUNT(numbers); i++) {
-        const struct gm_room_parameter *parameter = gm_room_parameter(room, numbers[i].name);
-        if (parameter && !isnan(*numbers[i].number)) {
-            gm_room_refuse(room, place_of(room, numbers[i].name),
-                           "%s: is given twice, here and as a parameter", numbers[i].name);
-        }
-        if (parameter && !(parameter->value > 0 || (i == 0 && parameter->value == 0))) {
-            gm_room_refuse(room, parameter->place, "%s: is a positive number", numbers[i].name);
-        }
+        const char *name = gm_system_words[numbers[i].word].word;
+        const struct gm_system_variable *parameter = gm_room_parameter(room, name);
+        gm_system_refuse_if(system, parameter && !isnan(*numbers[i].number), place_of(room, numbers[i].word),
+                            "%s: is given twice, here and as a parameter", name);
+        gm_system_refuse_if(system, parameter && !(parameter->value > 0 || (i == 0 && parameter->value == 0)),
+                            parameter ? parameter->start_place : 0, "%s: is a positive number", name);
         *numbers[i].number = parameter ? parameter->value : *numbers[i].number;
     }
-    if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
-        gm_room_refuse(room, place_of(room, "reynolds"),
-                       "viscosity: and reynolds: say the same; a room has one of them");
-    }
-    if (!isnan(room->diffusivity) && !isnan(room->schmidt)) {
-        gm_room_refuse(room, place_of(room, "schmidt"),
-                       "diffusivity: and schmidt: say the same; a room has one of them");
-    }
+    gm_system_refuse_if(system, !isnan(room->viscosity) && !isnan(room->reynolds),
+                        place_of(room, GM_WORD_REYNOLDS),
+                        "viscosity: and reynolds: say the same; a room has one of them");
+    gm_system_refuse_if(system, !isnan(room->diffusivity) && !isnan(room->schmidt),
+                        place_of(room, GM_WORD_SCHMIDT),
+                        "diffusivity: and schmidt: say the same; a room has one of them");
     for (size_t k = 0; k < input->count; k++) {
         for (size_t i = 0; i < GM_COUNT(numbers) && !gm_room_parameter(room, input->given[k].name); i++) {
-            if (strcmp(input->given[k].name, numbers[i].name) == 0) {
+            if (strcmp(input->given[k].name, gm_system_words[numbers[i].word].word) == 0) {
                 room->reynolds = i == 0 ? NAN : room->reynolds;
                 read_number(room, input->given[k].text, numbers[i].number);
             }
         }
     }
-    struct gm_span side;
-    if (!room->rectangular && gm_room_said(room, "side", 0, &side)) {
-        gm_room_refuse(room, side.begin, "side: is of a rectangle; a mesh of Gmsh has physical groups");
-    }
+    const bool meshed = system->texts[GM_WORD_MESH] || room->rectangular;
     room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
-    if (!(room->mesh || room->rectangular) || isnan(room->viscosity)) {
-        gm_room_refuse(room, 0, "a room needs a line %s",
-                       room->mesh || room->rectangular ? "viscosity: (or reynolds:)" : "mesh:");
-    }
+    gm_system_refuse_if(system, !meshed || isnan(room->viscosity), 0, "a room needs a line %s",
+                        meshed ? "viscosity: (or reynolds:)" : "mesh:");
     room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
                         : isnan(room->diffusivity) ? room->viscosity
                                                    : room->diffusivity;
     const double ratio = room->viscosity / room->diffusivity;
-    if (!(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most) && room->viscosity > 0) {
-        gm_room_refuse(room, place_of(room, "diffusivity"),
-                       "viscosity / diffusivity is %.4g; it lies between %g and %g", ratio,
-                       gm_room_schmidt.least, gm_room_schmidt.most);
-    }
+    gm_system_refuse_if(
+        system, !(ratio >= gm_room_schmidt.least && ratio <= gm_room_schmidt.most) && room->viscosity > 0,
+        place_of(room, GM_WORD_DIFFUSIVITY), "viscosity / diffusivity is %.4g; it lies between %g and %g",
+        ratio, gm_room_schmidt.least, gm_room_schmidt.most);
+}
+
+/* Heat needs buoyancy, and the other way round. */
+static void complete_heat(struct gm_room *room)
+{
     size_t warm = 0, place = 0;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_formula *value = room->lines[i].value;
@@ -686,40 +701,35 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
         warm += here > 0;
         place = here > 0 ? here : place;
     }
-    if (warm > 0 && isnan(room->buoyancy)) {
-        gm_room_refuse(
-            room, place,
-            "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
-    }
-    if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
-        const char *word = isnan(room->buoyancy) ? reference : "buoyancy";
-        gm_room_refuse(room, place_of(room, word),
-                       "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
-                       word);
-    }
+    const enum gm_system_word word = isnan(room->buoyancy) ? GM_WORD_REFERENCE_TEMPERATURE : GM_WORD_BUOYANCY;
+    gm_system_refuse_if(
+        &room->system, warm > 0 && isnan(room->buoyancy), place,
+        "a temperature or heat needs a line buoyancy: (g beta; 0 where warm air does not rise)");
+    gm_system_refuse_if(&room->system,
+                        warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature)),
+                        place_of(room, word),
+                        "%s: needs a temperature = of a wall, an inlet or the start, or heat = of a wall",
+                        gm_system_words[word].word);
     room->reference_temperature =
         isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
 }
 
-/* Reads the lines that hold for the given words of choices. */
-static void read_lines(struct gm_room *room, const struct gm_room_input *input)
+/* Completes values, and refuses missing ones and those that are given twice. */
+static void complete(struct gm_room *room, const struct gm_room_input *input)
 {
-    struct gm_written_choices *choices = &room->choices;
-    struct gm_read_lines lines = {.words = &line_words,
-                                  .choices = choices,
-                                  .inside = FREE,
-                                  .text = room->text,
-                                  .span = {0, room->length}};
-    gm_room_need(room, gm_choices_read(choices, room->text, room->length, room->fault));
-    for (size_t i = 0; i < choices->count; i++) {
-        check_free(room, choices->list[i].name, choices->list[i].place);
+    const struct gm_system_item *side = gm_system_item_of(&room->system, GM_WORD_SIDE, 0);
+    gm_system_refuse_if(&room->system, side && !room->rectangular, side ? side->place : 0,
+                        "side: is of a rectangle; a mesh of Gmsh has physical groups");
+    for (int i = 0; i < 2; i++) {
+        const struct gm_room_range range = i == 0 ? gm_room_dt : gm_room_until;
+        const enum gm_system_word word = i == 0 ? GM_WORD_DT : GM_WORD_UNTIL;
+        const struct gm_system_item *item = gm_system_item_of(&room->system, word, 0);
+        gm_system_refuse_if(&room->system, item && !(item->value >= range.least && item->value <= range.most),
+                            item ? item->place : 0, "%s: lies between %g and %g", gm_system_words[word].word,
+                            range.least, range.most);
     }
-    for (size_t i = 0; i < input->count; i++) {
-        gm_choices_take(choices, input->given[i].name, input->given[i].text);
-    }
-    gm_room_need(room, gm_lines_read(&lines, room->fault));
-    room->said = gm_arena_keep(room->arena, lines.list, free);
-    room->said_count = lines.count;
+    complete_numbers(room, input);
+    complete_heat(room);
 }
 
 static void close_graph(void *graph)
@@ -727,55 +737,49 @@ static void close_graph(void *graph)
     gm_formula_close(graph);
 }
 
+static void close_arena(void *arena)
+{
+    gm_arena_close(arena);
+}
+
 void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_room_input *input,
                   struct gm_fault *fault)
 {
-    *room = (struct gm_room){.arena = arena,
-                             .fault = fault,
-                             .text = gm_arena_take(arena, input->length + 1, 1),
-                             .length = input->length,
+    *room = (struct gm_room){.system = {.arena = arena, .fault = fault, .kind = GM_ROOM},
                              .viscosity = NAN,
                              .diffusivity = NAN,
                              .reynolds = NAN,
                              .schmidt = NAN,
                              .buoyancy = NAN,
                              .reference_temperature = NAN,
-                             .dt = NAN,
-                             .until = NAN,
-                             .dt_range = gm_room_dt,
-                             .outlet = GM_VERTEX_SOFT,
-                             .measures = {NAN, NAN, NAN, NAN}};
-    struct gm_span value;
-    double holds = 1;
+                             .outlet = GM_VERTEX_SOFT};
     *fault = (struct gm_fault){0};
-    gm_formula_open(&room->graph);
-    gm_arena_keep(arena, &room->graph, close_graph);
-    memcpy(room->text, input->text, room->length);
-    gm_room_need(room, gm_lines_are_text(room->text, room->length, fault));
-    read_lines(room, input);
-    for (size_t i = 0; gm_room_said(room, words[PARAMETER].word, i, &value); i++) {
-        read_parameter(room, value, input);
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_user_system *system = &room->system;
+    gm_formula_open(&system->graph);
+    gm_arena_keep(arena, &system->graph, close_graph);
+    struct room_reading here = {.reading = {.system = system,
+                                            .text = input->text,
+                                            .length = input->length,
+                                            .values = input->given,
+                                            .value_count = input->count,
+                                            .line = read_own,
+                                            .withheld = withheld,
+                                            .scratch = gm_arena_keep(arena, gm_arena_open(), close_arena)},
+                                .room = room,
+                                .may = ALL};
+    gm_reading_read(&here.reading);
+    gm_arena_need(arena, gm_memory_refusals() == refusals); /* a number was read as a word */
+    gm_arena_drop(arena, here.reading.scratch);
+    room->said = here.reading.lines;
+    room->said_count = here.reading.line_count;
+    room->values = gm_arena_take(arena, system->variable_count, sizeof *room->values);
+    room->scratch = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *room->scratch);
+    for (size_t i = 0; i < system->variable_count; i++) {
+        room->values[i] = NAN;
     }
-    for (size_t i = 0; i < room->said_count; i++) {
-        check_name(room, i);
-        if (room->said[i].word < PAIRS) {
-            read_line(room, &room->said[i]);
-        } else {
-            read_single(room, &room->said[i]);
-        }
-    }
-    gm_room_need(room, !room->graph.failed);
-    if (gm_room_said(room, "geomint", 0, &value) && !gm_span_is(room->text, value, "1")) {
-        gm_room_refuse(room, value.begin, "this program reads files of format 1, not %.*s",
-                       (int)(value.end - value.begin < 40 ? value.end - value.begin : 40),
-                       room->text + value.begin);
-    }
-    if (gm_room_said(room, "exact-while", 0, &value)) {
-        gm_room_need(room, gm_room_number(room, value, &holds, fault));
-    }
-    room->unsolved = !(holds > 0);
-    room->scratch = gm_arena_take(arena, room->graph.count + (size_t)1, sizeof *room->scratch);
     complete(room, input);
+    gm_system_need_graph(system);
 }
 
 /* A room while it is opened. */
@@ -807,33 +811,35 @@ struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault 
 void gm_room_close(struct gm_room *room)
 {
     if (room) {
-        gm_arena_close(room->arena);
+        gm_arena_close(room->system.arena);
     }
 }
 
-/* The values along a side; the first place with a value that is not finite is stored. */
+/* ---- the flow on its mesh ---- */
+
+/* The value of a key at the part s of a side, the point x, y and the time t, which has to be finite. */
+static double finite_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                           const double at[4], double standard)
+{
+    const double value = gm_room_value(room, line, key, at, standard);
+    gm_system_refuse_if(&room->system, !isfinite(value), line ? line->value[key].place : 0,
+                        "the %s%s is not finite at (%.4g, %.4g)", keys[key],
+                        key == GM_ROOM_TANGENTIAL ? " speed" : "", at[1], at[2]);
+    return value;
+}
+
+/* The values along a side at a time. */
 struct profile {
     const struct gm_room *room;
     const struct gm_room_line *line;
-    struct bad *bad;
     double t, reference; /* reference: the default temperature */
-};
-
-struct bad {
-    const struct gm_room_line *line; /* NULL: all values are finite */
-    enum gm_room_key key;
-    double at[2];
 };
 
 static double value_at(const struct profile *profile, enum gm_room_key key, double standard, double s,
                        const double at[2])
 {
-    const double place[VARIABLES] = {s, at[0], at[1], profile->t},
-                 value = gm_room_value(profile->room, profile->line, key, place, standard);
-    if (!isfinite(value) && !profile->bad->line) {
-        *profile->bad = (struct bad){profile->line, key, {at[0], at[1]}};
-    }
-    return value;
+    const double place[4] = {s, at[0], at[1], profile->t};
+    return finite_value(profile->room, profile->line, key, place, standard);
 }
 
 static double speed_at(const void *data, double s, const double at[2])
@@ -870,25 +876,14 @@ static bool locate(const struct gm_complex *complex, const double at[2], size_t 
     return false;
 }
 
-/* A quantity at a vertex, which has to be finite. */
-static double value_at_vertex(const struct gm_room *room, const struct gm_room_line *line,
-                              enum gm_room_key key, const double *point)
-{
-    const double at[VARIABLES] = {0, point[0], point[1], 0}, value = gm_room_value(room, line, key, at, 0);
-    if (!isfinite(value)) {
-        gm_room_refuse(room, line->value[key].place, "the %s is not finite at (%.4g, %.4g)", keys[key],
-                       point[0], point[1]);
-    }
-    return value;
-}
-
-/* A carried quantity at the start, at vertices that do not hold it. */
-static void start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                          const struct gm_complex *complex, const bool *fixed, double *value)
+/* A quantity of a line at the vertices that do not hold it; NULL: at all. */
+static void put_values(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                       const struct gm_complex *complex, const bool *fixed, double *value)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
-        const double here = value_at_vertex(room, line, key, complex->point + 2 * v);
-        value[v] = fixed[v] ? value[v] : here;
+        const double at[4] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
+                     here = finite_value(room, line, key, at, 0);
+        value[v] = fixed && fixed[v] ? value[v] : here;
     }
 }
 
@@ -896,18 +891,14 @@ static void start_carried(const struct gm_room *room, const struct gm_room_line 
 static void place_thing(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    double at[2], w[3];
+    double at[2], w[3] = {0};
     size_t triangle = 0;
     gm_room_point(room, line, at);
-    const double place[VARIABLES] = {0, at[0], at[1], 0},
-                 rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
-    if (!locate(complex, at, &triangle, w)) {
-        gm_room_refuse(room, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0],
-                       at[1]);
-    }
-    if (!isfinite(rate)) {
-        gm_room_refuse(room, line->value[GM_ROOM_RATE].place, "the rate is not finite");
-    }
+    const double place[4] = {0, at[0], at[1], 0}, rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0);
+    gm_system_refuse_if(&room->system, !locate(complex, at, &triangle, w), line->place,
+                        "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0], at[1]);
+    gm_system_refuse_if(&room->system, !isfinite(rate), line->value[GM_ROOM_RATE].place,
+                        "the rate is not finite");
     if (line->word == GM_ROOM_SOURCE) {
         flow->smoking[flow->smoking_count++] = (struct gm_flow_place){{at[0], at[1]}, (int)triangle};
     }
@@ -922,47 +913,37 @@ static void place_things(const struct gm_room *room, struct gm_flow *flow)
     const struct gm_complex *complex = flow->complex;
     for (size_t i = 0; i < room->count; i++) {
         const struct gm_room_line *line = &room->lines[i];
+        /* a source without a place: its rate is that of a unit of area, everywhere */
+        const bool spread = line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place == 0;
         if (line->word == GM_ROOM_START) {
-            start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta);
-            start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
-                          flow->temperature);
-        } else if (line->word == GM_ROOM_PROBE ||
-                   (line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place > 0)) {
+            put_values(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta);
+            put_values(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed, flow->temperature);
+            flow->vorticity = line->value[GM_ROOM_VORTICITY].place > 0
+                                  ? gm_arena_take(room->system.arena, complex->vertices, sizeof(double))
+                                  : NULL;
+            put_values(room, line, GM_ROOM_VORTICITY, complex, NULL, flow->vorticity);
+        } else if (line->word == GM_ROOM_PROBE || (line->word == GM_ROOM_SOURCE && !spread)) {
             place_thing(room, line, flow);
         }
-        /* a source without a place: its rate is that of a unit of area, everywhere */
-        for (size_t v = 0;
-             line->word == GM_ROOM_SOURCE && line->value[GM_ROOM_X].place == 0 && v < complex->vertices;
-             v++) {
-            flow->source[v] +=
-                complex->star0[v] * value_at_vertex(room, line, GM_ROOM_RATE, complex->point + 2 * v);
+        for (size_t v = 0; spread && v < complex->vertices; v++) {
+            const double at[4] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0};
+            flow->source[v] += complex->star0[v] * finite_value(room, line, GM_ROOM_RATE, at, 0);
         }
     }
 }
 
-/* Evaluates the conditions of a line `side:`, as in x = 0, y > 4, at a place. */
-static bool holds_at(const struct gm_room *room, struct gm_span rest, const double at[VARIABLES])
+/* True if the conditions of a line `side:` hold at a place. */
+static bool holds_at(const struct gm_room *room, const struct gm_system_item *side, const double at[4])
 {
     const double size = fmax(room->rectangle.width, room->rectangle.height);
-    struct gm_span condition;
     bool holds = true;
-    while (gm_span_take(room->text, &rest, ",", &condition)) {
-        size_t sign = condition.begin;
-        while (sign + 1 < condition.end && !strchr("=<>", room->text[sign])) {
-            sign++;
-        }
-        const struct gm_span sides[2] = {{condition.begin, sign}, {sign + 1, condition.end}};
-        double value[2];
-        if (!strchr("=<>", room->text[sign])) {
-            gm_room_refuse(room, condition.begin, "a condition was expected, x = 0");
-        }
-        for (int k = 0; k < 2; k++) {
-            gm_room_need(room, read_value(room, sides[k], 1u << X | 1u << Y, at, &value[k], room->fault));
-        }
-        const double above = value[0] - value[1];
-        holds &= room->text[sign] == '<'   ? above < 0
-                 : room->text[sign] == '>' ? above > 0
-                                           : fabs(above) <= 1e-9 * size;
+    put_place(room, at);
+    for (size_t i = 0; i < side->count; i += 2) {
+        const double above =
+            gm_room_evaluate(room, side->nodes[i]) - gm_room_evaluate(room, side->nodes[i + 1]);
+        holds &= side->text[i / 2] == '<'   ? above < 0
+                 : side->text[i / 2] == '>' ? above > 0
+                                            : fabs(above) <= 1e-9 * size;
     }
     return holds;
 }
@@ -974,22 +955,22 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* The conditions of the line `side:` of that name; false if it is missing. */
-static bool find_side(const struct gm_room *room, const char *side, struct gm_span *conditions)
+/* The line `side:` of that name; NULL if it is missing. */
+static const struct gm_system_item *find_side(const struct gm_room *room, const char *name)
 {
-    struct gm_span name;
-    for (size_t i = 0; gm_room_said(room, "side", i, conditions); i++) {
-        if (gm_span_take(room->text, conditions, ";", &name) && gm_span_is(room->text, name, side)) {
-            return true;
+    const struct gm_system_item *side;
+    for (size_t i = 0; (side = gm_system_item_of(&room->system, GM_WORD_SIDE, i)); i++) {
+        if (strcmp(side->name, name) == 0) {
+            break;
         }
     }
-    return false;
+    return side;
 }
 
 /* The groups of a line, which the parameter of its name lists. */
 static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
-    const struct gm_room_parameter *other = gm_room_parameter(room, line->name);
+    const struct gm_system_variable *other = gm_room_parameter(room, line->name);
     return other ? other->text : line->name;
 }
 
@@ -997,10 +978,10 @@ static const char *groups_of(const struct gm_room *room, const struct gm_room_li
 static void take_edge(const struct gm_room *room, unsigned char *side, size_t i)
 {
     const struct gm_room_line *line = &room->lines[i];
-    if (*side != 0 && *side != i + 1) {
-        gm_room_refuse(room, line->place, "curves of the group %.63s have a line already: %.63s",
-                       groups_of(room, line), groups_of(room, &room->lines[*side - 1]));
-    }
+    const struct gm_room_line *other = *side != 0 ? &room->lines[*side - 1] : line;
+    gm_system_refuse_if(&room->system, other != line, line->place,
+                        "curves of the group %.63s have a line already: %.63s", groups_of(room, line),
+                        groups_of(room, other));
     *side = (unsigned char)(i + 1);
 }
 
@@ -1021,17 +1002,16 @@ static void name_groups(const struct gm_room *room, const struct gm_triangulatio
                 take_edge(room, &side_of[b], i);
             }
         }
-        if (!met) {
-            gm_room_refuse(room, line->place,
-                           tag != 0
-                               ? "no edge of the mesh's boundary belongs to \"%.60s\""
-                               : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
-                           name, gm_triangulation_group_names(mesh, names, sizeof names));
-        }
+        gm_triangulation_group_names(mesh, names, sizeof names);
+        gm_system_refuse_if(&room->system, !met, line->place,
+                            tag != 0
+                                ? "no edge of the mesh's boundary belongs to \"%.60s\""
+                                : "the mesh has no physical group \"%.60s\" on its boundary (there are: %s)",
+                            name, names);
         for (const char *before = list; before < at; before += strcspn(before, ",") + 1) {
-            if (strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',') {
-                gm_room_refuse(room, line->place, "the group \"%.60s\" is named twice", name);
-            }
+            gm_system_refuse_if(&room->system,
+                                strncmp(before, name, strlen(name)) == 0 && before[strlen(name)] == ',',
+                                line->place, "the group \"%.60s\" is named twice", name);
         }
     }
 }
@@ -1044,7 +1024,6 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
     for (size_t i = 0; i < room->count && complex->boundary > 0; i++) {
         const struct gm_room_line *line = &room->lines[i];
         const bool all = is_rest(room, mesh, line->name);
-        struct gm_span conditions;
         if (line->word > GM_ROOM_BOUNDARY) {
             continue;
         }
@@ -1052,20 +1031,20 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
             name_groups(room, mesh, i, side_of);
             continue;
         }
-        const bool conditional = !all && find_side(room, line->name, &conditions);
+        const struct gm_system_item *side = all ? NULL : find_side(room, line->name);
         bool met = all;
-        for (size_t b = 0; b < complex->boundary && (all || conditional); b++) {
-            double middle[VARIABLES] = {0};
-            gm_complex_middle(complex, (size_t)complex->boundary_edge[b], middle + X);
-            if (all ? side_of[b] == 0 : holds_at(room, conditions, middle)) {
+        for (size_t b = 0; b < complex->boundary && (all || side); b++) {
+            double middle[4] = {0};
+            gm_complex_middle(complex, (size_t)complex->boundary_edge[b], middle + 1);
+            if (all ? side_of[b] == 0 : holds_at(room, side, middle)) {
                 take_edge(room, &side_of[b], i);
                 met = true;
             }
         }
         if (!met) {
-            gm_room_refuse(room, line->place,
-                           "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
-                           line->name, line->name);
+            gm_system_refuse(&room->system, line->place,
+                             "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
+                             line->name, line->name);
         }
     }
 }
@@ -1085,13 +1064,11 @@ static struct gm_side side_from(const struct profile *profile)
     if (!line || line->word > GM_ROOM_BOUNDARY) {
         return (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
     }
-    const double at[VARIABLES] = {[TIME] = profile->t};
+    const double at[4] = {[3] = profile->t};
     const bool inlet = line->word == GM_ROOM_INLET;
     const double slip = gm_room_value(profile->room, line, GM_ROOM_SLIP, at, 0);
-    if (slip != 0 && slip != 1) {
-        gm_room_refuse(profile->room, line->value[GM_ROOM_SLIP].place,
-                       "slip is 1, or 0 where the wall holds the air");
-    }
+    gm_system_refuse_if(&profile->room->system, slip != 0 && slip != 1, line->value[GM_ROOM_SLIP].place,
+                        "slip is 1, or 0 where the wall holds the air");
     const struct gm_side side = {.kind = inlet                                        ? GM_EDGE_INLET
                                          : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
                                          : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
@@ -1105,10 +1082,9 @@ static struct gm_side side_from(const struct profile *profile)
                                  .profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL,
                                  .varying = varying_at,
                                  .data = profile};
-    if (line->value[GM_ROOM_FLOW].place != 0 && !(side.flow >= 0 && isfinite(side.flow))) {
-        gm_room_refuse(profile->room, line->value[GM_ROOM_FLOW].place,
-                       "a flow is a number that is not negative");
-    }
+    gm_system_refuse_if(&profile->room->system,
+                        line->value[GM_ROOM_FLOW].place != 0 && !(side.flow >= 0 && isfinite(side.flow)),
+                        line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
     return side;
 }
 
@@ -1129,8 +1105,9 @@ _Noreturn static void refuse_boundary(const struct gm_room *room, const struct g
         [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
     };
     if (fault != GM_BOUNDARY_UNBALANCED) {
-        gm_room_refuse(room, flow->faulty > 0 ? room->lines[flow->faulty - 1].place : GM_ROOM_NOWHERE, "%s",
-                       sentences[fault]);
+        gm_system_refuse(&room->system,
+                         flow->faulty > 0 ? room->lines[flow->faulty - 1].place : GM_ROOM_NOWHERE, "%s",
+                         sentences[fault]);
     }
     double in = 0, out = 0;
     size_t place = 0;
@@ -1140,8 +1117,8 @@ _Noreturn static void refuse_boundary(const struct gm_room *room, const struct g
     for (size_t i = 0; i < flow->openings; i++) {
         *(flow->opening[i].inlet ? &in : &out) += flow->opening[i].flow;
     }
-    gm_room_refuse(room, place, "all flows are given, and what enters does not leave: %.6g in, %.6g out", in,
-                   out);
+    gm_system_refuse(&room->system, place,
+                     "all flows are given, and what enters does not leave: %.6g in, %.6g out", in, out);
 }
 
 /* A side that gives the stream function and the speed along it: both cells at an edge turn with that. */
@@ -1174,22 +1151,15 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
 static void set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow)
 {
-    struct bad bad = {0};
     struct gm_side sides[GM_ROOM_SIDES];
     struct profile profiles[GM_ROOM_SIDES];
     for (size_t i = 0; i <= room->count; i++) {
         profiles[i] =
-            (struct profile){room, i > 0 ? &room->lines[i - 1] : NULL, &bad, t, flow->reference_temperature};
+            (struct profile){room, i > 0 ? &room->lines[i - 1] : NULL, t, flow->reference_temperature};
         sides[i] = side_from(&profiles[i]);
     }
     const enum gm_boundary_fault fault = gm_flow_set_sides(flow, side_of, sides, room->outlet);
     give_motion(profiles, side_of, flow);
-    if (bad.line) {
-        gm_room_refuse(room, bad.line->value[bad.key].place,
-                       bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"
-                                                     : "the %s is not finite at (%.4g, %.4g)",
-                       keys[bad.key], bad.at[0], bad.at[1]);
-    }
     if (fault != GM_BOUNDARY_OK) {
         refuse_boundary(room, flow, fault);
     }
@@ -1213,10 +1183,10 @@ static void set_moment(struct gm_arena *arena, void *data)
 static bool give_with(struct moment moment, struct gm_fault *fault)
 {
     struct gm_room *room = (struct gm_room *)(uintptr_t)moment.flow->given_by;
-    struct gm_fault *const before = room->fault;
-    room->fault = fault;
-    const bool good = gm_arena_run(room->arena, set_moment, &moment);
-    room->fault = before;
+    struct gm_fault *const before = room->system.fault;
+    room->system.fault = fault;
+    const bool good = gm_arena_run(room->system.arena, set_moment, &moment);
+    room->system.fault = before;
     return good;
 }
 
@@ -1264,8 +1234,8 @@ static void close_flow(void *flow)
 static void look_ahead(const struct gm_room *room, struct gm_flow *flow)
 {
     enum { MOMENTS = 64 };
-    const double until = isnan(room->until) ? 10 : room->until;
-    struct gm_flow *now = gm_arena_keep(room->arena, gm_flow_open_now(flow), close_flow);
+    const double until = gm_room_timing(room, GM_WORD_UNTIL, 10);
+    struct gm_flow *now = gm_arena_keep(room->system.arena, gm_flow_open_now(flow), close_flow);
     flow->give = give;
     for (int k = 1; k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run reports it at that time */
@@ -1273,7 +1243,7 @@ static void look_ahead(const struct gm_room *room, struct gm_flow *flow)
             widen(flow, now);
         }
     }
-    gm_arena_drop(room->arena, now);
+    gm_arena_drop(room->system.arena, now);
 }
 
 /* A flow while it is made on its mesh. */
@@ -1297,13 +1267,12 @@ static void make_flow(struct gm_arena *arena, void *data)
     if (!isnan(room->buoyancy)) {
         gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature);
     }
-    if (room->count >= GM_ROOM_SIDES) {
-        gm_room_refuse(room, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1);
-    }
+    gm_system_refuse_if(&room->system, room->count >= GM_ROOM_SIDES, 0,
+                        "a room has at most %d lines with names", GM_ROOM_SIDES - 1);
     name_sides(room, making->mesh, flow->side_of);
     set_sides(room, flow->side_of, 0, flow);
     place_things(room, flow);
-    const struct gm_room_parameter *reynolds = gm_room_parameter(room, "reynolds");
+    const struct gm_system_variable *reynolds = gm_room_parameter(room, "reynolds");
     const double scale = reynolds && flow->inlet_length > 0 ? flow->inlet_length : 1;
     flow->viscosity = room->viscosity * scale;
     flow->diffusivity = room->diffusivity * scale;
@@ -1312,12 +1281,13 @@ static void make_flow(struct gm_arena *arena, void *data)
     if (room->timed) {
         look_ahead(room, flow);
     }
-    room->measures[GM_ROOM_PERIMETER] = 0;
+    double *measures = room->values + room->system.velocities;
+    measures[GM_ROOM_PERIMETER] = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
-        room->measures[GM_ROOM_PERIMETER] += complex->length[complex->boundary_edge[b]];
+        measures[GM_ROOM_PERIMETER] += complex->length[complex->boundary_edge[b]];
     }
-    room->measures[GM_ROOM_AREA] = complex->total_area;
-    room->measures[GM_ROOM_INLET_LENGTH] = flow->inlet_length;
+    measures[GM_ROOM_AREA] = complex->total_area;
+    measures[GM_ROOM_INLET_LENGTH] = flow->inlet_length;
     if (reynolds) {
         flow->reynolds = reynolds->value;
     } else if (room->viscosity > 0) {
@@ -1325,15 +1295,16 @@ static void make_flow(struct gm_arena *arena, void *data)
             flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
         flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     }
-    flow->scalar = !room->scalar || strcmp(room->scalar, "none") != 0;
+    const char *scalar = room->system.texts[GM_WORD_SCALAR];
+    flow->scalar = !scalar || strcmp(scalar, "none") != 0;
 }
 
 struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh, struct gm_fault *fault)
 {
     struct making making = {.room = room, .mesh = mesh};
     *fault = (struct gm_fault){0};
-    room->fault = fault;
-    const bool good = gm_arena_run(room->arena, make_flow, &making);
+    room->system.fault = fault;
+    const bool good = gm_arena_run(room->system.arena, make_flow, &making);
     mesh->complex = NULL;
     return good ? making.flow : NULL;
 }

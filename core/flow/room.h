@@ -3,14 +3,14 @@
 #define GM_CORE_FLOW_ROOM_H
 
 #include "core/arena.h"
-#include "core/expression/choices.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 #include "core/form/generators.h"
+#include "core/model/system.h"
 
 #include <stdint.h>
 
-/* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/expression/lines.h), where
+/* A room that somebody wrote: lines that core/model reads, and lines `word: NAME key = formula key = formula`, where
    formulas may hold parameters, x, y, of an inlet s, which runs from 0 to 1 along its pieces
    (core/flow/boundary.h), and of what the boundary gives and of the exact solution the time t. */
 
@@ -63,56 +63,33 @@ struct gm_room_line {
     } value[GM_ROOM_KEYS];
 };
 
-struct gm_room_parameter {
-    char *name, *text, *meaning; /* text: as it is written; "": not given */
-    double value, low, high;     /* NAN: not a number; without a range */
-    size_t place;                /* position in the text */
-};
-
-/* The measures of a room's flow, which are names in formulas that are evaluated after it is made. */
-enum gm_room_measure {
-    GM_ROOM_PERIMETER,
-    GM_ROOM_AREA,
-    GM_ROOM_INLET_LENGTH,
-    GM_ROOM_UNTIL,
-    GM_ROOM_MEASURES
-};
-
+/* A room: a system whose lines have, beside those of systems, these items. Nodes: side: left and right sides of its
+   conditions, whose signs are its text; time: the unit; graph: low, high, or none. Values: levels; profile: both
+   ends and the number of points, its words are the letters of its quantities and its text is a label; table: positions
+   and values on the profile in its words, if the parameter in its text is item.value. colours: the end of the
+   colours of `name` is item.value. */
 struct gm_room {
-    struct gm_arena *arena; /* all that is read */
-    struct gm_fault *fault; /* of the text, while it is read or a flow is made */
-    char *text;             /* text of the file */
-    size_t length;
+    struct gm_user_system system;
     struct gm_read_line *said; /* its lines that hold */
     size_t said_count;
-    struct gm_formula graph;
-    double *scratch; /* a number for each node of the graph */
+    double *values, *scratch; /* of the system's variables; of the nodes of its graph */
     struct gm_room_line *lines;
     size_t count;
-    struct gm_written_choices choices;
-    struct gm_room_parameter *parameters;
-    size_t parameter_count;
     bool rectangular; /* the mesh is a rectangle; its edges and strips are parameters */
     struct gm_rectangle rectangle;
-    char edges[GM_ROOM_NAME], strips[GM_ROOM_NAME];
-    long multiple;                     /* divisor of the number of edges; 0: none */
-    double fixed[8];                   /* points of the rectangle that are vertices */
-    double measures[GM_ROOM_MEASURES]; /* NAN: not known */
-    bool from_file; /* a parameter names the mesh; parameters named like sides name its groups */
+    char *edges, *strips;
+    long multiple;   /* divisor of the number of edges; 0: none */
+    double fixed[8]; /* points of the rectangle that are vertices */
+    bool from_file;  /* a parameter names the mesh; parameters named like sides name its groups */
     enum gm_vertex_kind outlet;
-    bool unsolved;                      /* the exact solution does not hold */
-    char *title, *about, *mesh, *units; /* NULL: not given */
-    char *scalar;                       /* name of the carried scalar in pictures; NULL: a concentration */
+    bool unsolved; /* the exact solution does not hold */
     double viscosity, diffusivity, reynolds,
-        schmidt; /* NAN: not given; the first two follow from the others */
-    bool timed;  /* a boundary value depends on t */
-    double dt, until;
-    struct gm_room_range dt_range;
+        schmidt;                            /* NAN: not given; the first two follow from the others */
+    bool timed;                             /* a boundary value depends on t */
     double buoyancy, reference_temperature; /* NAN: without heat */
 };
 
 /* A text, which is copied, and the values that a caller gives. */
-struct gm_system_value;
 struct gm_room_input {
     const char *text;
     size_t length;
@@ -129,26 +106,14 @@ struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault 
 /* Closes a room that was opened; it may be NULL. */
 void gm_room_close(struct gm_room *room);
 
-/* The rest of what is read in the same body: words in the room's memory; a fault, which leaves the body; and
-   leaving it if another function has set the fault. */
-char *gm_room_keep(const struct gm_room *room, struct gm_span span);
-__attribute__((format(printf, 3, 4))) _Noreturn void gm_room_refuse(const struct gm_room *room, size_t place,
-                                                                    const char *format, ...);
-void gm_room_need(const struct gm_room *room, bool good);
-
-/* The value of line number `number`, from 0, of the lines that begin with `word`; false if there are
-   fewer. */
-bool gm_room_said(const struct gm_room *room, const char *word, size_t number, struct gm_span *value);
-/* The rest of the piece that begins with `word`, after a semicolon of a line; false without one. */
-bool gm_room_option(const struct gm_room *room, struct gm_span pieces, const char *word,
-                    struct gm_span *value);
-/* A number computed from parameters; false with a fault. */
-bool gm_room_number(const struct gm_room *room, struct gm_span span, double *number, struct gm_fault *fault);
-/* low .. high */
-bool gm_room_range_of(const struct gm_room *room, struct gm_span span, struct gm_room_range *range,
-                      struct gm_fault *fault);
-/* Returns the parameter of that name, or NULL. */
-const struct gm_room_parameter *gm_room_parameter(const struct gm_room *room, const char *name);
+/* The first line with this word, or NULL. */
+const struct gm_read_line *gm_room_said(const struct gm_room *room, enum gm_system_word word);
+/* The parameter of that name, or NULL. Its value is NAN if it is a word; its text may be "". */
+const struct gm_system_variable *gm_room_parameter(const struct gm_room *room, const char *name);
+/* The number of a line dt: or until:, or `otherwise`. */
+double gm_room_timing(const struct gm_room *room, enum gm_system_word word, double otherwise);
+/* The value of an item's node; NAN if it needs a measure that is not known yet. */
+double gm_room_evaluate(const struct gm_room *room, gm_node_id node);
 
 /* The line with this word and without a name, or NULL. */
 const struct gm_room_line *gm_room_line(const struct gm_room *room, enum gm_room_word word);

@@ -134,6 +134,46 @@ static void add_parameter(struct gm_reading *reading, const struct gm_read_line 
     }
 }
 
+/* parameter: NAME = value; low .. high; meaning, of a room: a number, or a word that formulas cannot hold */
+static void add_key(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = line->value, after, head, piece;
+    gm_span_take(reading->text, &rest, ";", &head);
+    const struct gm_target target = gm_reading_target(reading, &head);
+    head = gm_span_trimmed(reading->text, head);
+    const bool assigned = head.begin < head.end;
+    gm_system_refuse_if(system, target.index.begin < target.index.end, target.index.begin,
+                        "a room has no lists");
+    gm_system_refuse_if(system, assigned && reading->text[head.begin] != '=', head.begin, "= was expected");
+    struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_PARAMETER);
+    struct gm_written_range range = {NAN, NAN, rest, rest};
+    after = rest;
+    if (gm_span_take(reading->text, &after, ";", &piece) &&
+        gm_span_until(reading->text, piece, "..") < piece.end) {
+        range = gm_reading_range(reading, piece);
+        range.meaning = after;
+    }
+    const char *text = gm_reading_text(reading, (struct gm_span){head.begin + assigned, head.end});
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", gm_brief_length(entry.length), entry.name);
+    for (size_t i = 0; i < reading->value_count; i++) {
+        text = strcmp(reading->values[i].name, name) == 0 ? reading->values[i].text : text;
+    }
+    double value = NAN;
+    gm_number_parse(text, &value);
+    entry.number = reading->parameter_count++;
+    entry.read = true;
+    entry.node = gm_formula_constant(&system->graph, value);
+    struct gm_system_variable *variable = add_name(reading, entry);
+    variable->value = value;
+    variable->low = range.low;
+    variable->high = range.high;
+    variable->text = gm_arena_print(system->arena, "%s", text);
+    variable->meaning = gm_reading_text(reading, range.meaning);
+    variable->start_place = entry.place;
+}
+
 /* Replaces values of the file by the given ones. */
 static void give(struct gm_reading *reading)
 {
@@ -196,13 +236,19 @@ void gm_declared_parameters(struct gm_reading *reading)
                                                   .place = choices->list[i].place,
                                                   .role = GM_ENTRY_CHOICE});
     }
-    for (int lists = 0; lists < 2; lists++) {
+    const bool room = gm_system_is_room(system);
+    for (int lists = room; lists < 2; lists++) {
         for (size_t i = 0; i < reading->line_count; i++) {
-            if (reading->lines[i].word == GM_WORD_PARAMETER) {
+            if (reading->lines[i].word == GM_WORD_PARAMETER && room) {
+                add_key(reading, &reading->lines[i]);
+            } else if (reading->lines[i].word == GM_WORD_PARAMETER) {
                 add_parameter(reading, &reading->lines[i], lists);
             }
         }
         give(reading);
+    }
+    if (room) {
+        return;
     }
     if (gm_system_is_field(system)) {
         add_ring(reading);
@@ -464,7 +510,7 @@ static void arrange(struct gm_reading *reading)
 static void add_place(struct gm_reading *reading, const char *name, size_t offset)
 {
     add_name(reading, (struct gm_entry){.name = name,
-                                        .length = 1,
+                                        .length = strlen(name),
                                         .place = offset,
                                         .role = GM_ENTRY_VELOCITY,
                                         .number = reading->velocity_count++});
@@ -595,6 +641,10 @@ void gm_declared_state(struct gm_reading *reading)
         }
     } else if (kind == GM_MATRICES) {
         add_counted(reading, components, 2, GM_MOST_OF_MATRICES, "components, as in components: u v w");
+    } else if (kind == GM_ROOM) {
+        for (size_t i = 0; i < GM_ROOM_VARIABLES; i++) {
+            add_place(reading, gm_room_variables[i], 0);
+        }
     } else if (kind == GM_FORMS) {
         add_forms(reading, GM_WORD_FIELD);
         add_forms(reading, GM_WORD_UNKNOWN);
@@ -712,7 +762,7 @@ void gm_declared_lets(struct gm_reading *reading)
 {
     add_functions(reading);
     for (size_t i = 0; i < reading->line_count; i++) {
-        const bool observed = reading->lines[i].word == GM_WORD_OBSERVE;
+        const bool observed = reading->lines[i].word == GM_WORD_OBSERVE && reading->system->kind != GM_ROOM;
         struct gm_span value = reading->lines[i].value;
         value.end = observed ? gm_span_until(reading->text, value, ";") : value.end;
         if ((reading->lines[i].word != GM_WORD_LET && !observed) ||

@@ -53,12 +53,24 @@ void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *ite
     }
 }
 
-static void add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+static struct gm_system_option *add_option(struct gm_reading *reading, struct gm_system_item *item,
+                                           enum gm_system_option_word word, size_t place)
+{
+    gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options);
+    struct gm_system_option *option = &item->options[item->option_count++];
+    *option = (struct gm_system_option){.word = word, .place = place, .node = GM_NO_NODE};
+    return option;
+}
+
+static void put_number(struct gm_reading *reading, struct gm_system_option *option, double number)
 {
     gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers);
-    const double number = gm_reading_number(reading, span);
     option->numbers[option->count++] = number;
-    gm_system_refuse_if(reading->system, !isfinite(number), span.begin, "this is not a finite number");
+}
+
+static void add_number(struct gm_reading *reading, struct gm_system_option *option, struct gm_span span)
+{
+    put_number(reading, option, gm_reading_finite(reading, span));
 }
 
 /* Numbers separated by commas; "usual" stands for the default list. */
@@ -68,6 +80,21 @@ static void add_numbers(struct gm_reading *reading, struct gm_system_option *opt
     while (!gm_span_is(reading->text, rest, "usual") && gm_span_take(reading->text, &rest, ",", &piece)) {
         add_number(reading, option, piece);
     }
+}
+
+void gm_item_number(struct gm_reading *reading, struct gm_system_item *item, double number)
+{
+    struct gm_system_option *option = item->options;
+    put_number(reading, option ? option : add_option(reading, item, GM_OPTION_VALUES, item->place), number);
+}
+
+size_t gm_item_numbers(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
+{
+    struct gm_span piece;
+    while (gm_span_take(reading->text, &rest, ",", &piece)) {
+        gm_item_number(reading, item, gm_reading_finite(reading, piece));
+    }
+    return item->options ? item->options->count : 0;
 }
 
 /* low .. high */
@@ -174,11 +201,8 @@ static void read_option(struct gm_reading *reading, struct gm_system_item *item,
     gm_system_refuse_if(reading->system, !is_range && some != (rows[row].follows != NOTHING),
                         some ? value.begin : piece.begin,
                         some ? "nothing follows the option %s" : "the option %s needs a value", word);
-    gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options);
-    struct gm_system_option *option = &item->options[item->option_count++];
-    *option = (struct gm_system_option){
-        .word = (enum gm_system_option_word)row, .place = piece.begin, .node = GM_NO_NODE};
-    read_value(reading, option, is_range ? piece : value);
+    read_value(reading, add_option(reading, item, (enum gm_system_option_word)row, piece.begin),
+               is_range ? piece : value);
 }
 
 void gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest)
@@ -201,7 +225,10 @@ static void read_braces(struct gm_reading *reading, struct gm_system_item *item,
         format.begin, "a value is written as {x}, {x:pi}, {x:T}, {x:/}, {x:nonzero} or {x:s}");
     const char *name = reading->text + formula.begin;
     const size_t length = gm_name_length(name, formula.end - formula.begin);
-    const bool is_key = gm_reading_reserves(name, length) && !gm_formula_reserves(name, length) &&
+    const bool named = gm_reading_reserves(name, length) ||
+                       (gm_system_is_room(reading->system) && /* which has keys from lines */
+                        gm_line_word(reading->words, reading->text, formula) < GM_WORDS),
+               is_key = named && !gm_formula_reserves(name, length) &&
                         !gm_reading_entry(reading, name, length, false, 0);
     formula.begin += is_key ? length : 0;
     const bool alone = is_key && formula.begin == formula.end;

@@ -12,7 +12,7 @@
 
 static const struct gm_span nameless = {0, 0};
 
-static struct gm_system_item *add_item(struct gm_reading *reading, const struct gm_read_line *line,
+struct gm_system_item *gm_reading_item(struct gm_reading *reading, const struct gm_read_line *line,
                                        struct gm_span name)
 {
     struct gm_user_system *system = reading->system;
@@ -180,7 +180,8 @@ static void read_symmetry(struct gm_reading *reading, const struct gm_read_line 
     struct gm_user_system *system = reading->system;
     struct gm_span rest = line->value, piece;
     const bool named = gm_span_until(reading->text, rest, ";") < rest.end;
-    struct gm_system_item *item = add_item(reading, line, named ? take_piece(reading, &rest) : nameless);
+    struct gm_system_item *item =
+        gm_reading_item(reading, line, named ? take_piece(reading, &rest) : nameless);
     const size_t size = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
     for (size_t i = 0; i < size; i++) {
         gm_item_add(reading, item, gm_formula_constant(&system->graph, 0));
@@ -209,7 +210,7 @@ static void read_named(struct gm_reading *reading, const struct gm_read_line *li
     const bool indexed = target.index.begin < target.index.end;
     gm_system_refuse_if(system, indexed && reading->counter.begin == reading->counter.end, target.index.begin,
                         "this name has no index");
-    struct gm_system_item *item = add_item(reading, line, target.name);
+    struct gm_system_item *item = gm_reading_item(reading, line, target.name);
     if (indexed) {
         number_item(reading, item, target.index);
     }
@@ -255,7 +256,7 @@ static void read_requirement(struct gm_reading *reading, const struct gm_read_li
 {
     struct gm_span rest = line->value;
     const struct gm_span formula = take_piece(reading, &rest);
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     rest = gm_span_trimmed(reading->text, rest);
     gm_system_refuse_if(reading->system, rest.begin == rest.end, formula.end,
                         "a sentence was expected: %s: F; it says why not", word_of(line));
@@ -267,7 +268,7 @@ static void read_requirement(struct gm_reading *reading, const struct gm_read_li
 static void read_level(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value, piece = take_piece(reading, &rest);
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     item->in_section = gm_span_is(reading->text, piece, "section");
     if (item->in_section) {
         piece = take_piece(reading, &rest);
@@ -300,7 +301,8 @@ static void read_optional(struct gm_reading *reading, const struct gm_read_line 
 {
     struct gm_span rest = line->value;
     const bool named = line->word == GM_WORD_GRAPH || line->word == GM_WORD_FIGURE;
-    struct gm_system_item *item = add_item(reading, line, named ? take_piece(reading, &rest) : nameless);
+    struct gm_system_item *item =
+        gm_reading_item(reading, line, named ? take_piece(reading, &rest) : nameless);
     if (line->word != GM_WORD_GRAPH) {
         item->words = take_words(reading, &rest);
     }
@@ -319,7 +321,7 @@ static void read_section(struct gm_reading *reading, const struct gm_read_line *
 {
     const char *text = reading->text;
     struct gm_span rest = line->value, where = take_piece(reading, &rest), condition, piece;
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     item->periodic = where.end - where.begin > 6 && memcmp(text + where.begin, "every ", 6) == 0;
     where.begin += item->periodic ? 6 : 0;
     gm_span_take(text, &where, ",", &condition);
@@ -359,7 +361,7 @@ static size_t dimensions_of(const struct gm_system_item *item)
 static void read_view(struct gm_reading *reading, const struct gm_read_line *line)
 {
     const struct gm_user_system *system = reading->system;
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     struct gm_span rest = line->value, piece;
     const size_t wanted = line->word == GM_WORD_ROD ? 2 : 1;
     size_t ends = 0, dimensions = 0;
@@ -389,7 +391,7 @@ static void read_surface(struct gm_reading *reading, const struct gm_read_line *
 {
     static const char *const shapes[] = {"sphere", "ellipsoid", NULL};
     struct gm_span rest = line->value;
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     const struct gm_span word = take_piece(reading, &rest);
     const size_t shape = gm_span_among(reading->text, word, shapes);
     const bool sphere = shape == 0;
@@ -454,7 +456,7 @@ static void read_angles(struct gm_reading *reading, const struct gm_read_line *l
 static void read_weight(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_span rest = line->value;
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     add_formula(reading, item, take_piece(reading, &rest));
     gm_options_read(reading, item, rest);
 }
@@ -490,7 +492,7 @@ static void read_generator(struct gm_reading *reading, const struct gm_read_line
         if (item) {
             add_formula(reading, item, word);
         } else {
-            item = add_item(reading, line, word);
+            item = gm_reading_item(reading, line, word);
         }
         at = word.end + strspn(reading->text + word.end, " \t\r\n");
     }
@@ -590,7 +592,7 @@ static void read_compiled(struct gm_reading *reading, const struct gm_read_line 
     const size_t variable = system->parameters + entry->number;
     if (!gm_reading_bounds(reading, value, "graphs", &low, &high)) {
         const double number = gm_reading_number(reading, value);
-        struct gm_system_item *item = add_item(reading, line, name);
+        struct gm_system_item *item = gm_reading_item(reading, line, name);
         item->value = number;
         item->variable = variable;
     }
@@ -611,7 +613,7 @@ static void read_energy(struct gm_reading *reading, const struct gm_read_line *l
     const struct gm_span energy = take_piece(reading, &rest);
     rest = gm_span_trimmed(reading->text, rest);
     if (rest.begin < rest.end) {
-        gm_options_read(reading, add_item(reading, line, nameless), rest);
+        gm_options_read(reading, gm_reading_item(reading, line, nameless), rest);
     }
     reading->system->energy = gm_reading_formula(reading, energy);
 }
@@ -654,7 +656,7 @@ static void read_timing(struct gm_reading *reading, const struct gm_read_line *l
                         "%s is %g, and its range is from %g to %g", word_of(line), number, range.low,
                         range.high);
     reading->system->texts[line->word] = gm_reading_text(reading, value);
-    struct gm_system_item *item = add_item(reading, line, key);
+    struct gm_system_item *item = gm_reading_item(reading, line, key);
     add_formula(reading, item, value);
     item->value = number;
     item->low = range.low;
@@ -678,7 +680,7 @@ static void read_tie(struct gm_reading *reading, const struct gm_read_line *line
                         line->value.begin,
                         "tie: is the step as a multiple of a parameter, as in dt = courant*dx");
     const size_t variable = reading->system->parameters + entry->number;
-    struct gm_system_item *item = add_item(reading, line, key);
+    struct gm_system_item *item = gm_reading_item(reading, line, key);
     item->variable = variable;
     add_formula(reading, item, (struct gm_span){times + 1, product.end});
 }
@@ -701,7 +703,7 @@ static void read_mesh(struct gm_reading *reading, const struct gm_read_line *lin
 static void read_shown_text(struct gm_reading *reading, const struct gm_read_line *line)
 {
     read_text(reading, line);
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     gm_text_read(reading, item, line->value);
     gm_system_refuse_if(reading->system,
                         line->word == GM_WORD_TITLE && item->count > 0 &&
@@ -717,7 +719,7 @@ static void read_held(struct gm_reading *reading, const struct gm_read_line *lin
     const struct gm_target target =
         gm_reading_assignment(reading, gm_reading_between(reading, part.end, line->value.end));
     const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
-    struct gm_system_item *item = add_item(reading, line, part);
+    struct gm_system_item *item = gm_reading_item(reading, line, part);
     add_formula(reading, item, target.value);
     item->variable = entry->number;
     if (entry->role == GM_ENTRY_NAMED) {
@@ -752,13 +754,13 @@ static void read_function(struct gm_reading *reading, const struct gm_read_line 
 
 static void read_formula(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    add_formula(reading, add_item(reading, line, nameless), line->value);
+    add_formula(reading, gm_reading_item(reading, line, nameless), line->value);
 }
 
 /* The values at both ends, of the colours or of the line. */
 static void read_pair(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     gm_item_add_formulas(reading, item, line->value);
     gm_system_refuse_if(reading->system, item->count != 2, line->value.begin,
                         "%s: are two values, as in %s: -1, 1", word_of(line), word_of(line));
@@ -790,7 +792,9 @@ static void read_counted(struct gm_reading *reading, const struct gm_read_line *
     if (gm_system_words[line->word].identity == GM_LINE_ONCE || head.end == line->value.end ||
         equals == head.end || name == 0 || counter.end != counter.begin + name ||
         gm_span_until(reading->text, bounds, "..") == bounds.end) {
-        readers[line->word](reading, line);
+        if (!(reading->line && reading->line(reading, line))) {
+            readers[line->word](reading, line);
+        }
         return;
     }
     gm_system_refuse_if(reading->system, gm_reading_named(reading, counter), counter.begin,
@@ -818,7 +822,7 @@ static void name_parts(struct gm_reading *reading)
         }
         const struct gm_read_line line = {GM_WORD_LET, entry->place, entry->value};
         struct gm_system_item *item =
-            add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
+            gm_reading_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
         if (entry->indexed) {
             item->name = gm_arena_print(system->arena, "%s[%ld]", item->name, entry->index);
         }
@@ -858,8 +862,9 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
 }
 
 /* Moves the formulas of forms to their declarations. Fields have a rate and a start, unknowns an equation. */
-static void complete_forms(struct gm_user_system *system)
+static void complete_forms(struct gm_reading *reading)
 {
+    struct gm_user_system *system = reading->system;
     for (size_t i = 0; i < system->n; i++) {
         struct gm_form_declared *form = &system->forms[i];
         struct gm_system_variable *variable = &system->variables[i];
@@ -917,10 +922,10 @@ static void complete(struct gm_reading *reading)
     }
 }
 
-static void read_system(struct gm_arena *arena, void *data)
+void gm_reading_read(struct gm_reading *reading)
 {
-    struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
+    struct gm_arena *arena = system->arena;
     gm_system_refuse_if(system, reading->length > GM_LARGEST_SYSTEM, 0, "a system has at most 100 MB");
     system->source = gm_arena_take(arena, reading->length + 1, 1); /* it ends with a zero */
     system->length = reading->length;
@@ -929,7 +934,9 @@ static void read_system(struct gm_arena *arena, void *data)
         gm_arena_leave(arena);
     }
     gm_reading_lines(reading);
-    gm_declared_kind(reading);
+    if (system->kind != GM_ROOM) {
+        gm_declared_kind(reading);
+    }
     gm_declared_functions(reading);
     gm_declared_parameters(reading);
     gm_declared_state(reading);
@@ -955,13 +962,17 @@ static void read_system(struct gm_arena *arena, void *data)
             gm_reading_check(reading, &reading->definitions[i]);
         }
     }
-    check_space(reading);
-    if (gm_system_is_form(system)) {
-        complete_forms(system);
-    } else {
-        complete(reading);
+    if (system->kind != GM_ROOM) {
+        check_space(reading);
+        (gm_system_is_form(system) ? complete_forms : complete)(reading);
     }
     name_parts(reading);
+}
+
+static void read_system(struct gm_arena *arena, void *data)
+{
+    (void)arena;
+    gm_reading_read(data);
 }
 
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,

@@ -24,6 +24,9 @@ enum {
     EVOLUTION = 1 << GM_EVOLUTION,
     MATRICES = 1 << GM_MATRICES,
     FORMS = 1 << GM_FORMS,
+    ROOM = 1 << GM_ROOM,
+    IN_BLOCKS = 1 << GM_SYSTEM_KINDS,
+    FREE = ROOM | IN_BLOCKS,
     LINE = FIELD | EVOLUTION | MATRICES,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
     ANY = MOTION | LINE | FORMS
@@ -36,7 +39,10 @@ const struct gm_line_word gm_system_words[GM_WORDS] = {
 };
 
 static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS,
-                                           "; docs/systems.md names them"};
+                                           "; docs/systems.md names them", ANY},
+                                  words_of_rooms = {
+                                      "a room", gm_system_words, GM_WORDS,
+                                      "; geomint list office --source prints a room with its lines", ROOM};
 
 void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
 {
@@ -54,9 +60,11 @@ void gm_reading_refuse_second(struct gm_reading *reading, size_t place, const st
 void gm_reading_lines(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
-    struct gm_read_lines lines = {.words = &words,
+    const bool room = gm_system_is_room(system);
+    reading->words = room ? &words_of_rooms : &words;
+    struct gm_read_lines lines = {.words = reading->words,
                                   .choices = &system->choices,
-                                  .inside = ~0u,
+                                  .inside = room ? IN_BLOCKS : ~0u,
                                   .text = reading->text,
                                   .span = {0, reading->length}};
     bool good = gm_choices_read(&system->choices, reading->text, reading->length, system->fault);
@@ -162,6 +170,22 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
            entry->name[0] == 'x';
 }
 
+const char *const gm_room_variables[GM_ROOM_VARIABLES] = {
+    "s", "x", "y", "perimeter", "area", "inlet_length", "until"};
+
+/* True for a name that a room reserves: of its variables, and all that systems reserve, except show. */
+static bool is_of_room(const struct gm_entry *entry)
+{
+    size_t i = 0;
+    while (i < GM_ROOM_VARIABLES && (strlen(gm_room_variables[i]) != entry->length ||
+                                     memcmp(gm_room_variables[i], entry->name, entry->length) != 0)) {
+        i++;
+    }
+    return entry->role != GM_ENTRY_VELOCITY && entry->role != GM_ENTRY_TIME &&
+           (i < GM_ROOM_VARIABLES || (gm_reading_reserves(entry->name, entry->length) &&
+                                      !(entry->length == 4 && memcmp(entry->name, "show", 4) == 0)));
+}
+
 static enum gm_form_operator operator_of(const char *name, size_t length);
 
 /* Doubles the capacity of entries and of their table. */
@@ -187,13 +211,16 @@ void gm_reading_add(struct gm_reading *reading, struct gm_entry entry)
                         "x is the place in a field: take another name");
     const size_t word = gm_line_word(&words, entry.name, (struct gm_span){0, entry.length});
     /* a choice between starts may be called so */
-    const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START;
-    gm_system_refuse_if(reading->system,
-                        is_word || is_of_ring(reading, &entry) ||
-                            (gm_system_is_form(reading->system) &&
-                             operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
-                            (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length)),
-                        entry.place, "the name %.*s" GM_RESERVED, gm_brief_length(entry.length), entry.name);
+    const bool is_word = entry.role == GM_ENTRY_CHOICE && word < GM_WORDS && word != GM_WORD_START,
+               room = gm_system_is_room(reading->system);
+    gm_system_refuse_if(
+        reading->system,
+        room ? is_of_room(&entry)
+             : is_word || is_of_ring(reading, &entry) ||
+                   (gm_system_is_form(reading->system) &&
+                    operator_of(entry.name, entry.length) < GM_FORM_OPERATORS) ||
+                   (entry.role != GM_ENTRY_TIME && gm_reading_reserves(entry.name, entry.length)),
+        entry.place, "the name %.*s" GM_RESERVED, gm_brief_length(entry.length), entry.name);
     if (reading->entry_count == reading->entry_capacity) {
         grow(reading);
     }
@@ -255,10 +282,13 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
     const int brief = gm_brief_length(name->length);
-    const bool fixed = name->fixed || reading->fixed;
+    const bool room = gm_system_is_room(system), fixed = name->fixed || reading->fixed;
     struct gm_entry *entry = gm_reading_entry(reading, name->text, name->length, name->indexed, name->index);
     if (!entry) {
         return refuse_index(reading, name, sentence);
+    }
+    if (room && entry->role == GM_ENTRY_PARAMETER && isnan(system->graph.nodes[entry->node].value)) {
+        return refuse(sentence, "%s is a word, not a number", entry->name);
     }
     if (entry->role == GM_ENTRY_CHOICE) {
         return refuse(sentence, "%s is a choice of words: write lines below \"when: %s = ...\"", entry->name,
@@ -290,13 +320,14 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                             [GM_ENTRY_TIME] = system->n};
     if (entry->role >= GM_ENTRY_NAMED) {
         *node = entry->node;
-    } else if (entry->role == GM_ENTRY_PARAMETER && fixed) {
+    } else if (entry->role == GM_ENTRY_PARAMETER && (fixed || room)) {
         system->variables[system->parameters + entry->number].fixed |= name->fixed || reading->structural;
         *node = entry->node;
     } else {
         *node = gm_formula_variable(&system->graph, first[entry->role] + entry->number);
     }
-    return GM_KNOWN;
+    const char *why = reading->withheld ? reading->withheld(reading, *node) : NULL;
+    return why ? refuse(sentence, "%s", why) : GM_KNOWN;
 }
 
 struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name, size_t length)
@@ -385,7 +416,7 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .call = calls ? call : NULL,
                              .data = reading,
                              .lines = true,
-                             .initial = !form,
+                             .initial = !form && !gm_system_is_room(reading->system),
                              .exact = reading->exact};
 }
 
@@ -521,6 +552,13 @@ double gm_reading_number(struct gm_reading *reading, struct gm_span span)
     const gm_node_id node = gm_reading_formula(reading, span);
     reading->fixed = was_fixed;
     return reading->system->graph.nodes[node].value;
+}
+
+double gm_reading_finite(struct gm_reading *reading, struct gm_span span)
+{
+    const double number = gm_reading_number(reading, span);
+    gm_system_refuse_if(reading->system, !isfinite(number), span.begin, "this is not a finite number");
+    return number;
 }
 
 /* Reads a whole number on which the graph depends. */

@@ -41,6 +41,7 @@ struct gm_reading {
     const char *text;
     size_t length;
     struct gm_arena *scratch; /* until the text is read */
+    const struct gm_line_words *words;
     struct gm_read_line *lines;
     size_t line_count;
     struct gm_entry *entries;
@@ -59,12 +60,22 @@ struct gm_reading {
     size_t definition_count;
     const struct gm_system_value *values; /* given by the caller */
     size_t value_count;
+    /* Rooms only: reads a line, or returns false to leave it to the reader of systems; and returns why a formula
+       may not hold a part, or NULL. */
+    bool (*line)(struct gm_reading *reading, const struct gm_read_line *line);
+    const char *(*withheld)(struct gm_reading *reading, gm_node_id part);
 };
+
+/* Reads the whole text, of a system whose kind is found first, or of a room. In a body of the system's arena. */
+void gm_reading_read(struct gm_reading *reading);
+/* Adds an item of a line. */
+struct gm_system_item *gm_reading_item(struct gm_reading *reading, const struct gm_read_line *line,
+                                       struct gm_span name);
 
 /* True if exact(NAME) has a meaning for such a system. */
 static inline bool gm_reading_has_solution(const struct gm_reading *reading)
 {
-    return !gm_system_is_field(reading->system) && !gm_system_is_form(reading->system);
+    return reading->system->kind <= GM_POISSON;
 }
 
 /* Reserves room, in the system's memory, for one more element of an array of `count`, which doubles when
@@ -86,6 +97,8 @@ struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin
 /* True if a name is a key of command lines, a column of tables or a function. */
 #define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
 bool gm_reading_reserves(const char *name, size_t length);
+/* The names of a room's last variables. */
+extern const char *const gm_room_variables[GM_ROOM_VARIABLES];
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,
                                   bool indexed, long index);
@@ -111,6 +124,8 @@ gm_node_id gm_reading_bound(struct gm_reading *reading, struct gm_span span, con
                             long element);
 /* Reads a number in parameters alone. */
 double gm_reading_number(struct gm_reading *reading, struct gm_span span);
+/* Reads such a number that has to be finite. */
+double gm_reading_finite(struct gm_reading *reading, struct gm_span span);
 /* Reads a whole number on which the graph depends. */
 long gm_reading_whole(struct gm_reading *reading, struct gm_span span);
 /* Reads low .. high, at most GM_MOST_COMPONENTS of `what`; high = low - 1: none. False: the span has no bounds. */
@@ -149,6 +164,10 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
 /* Adds a node, or the nodes of formulas separated by commas, to an item. */
 void gm_item_add(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node);
 void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
+/* Adds a number, or numbers separated by commas, to the values of an item without other options; returns how
+   many it has now. */
+void gm_item_number(struct gm_reading *reading, struct gm_system_item *item, double number);
+size_t gm_item_numbers(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
 /* Reads options, separated by semicolons, into the item of their line. */
 void gm_options_read(struct gm_reading *reading, struct gm_system_item *item, struct gm_span rest);
 /* Reads a text with {FORMULA}, {FORMULA:pi} and the like into an item. The formulas become its nodes, in

@@ -19,6 +19,7 @@ enum gm_system_kind {
     GM_EVOLUTION,  /* fields u, v .. of x and t, with their rates, or rates of their masses */
     GM_MATRICES,   /* components z of x and t: K z_t + L z_x = grad S(z), K and L skew */
     GM_FORMS,      /* discrete differential forms on triangles, with their rates or equations */
+    GM_ROOM,       /* a flow in a room (core/flow/room.h), which reads lines of its own */
     GM_SYSTEM_KINDS
 };
 
@@ -39,6 +40,19 @@ enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
 enum { GM_MOST_TANGENTS = 8 };
 /* The most components of a system of matrices. */
 enum { GM_MOST_OF_MATRICES = 8 };
+
+/* The last variables of a room, which is given at a place and a time: the part of an inlet, the place, and
+   measures of its flow, once that is made. Parameters are constants in its formulas. */
+enum gm_room_variable {
+    GM_ROOM_PART,
+    GM_ROOM_AT_X,
+    GM_ROOM_AT_Y,
+    GM_ROOM_PERIMETER,
+    GM_ROOM_AREA,
+    GM_ROOM_INLET_LENGTH,
+    GM_ROOM_UNTIL,
+    GM_ROOM_VARIABLES
+};
 
 /* The operators of forms: what a formula of a GM_FORMS system may call. */
 enum gm_form_operator {
@@ -193,6 +207,12 @@ void gm_system_need_graph(const struct gm_user_system *system);
 static inline bool gm_system_is_field(const struct gm_user_system *system)
 {
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
+}
+
+/* True for a room. */
+static inline bool gm_system_is_room(const struct gm_user_system *system)
+{
+    return system->kind == GM_ROOM;
 }
 
 /* True for a system of forms on a mesh of triangles. */

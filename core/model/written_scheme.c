@@ -38,7 +38,7 @@ static const struct gm_line_word words[GM_SCHEME_WORDS] = {
 #undef GM_SCHEME_WORD
 };
 static const struct gm_line_words lines_of_schemes = {"a scheme", words, GM_SCHEME_WORDS,
-                                                      "; docs/own-schemes.md names them"};
+                                                      "; docs/own-schemes.md names them", 0};
 static const enum {
     TEXT,
     NAMED,

@@ -39,6 +39,24 @@ struct gm_parameter gm_written_row(struct gm_arena *arena, const struct gm_syste
     };
 }
 
+struct gm_parameter gm_written_choice(struct gm_arena *arena, const struct gm_user_system *system, size_t i,
+                                      const char *usual, size_t offset)
+{
+    const struct gm_written_choice *choice = &system->choices.list[i];
+    const char **words = gm_arena_take(arena, choice->count + 1, sizeof *words);
+    const char *meaning = gm_arena_keep(arena, gm_span_words(system->source, choice->meaning), free);
+    for (size_t k = 0; k < choice->count; k++) {
+        words[k] = choice->words[k];
+    }
+    return (struct gm_parameter){.key = choice->name,
+                                 .unit = "",
+                                 .help = meaning[0] ? meaning : usual,
+                                 .type = GM_CHOICE,
+                                 .offset = offset,
+                                 .standard = choice->words[choice->chosen],
+                                 .choices = words};
+}
+
 static void set_timing(struct gm_arena *arena, const struct gm_user_system *system, enum gm_system_word word,
                        double value, struct gm_parameter *row)
 {
@@ -85,6 +103,20 @@ void gm_written_options(struct gm_observable *observable, const struct gm_system
     observable->missing = gm_system_option_text(item, GM_OPTION_MISSING, observable->missing);
     observable->period = gm_system_option(item, GM_OPTION_ANGLE) ? 2 * M_PI : 0;
     observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);
+}
+
+void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene)
+{
+    const struct gm_system_item *item;
+    struct gm_figure *figures = NULL;
+    size_t count = 0;
+    for (; (item = gm_system_item_of(system, GM_WORD_FIGURE, count)); count++) {
+        figures = gm_arena_resize(arena, figures, count + 1, sizeof *figures);
+        figures[count] =
+            (struct gm_figure){.name = item->name, .statement = item->text, .arguments = item->words};
+    }
+    scene->figures = figures;
+    scene->figure_count = count;
 }
 
 size_t gm_written_schemes(struct gm_arena *arena, const char *text, const struct gm_problem *problem,

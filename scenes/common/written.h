@@ -16,6 +16,9 @@ const char *gm_written_number(struct gm_arena *arena, double value, const char *
    meaning. */
 struct gm_parameter gm_written_row(struct gm_arena *arena, const struct gm_system_variable *variable,
                                    double value, const char *usual, size_t offset);
+/* The row of a system's choice number `i`, whose values are its words. */
+struct gm_parameter gm_written_choice(struct gm_arena *arena, const struct gm_user_system *system, size_t i,
+                                      const char *usual, size_t offset);
 /* Sets the rows of dt and until: these defaults, and ranges and meanings from the system's lines. */
 void gm_written_timing(struct gm_arena *arena, const struct gm_user_system *system, double dt, double until,
                        struct gm_parameter *rows);
@@ -26,6 +29,9 @@ bool gm_listed_word(const char **list, char *word, size_t size);
 
 /* Applies the options of a system's line to its observable: title, unit, angle, log, missing. */
 void gm_written_options(struct gm_observable *observable, const struct gm_system_item *item);
+
+/* Takes the lines figure: of a system into its scene. */
+void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene);
 
 enum { GM_MOST_PREFERRED = 32 };
 /* Reads the schemes of a list separated by blanks or commas, at most GM_MOST_PREFERRED. Returns their number,

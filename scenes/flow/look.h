@@ -41,7 +41,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
 static inline const char *gm_room_text(struct gm_picture *picture, const struct gm_room *room,
                                        struct gm_span span)
 {
-    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->text + span.begin);
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->system.source + span.begin);
 }
 
 /* Draws a panel for each quantity of the profiles, the exact one broad and grey, published points in red;

@@ -213,7 +213,7 @@ static double profile_error(const struct gm_view *view)
     const double margin = 0.02;
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
     const struct gm_room_profile *line =
-        &user_room->profiles[user_room->subjects[view->observable - user_room->observables].number];
+        user_room->subjects[view->observable - user_room->observables].profile;
     double sum = 0;
     for (size_t i = 0; i < PLACES; i++) {
         const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),

@@ -10,8 +10,7 @@
 /* Returns true if published points hold for a lane's parameters. */
 static bool holds(const struct gm_room_table *table, const struct gm_flows *flows)
 {
-    return strcmp(flows->mesh, "none") == 0 &&
-           (!table->row || gm_parameter_get(table->row, flows) == table->value);
+    return strcmp(flows->mesh, "none") == 0 && gm_parameter_get(table->row, flows) == table->item->value;
 }
 
 /* Returns the coordinate that runs along a profile: 0, or 1 if it is steeper. */
@@ -32,10 +31,10 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
         return;
     }
     struct gm_panel *panel = gm_panel_add(picture, place, "");
-    struct gm_axis value = {.label = profile->label    ? profile->label
-                                     : quantity == 's' ? "θ"
-                                     : quantity == 'v' ? "v"
-                                                       : "u",
+    struct gm_axis value = {.label = profile->item->text ? profile->item->text
+                                     : quantity == 's'   ? "θ"
+                                     : quantity == 'v'   ? "v"
+                                                         : "u",
                             .low = 1,
                             .high = 0};
     for (size_t i = 0; i < POINTS; i++) {
@@ -70,9 +69,9 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
     if (!known) {
         gm_range_round(&value.low, &value.high, GM_LINEAR);
     }
-    if (!isnan(profile->range.least)) {
-        value.low = profile->range.least;
-        value.high = profile->range.most;
+    if (!isnan(profile->item->low)) {
+        value.low = profile->item->low;
+        value.high = profile->item->high;
     }
     const struct gm_axis axis = {.label = up ? "y" : "x", .low = profile->a[up], .high = profile->b[up]};
     panel->axes = true;
@@ -87,7 +86,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
         for (size_t i = 0; i < user_room->table_count; i++) {
             const struct gm_room_table *table = &user_room->tables[i];
             size_t published = 0;
-            for (size_t p = 0; table->profile == profile && quantity == profile->quantities[0] &&
+            for (size_t p = 0; table->profile == profile && quantity == profile->item->words[0] &&
                                holds(table, lanes[k]->parameters) && p < table->count && published < POINTS;
                  p++) {
                 double *point = points[count + 1] + 2 * published;
@@ -99,11 +98,8 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                            points[count + 1], published);
         }
     }
-    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
-    struct gm_span caption;
-    picture->caption = gm_room_said(room, "caption", 0, &caption) ? gm_room_text(picture, room, caption)
-                       : known                                    ? "Grey, broad: exact."
-                                                                  : "";
+    const char *caption = gm_room_of(&lanes[0]->problem)->system.texts[GM_WORD_CAPTION];
+    picture->caption = caption ? gm_picture_text(picture, "%s", caption) : known ? "Grey, broad: exact." : "";
 }
 
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
@@ -111,7 +107,7 @@ void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, str
 {
     const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        for (const char *what = user_room->profiles[i].quantities; *what; what++) {
+        for (const char *what = user_room->profiles[i].item->words; *what; what++) {
             draw_profile(picture, lanes, count, place, &user_room->profiles[i], *what);
         }
     }
@@ -141,17 +137,17 @@ void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE 
         for (size_t k = 0; holds(table, view->parameters) && k < table->count; k++) {
             double at[2] = {profile->a[0], profile->a[1]};
             at[along(profile)] = table->points[2 * k];
-            write_sample(view, front, table->name, at[0], at[1], table->points[2 * k + 1], stream);
+            write_sample(view, front, table->item->name, at[0], at[1], table->points[2 * k + 1], stream);
         }
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
         const struct gm_room_profile *profile = &user_room->profiles[i];
-        const char quantity = profile->quantities[0];
+        const char quantity = profile->item->words[0];
         for (size_t k = 0; k < profile->count; k++) {
             const double s = (double)k / (double)(profile->count - 1),
                          at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
                                   profile->a[1] + s * (profile->b[1] - profile->a[1])};
-            write_sample(view, front, profile->name, at[0], at[1],
+            write_sample(view, front, profile->item->name, at[0], at[1],
                          quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
         }
     }

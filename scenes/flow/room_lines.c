@@ -12,107 +12,38 @@
 #include "core/schemes.h"
 #include "scenes/common/written.h"
 
-/* Returns the text of the only line that begins so; NULL without such a line. */
-static const char *said(const struct gm_room *room, const char *word)
+/* Returns the schemes of a list, NULL-terminated, which must be schemes for flows; NULL: none. */
+static const char *const *list_schemes(const struct gm_user_room *user_room, const char *text, size_t place)
 {
-    struct gm_span value;
-    return gm_room_said(room, word, 0, &value) ? gm_room_keep(room, value) : NULL;
-}
-
-/* Returns the text of an option; NULL if it is not given. */
-static const char *option(const struct gm_room *room, struct gm_span pieces, const char *word)
-{
-    struct gm_span value;
-    return gm_room_option(room, pieces, word, &value) ? gm_room_keep(room, value) : NULL;
-}
-
-static const char *take(const struct gm_room *room, struct gm_span *rest, const char *separator)
-{
-    struct gm_span piece;
-    gm_span_take(room->text, rest, separator, &piece);
-    return gm_room_keep(room, piece);
-}
-
-static double number(const struct gm_room *room, struct gm_span span)
-{
-    double value;
-    gm_room_need(room, gm_room_number(room, span, &value, room->fault));
-    return value;
-}
-
-/* Returns numbers separated by commas: the numbers of an option, or all if `word` is NULL. */
-static double *numbers(const struct gm_room *room, struct gm_span pieces, const char *word, size_t *count)
-{
-    struct gm_span rest = pieces, piece;
-    double *list = NULL;
-    *count = 0;
-    while ((!word || *count > 0 || gm_room_option(room, pieces, word, &rest)) &&
-           gm_span_take(room->text, &rest, ",", &piece)) {
-        list = gm_arena_resize(room->arena, list, *count + 1, sizeof *list);
-        list[(*count)++] = number(room, piece);
-    }
-    return list;
-}
-
-static double option_number(const struct gm_room *room, struct gm_span pieces, const char *word,
-                            double otherwise)
-{
-    size_t count;
-    const double *list = numbers(room, pieces, word, &count);
-    return count > 0 ? list[0] : otherwise;
-}
-
-/* Returns words separated by blanks or commas, NULL-terminated; NULL for an empty text. */
-static const char *const *list_words(const struct gm_room *room, const char *text)
-{
+    char name[64];
     size_t count = 0;
-    const char **list = NULL;
-    for (const char *at = text; at && *(at += strspn(at, ", ")); at += strcspn(at, ", ")) {
-        char *word = gm_arena_print(room->arena, "%.*s", (int)(strcspn(at, ", ")), at);
-        list = gm_arena_resize(room->arena, list, count + 2, sizeof *list);
-        list[count++] = word;
-        list[count] = NULL;
+    const char **names = text ? gm_arena_take(user_room->arena, strlen(text) + 1, sizeof *names) : NULL;
+    while (gm_listed_word(&text, name, sizeof name)) {
+        const struct gm_scheme *scheme = gm_scheme_find(name);
+        gm_system_refuse_if(&user_room->room.system, !scheme || scheme->family->kind != &gm_kind_flow, place,
+                            "%s is not a scheme of rooms", name);
+        names[count++] = scheme->name;
     }
-    return list;
+    return count > 0 ? names : NULL;
 }
 
-/* Returns the schemes of a list, which must be schemes for flows. */
-static const char *const *list_schemes(const struct gm_room *room, struct gm_span text)
+/* Returns words key=value, each with one of the scene's keys, or a word that all scenes have. */
+static const char *check_words(const struct gm_user_room *user_room, const char *words, size_t place)
 {
-    const char *const *names = list_words(room, gm_room_keep(room, text));
-    for (size_t i = 0; names && names[i]; i++) {
-        const struct gm_scheme *scheme = gm_scheme_find(names[i]);
-        if (!scheme || scheme->family->kind != &gm_kind_flow) {
-            gm_room_refuse(room, text.begin, "%s is not a scheme of rooms", names[i]);
-        }
-    }
-    return names;
-}
-
-/* Takes words key=value, each with one of the scene's keys, or a word that all scenes have. */
-static const char *take_arguments(struct gm_user_room *user_room, struct gm_span *rest)
-{
-    const struct gm_room *room = &user_room->room;
-    const size_t place = gm_span_trimmed(room->text, *rest).begin;
-    const char *text = take(room, rest, ";");
-    for (const char *word = text; *word; word += strcspn(word, " "), word += *word == ' ') {
+    for (const char *word = words; *word; word += strcspn(word, " "), word += *word == ' ') {
         const char *key = gm_arena_print(user_room->arena, "%.*s", (int)strcspn(word, "= "), word);
-        if (word[strlen(key)] != '=' ||
-            !(gm_scene_parameter(&user_room->scene, key) || gm_reading_reserves(key, strlen(key)))) {
-            gm_room_refuse(room, place, "words key=value were expected, with keys of the room: until=5");
-        }
+        gm_system_refuse_if(&user_room->room.system,
+                            word[strlen(key)] != '=' || !(gm_scene_parameter(&user_room->scene, key) ||
+                                                          gm_reading_reserves(key, strlen(key))),
+                            place, "words key=value were expected, with keys of the room: until=5");
     }
-    return text;
+    return words;
 }
 
-static const char *observable_key(struct gm_user_room *user_room, struct gm_span span)
+static void check_observable(const struct gm_user_room *user_room, const char *key, size_t place)
 {
-    const struct gm_room *room = &user_room->room;
-    const char *key = gm_room_keep(room, span);
-    if (gm_scene_observable(&user_room->scene, key) < 0) {
-        gm_room_refuse(room, span.begin, "this is not an observable of the room");
-    }
-    return key;
+    gm_system_refuse_if(&user_room->room.system, key && gm_scene_observable(&user_room->scene, key) < 0,
+                        place, "this is not an observable of the room");
 }
 
 #define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
@@ -172,67 +103,51 @@ static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct
 /* Checks that the usual value of a row is one of its values. */
 static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
 {
-    const struct gm_room *room = &user_room->room;
     struct gm_flows scratch;
-    if (gm_parameter_set(row, &scratch, row->standard) != GM_PARSED) {
-        gm_room_refuse(room, place, "the usual value lies outside of the range, or is none of the words");
-    }
+    gm_system_refuse_if(&user_room->room.system, gm_parameter_set(row, &scratch, row->standard) != GM_PARSED,
+                        place, "the usual value lies outside of the range, or is none of the words");
 }
 
 /* Adds choices that come before a place of the file. */
 static void add_choices(struct gm_user_room *user_room, size_t place, size_t *count)
 {
-    const struct gm_room *room = &user_room->room;
-    const struct gm_written_choices *choices = &room->choices;
-    for (; *count < choices->count && choices->list[*count].place < place; ++*count) {
-        const struct gm_written_choice *choice = &choices->list[*count];
-        const char **words = gm_arena_take(user_room->arena, choice->count + 1, sizeof *words);
-        for (size_t i = 0; i < choice->count; i++) {
-            words[i] = choice->words[i];
-        }
-        if (find_row(choice->name)) {
-            gm_room_refuse(room, choice->place, "this name is reserved");
-        }
-        const char *meaning =
-            gm_arena_keep(user_room->arena, gm_span_words(user_room->file.text, choice->meaning), free);
-        struct gm_parameter *row =
-            add_row(user_room, &(const struct gm_parameter)GM_CHOICE_ROW(struct gm_flows, choices[0], "",
-                                                                         words[choice->standard], words,
-                                                                         meaning[0] ? meaning : "a choice"));
-        row->key = choice->name;
-        row->offset += sizeof(int) * *count;
+    const struct gm_user_system *system = &user_room->room.system;
+    for (; *count < system->choices.count && system->choices.list[*count].place < place; ++*count) {
+        const struct gm_parameter row =
+            gm_written_choice(user_room->arena, system, *count, "a choice",
+                              offsetof(struct gm_flows, choices) + sizeof(int) * *count);
+        gm_system_refuse_if(system, find_row(row.key), system->choices.list[*count].place,
+                            "this name is reserved");
+        add_row(user_room, &row);
     }
 }
 
 static void make_rows(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
-    const struct gm_parameter timing[] = {
-        GM_DT(gm_written_number(room->arena, isnan(room->dt) ? 0.01 : room->dt, NULL), room->dt_range.least,
-              room->dt_range.most),
-        GM_UNTIL(gm_written_number(room->arena, isnan(room->until) ? 10 : room->until, NULL))};
+    const struct gm_user_system *system = &room->system;
+    struct gm_parameter timing[] = {GM_DT("", gm_room_dt.least, gm_room_dt.most), GM_UNTIL("")};
     size_t own = 0, choices = 0;
-    struct gm_span dt;
-    gm_room_said(room, "dt", 0, &dt);
-    check_row(user_room, add_row(user_room, &timing[0]), dt.begin);
+    gm_written_timing(user_room->arena, system, gm_room_timing(room, GM_WORD_DT, 0.01),
+                      gm_room_timing(room, GM_WORD_UNTIL, 10), timing);
+    add_row(user_room, &timing[0]);
     add_row(user_room, &timing[1]);
     if (!gm_room_parameter(room, "viscosity") && !gm_room_parameter(room, "reynolds")) {
         add_row(user_room, find_row("viscosity"))->standard =
-            gm_written_number(room->arena, room->viscosity, NULL);
+            gm_written_number(user_room->arena, room->viscosity, NULL);
         if (!gm_room_parameter(room, "schmidt")) {
             add_row(user_room, find_row("schmidt"))->standard =
-                gm_written_number(room->arena, room->viscosity / room->diffusivity, NULL);
+                gm_written_number(user_room->arena, room->viscosity / room->diffusivity, NULL);
         }
     }
-    for (size_t i = 0; i < room->parameter_count; i++) {
-        const struct gm_room_parameter *parameter = &room->parameters[i];
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        const struct gm_system_variable *parameter = &system->variables[i];
         const struct gm_parameter *template = find_row(parameter->name);
         const struct gm_parameter plain =
             GM_REAL_ROW(struct gm_flows, own[0], "", "0", -1e300, 1e300, "a parameter");
-        if (!template && own == GM_FLOWS_OWN) {
-            gm_room_refuse(room, parameter->place, "a room has at most 8 parameters of its own");
-        }
-        add_choices(user_room, parameter->place, &choices);
+        gm_system_refuse_if(system, !template && own == GM_FLOWS_OWN, parameter->start_place,
+                            "a room has at most 8 parameters of its own");
+        add_choices(user_room, parameter->start_place, &choices);
         struct gm_parameter *row = add_row(user_room, template ? template : &plain);
         row->key = parameter->name;
         row->offset += template ? 0 : sizeof(double) * own++;
@@ -243,7 +158,7 @@ static void make_rows(struct gm_user_room *user_room)
             row->highest = parameter->high;
             row->logarithmic = row->type == GM_INTEGER || row->lowest > 0;
         }
-        check_row(user_room, row, parameter->place);
+        check_row(user_room, row, parameter->start_place);
     }
     add_choices(user_room, SIZE_MAX, &choices);
     user_room->scene.parameters = user_room->rows;
@@ -261,131 +176,74 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-/* Checks that all pieces after the first begin with one of `words`, NULL-terminated. */
-static void check_options(struct gm_user_room *user_room, struct gm_span rest, const char *const *words)
+static void make_profiles(struct gm_user_room *user_room)
 {
-    const struct gm_room *room = &user_room->room;
-    struct gm_span piece, word;
-    gm_span_take(room->text, &rest, ";", &piece);
-    while (gm_span_take(room->text, &rest, ";", &piece)) {
-        gm_span_take(room->text, &piece, " ", &word);
-        if (!words[gm_span_among(room->text, word, words)]) {
-            gm_room_refuse(room, word.begin, "this line has no such option");
-        }
+    const struct gm_user_system *system = &user_room->room.system;
+    size_t *count = &user_room->profile_count;
+    const struct gm_system_item *item;
+    for (; (item = gm_system_item_of(system, GM_WORD_PROFILE, *count)); ++*count) {
+        const double *numbers = item->options->numbers;
+        user_room->profiles =
+            gm_arena_resize(user_room->arena, user_room->profiles, *count + 1, sizeof *user_room->profiles);
+        user_room->profiles[*count] =
+            (struct gm_room_profile){item, numbers, numbers + 2, (size_t)fmin(fmax(numbers[4], 2), 1e6)};
+    }
+}
+
+static const struct gm_room_profile *find_profile(const struct gm_user_room *user_room, const char *name)
+{
+    size_t i = 0;
+    while (i < user_room->profile_count && strcmp(user_room->profiles[i].item->name, name) != 0) {
+        i++;
+    }
+    return i < user_room->profile_count ? &user_room->profiles[i] : NULL;
+}
+
+static void make_tables(struct gm_user_room *user_room)
+{
+    const struct gm_user_system *system = &user_room->room.system;
+    size_t *count = &user_room->table_count;
+    const struct gm_system_item *item;
+    for (; (item = gm_system_item_of(system, GM_WORD_TABLE, *count)); ++*count) {
+        const struct gm_room_table table = {
+            item, find_profile(user_room, item->words), gm_scene_parameter(&user_room->scene, item->text),
+            item->options ? item->options->numbers : NULL, item->options ? item->options->count / 2 : 0};
+        gm_system_refuse_if(system, !table.profile || !table.row, item->place,
+                            "a table has a name and a profile, the value of a parameter, and points");
+        user_room->tables =
+            gm_arena_resize(user_room->arena, user_room->tables, *count + 1, sizeof *user_room->tables);
+        user_room->tables[*count] = table;
     }
 }
 
 /* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
-static void observe(struct gm_user_room *user_room, struct gm_span rest)
+static void observe(struct gm_user_room *user_room, const struct gm_system_item *item)
 {
-    const struct gm_room *room = &user_room->room;
-    static const char *const options[] = {"along", "title", "missing", NULL};
-    const struct gm_span line = rest;
-    check_options(user_room, line, options);
-    const char *key = take(room, &rest, ";"), *along = option(room, rest, "along"),
-               *title = option(room, rest, "title"), *missing = option(room, rest, "missing");
-    const struct gm_observable *row = gm_room_observable(key, along);
-    size_t profile = 0, i = 0;
-    while (along && profile < user_room->profile_count &&
-           strcmp(user_room->profiles[profile].name, along) != 0) {
-        profile++;
-    }
-    while (i < user_room->observable_count && strcmp(user_room->observables[i].key, key) != 0) {
+    const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
+    const struct gm_observable *row = gm_room_observable(item->name, along);
+    const struct gm_room_profile *profile = along ? find_profile(user_room, along) : user_room->profiles;
+    size_t i = 0;
+    while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
         i++;
     }
-    struct gm_observable *observable = &user_room->observables[i];
     if (i == user_room->observable_count) {
-        if (!row || i == GM_ROOM_OBSERVED || (along && profile == user_room->profile_count)) {
-            gm_room_refuse(room, line.begin,
-                           "this is nothing that is observed of a room, or of a profile that it has");
-        }
-        *observable = *row;
-        user_room->subjects[user_room->observable_count++].number = profile;
+        gm_system_refuse_if(&user_room->room.system, !row || i == GM_ROOM_OBSERVED || (along && !profile),
+                            item->place,
+                            "this is nothing that is observed of a room, or of a profile that it has");
+        user_room->observables[i] = *row;
+        user_room->subjects[user_room->observable_count++].profile = profile;
     }
-    observable->title = title ? title : observable->title;
-    observable->missing = missing ? missing : observable->missing;
-}
-
-/* profile: NAME QUANTITIES; x, y; x, y; points; low .. high; label */
-static void add_profile(struct gm_user_room *user_room, struct gm_span rest)
-{
-    const struct gm_room *room = &user_room->room;
-    user_room->profiles = gm_arena_resize(user_room->arena, user_room->profiles, user_room->profile_count + 1,
-                                          sizeof *user_room->profiles);
-    struct gm_room_profile *profile = &user_room->profiles[user_room->profile_count++];
-    struct gm_span head, piece;
-    const struct gm_span line = rest;
-    gm_span_take(room->text, &rest, ";", &head);
-    const char *const *words = list_words(room, gm_room_keep(room, head));
-    *profile = (struct gm_room_profile){.name = words ? words[0] : "", .range = {NAN, NAN}};
-    char *quantities = gm_arena_take(user_room->arena, head.end - head.begin + 1, 1);
-    profile->quantities = quantities;
-    for (size_t i = 1; words && words[i]; i++) {
-        if (strcmp(words[i], "u") != 0 && strcmp(words[i], "v") != 0 && strcmp(words[i], "scalar") != 0) {
-            gm_room_refuse(room, line.begin, "a profile shows u, v or scalar");
-        }
-        quantities[i - 1] = words[i][0];
-    }
-    double *const ends[2] = {profile->a, profile->b};
-    for (int end = 0; end < 2; end++) {
-        size_t count;
-        gm_span_take(room->text, &rest, ";", &piece);
-        const double *place = numbers(room, piece, NULL, &count);
-        if (count != 2) {
-            gm_room_refuse(room, line.begin,
-                           "a profile has a name and quantities, two places and a number of points");
-        }
-        memcpy(ends[end], place, 2 * sizeof *place);
-    }
-    gm_span_take(room->text, &rest, ";", &piece);
-    profile->count = (size_t)fmin(fmax(number(room, piece), 2), 1e6);
-    if (gm_span_take(room->text, &rest, ";", &piece)) {
-        gm_room_need(room, gm_room_range_of(room, piece, &profile->range, room->fault));
-    }
-    profile->label = rest.begin < rest.end ? gm_room_keep(room, rest) : NULL;
-}
-
-/* table: NAME PROFILE; KEY = VALUE; position value, position value ... */
-static void add_table(struct gm_user_room *user_room, struct gm_span rest)
-{
-    const struct gm_room *room = &user_room->room;
-    user_room->tables = gm_arena_resize(user_room->arena, user_room->tables, user_room->table_count + 1,
-                                        sizeof *user_room->tables);
-    struct gm_room_table *table = &user_room->tables[user_room->table_count++];
-    struct gm_span line = rest, condition, piece;
-    const char *const *words = list_words(room, take(room, &rest, ";"));
-    gm_span_take(room->text, &rest, ";", &condition);
-    const char *key = take(room, &condition, "=");
-    *table = (struct gm_room_table){.name = words ? words[0] : "",
-                                    .row = gm_scene_parameter(&user_room->scene, key)};
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        if (words && words[1] && strcmp(user_room->profiles[i].name, words[1]) == 0) {
-            table->profile = &user_room->profiles[i];
-        }
-    }
-    if (!table->profile || !table->row) {
-        gm_room_refuse(room, line.begin,
-                       "a table has a name and a profile, the value of a parameter, and points");
-    }
-    table->value = number(room, condition);
-    while (gm_span_take(room->text, &rest, ",", &piece)) {
-        struct gm_span value;
-        gm_span_take(room->text, &piece, " ", &value);
-        table->points =
-            gm_arena_resize(user_room->arena, table->points, 2 * (table->count + 1), sizeof *table->points);
-        table->points[2 * table->count] = number(room, value);
-        table->points[2 * table->count++ + 1] = piece.begin < piece.end ? number(room, piece) : NAN;
-    }
+    gm_written_options(&user_room->observables[i], item);
 }
 
 /* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
    the rest. */
-static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct gm_span *before,
-                       struct gm_span *key, bool *nonzero)
+static bool take_brace(const char *text, struct gm_span *rest, struct gm_span *before, struct gm_span *key,
+                       bool *nonzero)
 {
-    const size_t open = gm_span_until(room->text, *rest, "{"),
-                 close = gm_span_until(room->text, (struct gm_span){open, rest->end}, "}"),
-                 colon = gm_span_until(room->text, (struct gm_span){open, close}, ":");
+    const size_t open = gm_span_until(text, *rest, "{"),
+                 close = gm_span_until(text, (struct gm_span){open, rest->end}, "}"),
+                 colon = gm_span_until(text, (struct gm_span){open, close}, ":");
     *before = (struct gm_span){rest->begin, open};
     *key = (struct gm_span){open < close ? open + 1 : open, colon};
     *nonzero = colon < close;
@@ -395,141 +253,70 @@ static bool take_brace(const struct gm_room *room, struct gm_span *rest, struct 
 
 /* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
 static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
-                          struct gm_span rest, struct gm_picture *picture, struct gm_look *look)
+                          struct gm_picture *picture, struct gm_look *look)
 {
-    struct gm_span before, key;
+    const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_SUBTITLE, 0);
+    struct gm_span rest = gm_room_said(room, GM_WORD_SUBTITLE)->value, before, key;
     bool nonzero;
     memset(look->told, 0, sizeof look->told);
     look->remark = "";
     for (size_t i = 0; rest.begin < rest.end; i++) {
-        const bool filled = take_brace(room, &rest, &before, &key, &nonzero);
+        const bool filled = take_brace(room->system.source, &rest, &before, &key, &nonzero);
         const struct gm_parameter *row =
             gm_scene_parameter(&user_room->scene, gm_room_text(picture, room, key));
-        struct gm_fault fault;
-        double value;
         if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !look->remark[0]) {
-            before.begin += strspn(room->text + before.begin, ", ");
-            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->text, before));
+            before.begin += strspn(room->system.source + before.begin, ", ");
+            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->system.source, before));
             look->told[i].offset = row->offset;
             look->told[i].nonzero = nonzero;
         } else {
             look->remark =
                 gm_picture_text(picture, "%s%s", look->remark, gm_room_text(picture, room, before));
-            if (filled && gm_room_number(room, key, &value, &fault)) {
-                look->remark = gm_picture_text(picture, "%s%.4g", look->remark, value);
+            if (filled && item->nodes[i] != GM_NO_NODE) {
+                look->remark =
+                    gm_picture_text(picture, "%s%.4g", look->remark, gm_room_evaluate(room, item->nodes[i]));
             }
         }
     }
 }
 
-/* colours: vorticity F, speed F. Returns false at another word, or a number that is not positive. */
-static bool take_colours(const struct gm_room *room, struct gm_look *look, struct gm_fault *fault)
+/* The unit of the clock: the first word after the formula of a line time:. */
+static const char *clock_unit(const struct gm_room *room, struct gm_picture *picture, const char *otherwise)
 {
-    static const char *const words[] = {"vorticity", "speed", NULL};
-    struct gm_span rest, piece;
-    gm_room_said(room, "colours", 0, &rest);
-    while (gm_span_take(room->text, &rest, ",", &piece)) {
-        const struct gm_span word = {piece.begin, gm_span_until(room->text, piece, " ")};
-        const size_t which = gm_span_among(room->text, word, words);
-        double *end = which == 0 ? &look->vorticity_range : &look->speed_high;
-        if (!words[which] || !gm_room_number(room, (struct gm_span){word.end, piece.end}, end, fault) ||
-            !(*end > 0)) {
-            return gm_fail(fault, piece.begin, "colours: end at positive numbers: vorticity 5, speed 1");
-        }
-    }
-    return true;
-}
-
-/* levels: F, F ..., as many numbers at most as the line has characters; NULL: they are only checked. */
-static bool take_levels(const struct gm_room *room, double *levels, size_t *count, struct gm_fault *fault)
-{
-    struct gm_span rest, piece;
-    double level;
-    *count = 0;
-    gm_room_said(room, "levels", 0, &rest);
-    while (gm_span_take(room->text, &rest, ",", &piece)) {
-        if (!gm_room_number(room, piece, &level, fault)) {
-            return false;
-        }
-        if (levels) {
-            levels[*count] = level;
-        }
-        ++*count;
-    }
-    return true;
-}
-
-/* graph: KEY; low .. high, in terms of the flow's measures */
-static bool take_graph(const struct gm_room *room, size_t number, struct gm_span *key,
-                       struct gm_room_range *range, struct gm_fault *fault)
-{
-    struct gm_span rest, piece;
-    const bool said = gm_room_said(room, "graph", number, &rest);
-    gm_span_take(room->text, &rest, ";", key);
-    return said &&
-           (!gm_span_take(room->text, &rest, ";", &piece) || gm_room_range_of(room, piece, range, fault));
+    const char *text = room->system.texts[GM_WORD_TIME];
+    const bool is_unit = gm_system_item_of(&room->system, GM_WORD_TIME, 0);
+    return text ? gm_picture_text(picture, "%.*s", is_unit ? (int)strcspn(text, ", ") : 0, text) : otherwise;
 }
 
 void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
                        struct gm_picture *picture, struct gm_look *look)
 {
-    struct gm_span rest, piece;
-    struct gm_fault fault;
-    if (gm_room_said(room, "time", 0, &rest)) {
-        gm_span_take(room->text, &rest, ";", &piece);
-        rest = gm_span_trimmed(room->text, rest);
-        rest.end = rest.begin + strcspn(room->text + rest.begin, ", \r\n");
-        look->clock_unit = gm_room_text(picture, room, rest);
-    }
-    if (gm_room_said(room, "subtitle", 0, &rest)) {
-        fill_subtitle(user_room, room, rest, picture, look);
+    const struct gm_user_system *system = &room->system;
+    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_LEVELS, 0);
+    look->clock_unit = clock_unit(room, picture, look->clock_unit);
+    if (gm_room_said(room, GM_WORD_SUBTITLE)) {
+        fill_subtitle(user_room, room, picture, look);
     } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
         memset(look->told, 0, sizeof look->told);
     }
-    take_colours(room, look, &fault);
-    gm_room_said(room, "levels", 0, &rest);
-    double *levels = gm_picture_memory(picture, (rest.end - rest.begin + 1) * sizeof *levels);
-    if (levels && take_levels(room, levels, &look->level_count, &fault)) {
-        look->levels = look->level_count > 0 ? levels : NULL;
+    look->levels = item ? item->options->numbers : NULL;
+    look->level_count = item ? item->options->count : 0;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_COLOURS, i)); i++) {
+        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
     }
     for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles |= user_room->profiles[i].quantities[0] != 0;
+        look->profiles |= user_room->profiles[i].item->words[0] != 0;
     }
-    const bool graphs = gm_room_said(room, "graph", 0, &rest);
+    const bool graphs = gm_room_said(room, GM_WORD_GRAPH);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
     for (size_t i = 0; i < GM_COUNT(look->graphs) && (graphs || look->profiles_below); i++) {
-        struct gm_room_range ends = {0, 0};
-        look->graphs[i] =
-            take_graph(room, i, &piece, &ends, &fault) ? gm_room_text(picture, room, piece) : NULL;
-        look->graph_low[i] = ends.least;
-        look->graph_high[i] = ends.most;
+        item = gm_system_item_of(system, GM_WORD_GRAPH, i);
+        for (size_t k = 0; item && k < item->count; k++) {
+            (k == 0 ? look->graph_low : look->graph_high)[i] = gm_room_evaluate(room, item->nodes[k]);
+        }
+        const bool shown = item && (item->count == 0 || look->graph_low[i] < look->graph_high[i]);
+        look->graphs[i] = shown ? gm_picture_text(picture, "%s", item->name) : NULL;
     }
-}
-
-/* Checks that the lines of the picture can be read. */
-static void check_look(struct gm_user_room *user_room)
-{
-    const struct gm_room *room = &user_room->room;
-    struct gm_room measured = *room;
-    struct gm_look look;
-    struct gm_span rest, piece;
-    struct gm_room_range ends;
-    bool nonzero, good = take_colours(room, &look, room->fault) &&
-                         take_levels(room, NULL, &look.level_count, room->fault);
-    for (int i = 0; i < GM_ROOM_MEASURES; i++) {
-        measured.measures[i] = 1;
-    }
-    gm_room_said(room, "subtitle", 0, &rest);
-    while (good && take_brace(room, &rest, &piece, &piece, &nonzero)) {
-        double value;
-        good = gm_scene_parameter(&user_room->scene, gm_room_keep(room, piece)) ||
-               gm_room_number(&measured, piece, &value, room->fault);
-    }
-    for (size_t i = 0; good && gm_room_said(room, "graph", i, &rest); i++) {
-        good = take_graph(&measured, i, &piece, &ends, room->fault);
-        observable_key(user_room, piece);
-    }
-    gm_room_need(room, good);
 }
 
 /* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
@@ -551,94 +338,93 @@ static double courant_time(const void *parameters)
 static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
 static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 
-/* figure: NAME; WORDS; statement, work: WORDS; measure KEY; ..., stability: WORDS; reynolds VALUES */
+/* work: WORDS; measure KEY; ... */
+static void make_work(struct gm_user_room *user_room, const struct gm_system_item *item)
+{
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
+                                  *values = gm_system_option(item, GM_OPTION_VALUES);
+    struct gm_work *work = &user_room->work;
+    *work = (struct gm_work){
+        .arguments = check_words(user_room, item->words, item->place),
+        .measure = gm_system_option_text(item, GM_OPTION_MEASURE, NULL),
+        .coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, 0),
+        .halvings = (int)fmin(fmax(0, gm_system_option_number(item, GM_OPTION_HALVINGS, 4)), 31),
+        .schemes = list_schemes(user_room, gm_system_option_text(item, GM_OPTION_SCHEMES, NULL), item->place),
+        .errors = errors ? errors->numbers : NULL,
+        .resolution = values ? item->name : NULL,
+        .resolutions = values ? values->numbers : NULL,
+        .resolution_count = values ? values->count : 0};
+    check_observable(user_room, work->measure, item->place);
+    gm_system_refuse_if(&user_room->room.system,
+                        (errors && errors->count != 3) || work->halvings < 1 || work->halvings > 30,
+                        item->place, "work: has three errors that fall, and 1 to 30 halvings");
+    user_room->scene.work = work;
+}
+
+/* stability: WORDS; KEY VALUES */
+static void make_map(struct gm_user_room *user_room, const struct gm_system_item *item)
+{
+    const struct gm_system_option *values = gm_system_option(item, GM_OPTION_VALUES);
+    gm_system_refuse_if(&user_room->room.system,
+                        !values || !gm_scene_parameter(&user_room->scene, item->name), item->place,
+                        "stability: needs values of a parameter: reynolds 100, 400");
+    user_room->stability =
+        (struct gm_stability){.arguments = check_words(user_room, item->words, item->place),
+                              .parameter = item->name,
+                              .values = values->numbers,
+                              .value_count = values->count,
+                              .label = "Courant number",
+                              .unit = courant_time,
+                              .steps = courant_numbers,
+                              .step_count = GM_COUNT(courant_numbers),
+                              .kept = "speed_max",
+                              .schemes = marching};
+    user_room->scene.stability = &user_room->stability;
+}
+
 static void make_studies(struct gm_user_room *user_room)
 {
     const struct gm_room *room = &user_room->room;
-    struct gm_scene *scene = &user_room->scene;
-    struct gm_figure *figures = NULL;
-    struct gm_span rest, piece;
-    size_t count = 0;
-    while (gm_room_said(room, "figure", scene->figure_count, &rest)) {
-        figures = gm_arena_resize(user_room->arena, figures, scene->figure_count + 1, sizeof *figures);
-        struct gm_figure *figure = &figures[scene->figure_count++];
-        figure->name = take(room, &rest, ";");
-        figure->arguments = take_arguments(user_room, &rest);
-        figure->statement = gm_room_keep(room, rest);
+    const struct gm_system_item *work = gm_system_item_of(&room->system, GM_WORD_WORK, 0),
+                                *map = gm_system_item_of(&room->system, GM_WORD_STABILITY, 0), *figure;
+    gm_written_figures(user_room->arena, &room->system, &user_room->scene);
+    for (size_t i = 0; (figure = gm_system_item_of(&room->system, GM_WORD_FIGURE, i)); i++) {
+        check_words(user_room, figure->words, figure->place);
     }
-    scene->figures = figures;
-    if (gm_room_said(room, "work", 0, &rest)) {
-        const char *const options[] = {"measure", "coarsest",  "halvings", "errors",
-                                       "schemes", room->edges, NULL};
-        struct gm_work *work = &user_room->work;
-        check_options(user_room, rest, options);
-        *work =
-            (struct gm_work){.arguments = take_arguments(user_room, &rest),
-                             .coarsest = option_number(room, rest, "coarsest", 0),
-                             .halvings = (int)fmin(fmax(0, option_number(room, rest, "halvings", 4)), 31)};
-        if (gm_room_option(room, rest, "schemes", &piece)) {
-            work->schemes = list_schemes(room, piece);
-        }
-        if (gm_room_option(room, rest, "measure", &piece)) {
-            work->measure = observable_key(user_room, piece);
-        }
-        work->errors = numbers(room, rest, "errors", &count);
-        work->resolutions = numbers(room, rest, room->edges, &work->resolution_count);
-        work->resolution = work->resolutions ? room->edges : NULL;
-        if ((count != 0 && count != 3) || work->halvings < 1 || work->halvings > 30) {
-            gm_room_refuse(room, rest.begin, "work: has three errors that fall, and 1 to 30 halvings");
-        }
-        scene->work = work;
+    if (work) {
+        make_work(user_room, work);
     }
-    if (gm_room_said(room, "stability", 0, &rest)) {
-        struct gm_stability *map = &user_room->stability;
-        *map = (struct gm_stability){.arguments = take_arguments(user_room, &rest),
-                                     .parameter = "reynolds",
-                                     .label = "Courant number",
-                                     .unit = courant_time,
-                                     .steps = courant_numbers,
-                                     .step_count = GM_COUNT(courant_numbers),
-                                     .kept = "speed_max",
-                                     .schemes = marching};
-        map->values = numbers(room, rest, map->parameter, &map->value_count);
-        if (!map->values || !gm_scene_parameter(scene, map->parameter)) {
-            gm_room_refuse(room, rest.begin, "stability: needs values of a parameter: reynolds 100, 400");
-        }
-        scene->stability = map;
+    if (map) {
+        make_map(user_room, map);
     } else if (gm_room_line(room, GM_ROOM_EXACT)) {
-        scene->no_stability =
+        user_room->scene.no_stability =
             "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
 }
 
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
-    const struct gm_room *room = &user_room->room;
+    const struct gm_user_system *system = &user_room->room.system;
+    const struct gm_read_line *schemes = gm_room_said(&user_room->room, GM_WORD_SCHEMES),
+                              *lanes = gm_room_said(&user_room->room, GM_WORD_LANES);
     struct gm_scene *scene = &user_room->scene;
-    struct gm_span rest, piece;
-    const char *watch = said(room, "watch"), *time = said(room, "time");
+    const struct gm_system_item *item;
     make_rows(user_room);
-    for (size_t i = 0; gm_room_said(room, "profile", i, &rest); i++) {
-        add_profile(user_room, rest);
-    }
-    for (size_t i = 0; gm_room_said(room, "table", i, &rest); i++) {
-        add_table(user_room, rest);
-    }
-    for (size_t i = 0; gm_room_said(room, "observe", i, &rest); i++) {
-        observe(user_room, rest);
+    make_profiles(user_room);
+    make_tables(user_room);
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
+        observe(user_room, item);
     }
     scene->observable_count = user_room->observable_count;
-    scene->watch = watch ? watch : scene->watch;
-    if (gm_room_said(room, "schemes", 0, &rest)) {
-        scene->schemes = list_schemes(room, rest);
+    if (schemes) {
+        scene->schemes = list_schemes(user_room, system->texts[GM_WORD_SCHEMES], schemes->value.begin);
     }
-    if (gm_room_said(room, "lanes", 0, &rest)) {
-        scene->lanes = take_arguments(user_room, &rest);
+    if (lanes) {
+        scene->lanes = check_words(user_room, system->texts[GM_WORD_LANES], lanes->value.begin);
     }
-    if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &piece)) {
-        scene->time = rest.begin < rest.end ? gm_room_keep(room, rest) : time;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_GRAPH, i)); i++) {
+        check_observable(user_room, item->name, item->place);
     }
-    check_look(user_room);
     make_studies(user_room);
     scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
 }

@@ -55,27 +55,27 @@ struct gm_room_file {
 /* The subject of an observable of a room. */
 struct gm_room_subject {
     const char *name; /* the name of a line; NULL: the number is used */
-    size_t number;    /* the number of a hole, or of a profile */
-    int what;         /* the quantity of the subject (enum local, user_room.c) */
-};
-
-/* A line of `count` points from a to b along which quantities are drawn and written: u, v or s, the
-   scalar. */
-struct gm_room_profile {
-    const char *name;
-    double a[2], b[2];
-    size_t count;
-    const char *quantities,
-        *label; /* the letters of the quantities; the label of values, NULL: the quantity's name */
-    struct gm_room_range range; /* the range of that axis; NAN: the range of the values */
-};
-
-/* Published points on a profile: the position along its axis, and the first quantity there, or NAN. */
-struct gm_room_table {
-    const char *name;
+    size_t number;    /* the number of a hole */
     const struct gm_room_profile *profile;
-    const struct gm_parameter *row; /* they hold if the row has that value; NULL: always */
-    double value, *points;
+    int what; /* the quantity of the subject (enum local, user_room.c) */
+};
+
+/* A line of `count` points from a to b along which quantities are drawn and written, with its item: the letters of the
+   quantities u, v and s, the scalar, are its words; its text is the label of values, NULL: the quantity's name; low and
+   high are the range of that axis, NAN: the range of the values. */
+struct gm_room_profile {
+    const struct gm_system_item *item;
+    const double *a, *b;
+    size_t count;
+};
+
+/* Published points on a profile: the position along its axis, and the first quantity there, or NAN. They hold
+   if the row has the value of the item. */
+struct gm_room_table {
+    const struct gm_system_item *item;
+    const struct gm_room_profile *profile;
+    const struct gm_parameter *row;
+    const double *points;
     size_t count;
 };
 

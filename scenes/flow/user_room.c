@@ -22,7 +22,7 @@ static const char *name_unit(const struct gm_user_room *user_room, struct gm_pow
     static const int order[3] = {2, 0, 1};
     char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
     for (int i = 0; i < 3; i++) {
-        const char *at = user_room->room.units ? user_room->room.units : "";
+        const char *units = user_room->room.system.texts[GM_WORD_UNITS], *at = units ? units : "";
         const int power = powers.of[order[i]];
         for (int place = order[i]; place > 0 && *at; place--) {
             at += strcspn(at, ", ");
@@ -234,15 +234,14 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
         tell(user_room, &fault, sentence);
         return NULL;
     }
-    struct gm_span rest, unit;
-    if (gm_room_said(room, "time", 0, &rest) && gm_span_take(room->text, &rest, ";", &unit) &&
-        rest.begin < rest.end &&
-        (!gm_room_number(room, unit, &flow->time_unit, &fault) ||
-         (!(flow->time_unit > 0) && !gm_fail(&fault, unit.begin, "a unit of time is a positive number")))) {
+    const struct gm_system_item *unit = gm_system_item_of(&room->system, GM_WORD_TIME, 0);
+    flow->time_unit = unit ? gm_room_evaluate(room, unit->nodes[0]) : flow->time_unit;
+    if (unit && !(flow->time_unit > 0 && isfinite(flow->time_unit))) {
+        gm_fail(&fault, unit->place, "a unit of time is a positive number");
         tell(user_room, &fault, sentence);
         return NULL;
     }
-    room->measures[GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
+    room->values[room->system.velocities + GM_ROOM_UNTIL] = chosen->timing.until * flow->time_unit;
     flow->tracers = (size_t)chosen->tracers;
     flow->smoke = chosen->smoke;
     return flow;
@@ -319,24 +318,12 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
                   double *y, char *sentence)
 {
     (void)scheme;
-    const struct gm_room *room = gm_room_of(problem);
-    const struct gm_flow *flow = gm_flow_of(problem);
-    const struct gm_room_line *line = gm_room_line(room, GM_ROOM_START);
-    const size_t place = line ? line->value[GM_ROOM_VORTICITY].place : 0;
-    double *omega = place > 0 ? malloc(flow->complex->vertices * sizeof *omega) : NULL;
-    struct gm_fault fault = {.sentence = "the boundary does not determine the stream function at the start"};
-    bool good = place == 0 || omega;
-    for (size_t v = 0; omega && good && v < flow->complex->vertices; v++) {
-        const double *p = flow->complex->point + 2 * v, at[4] = {0, p[0], p[1], 0};
-        omega[v] = gm_room_value(room, line, GM_ROOM_VORTICITY, at, 0);
-        good = isfinite(omega[v]) ||
-               gm_fail(&fault, place, "the vorticity is not finite at (%.4g, %.4g)", p[0], p[1]);
-    }
-    good = good && (omega ? gm_flow_start_vorticity(flow, omega, y) : gm_flow_start_irrotational(flow, y));
+    const struct gm_fault fault = {.sentence =
+                                       "the boundary does not determine the stream function at the start"};
+    const bool good = gm_flow_start(gm_flow_of(problem), y);
     if (!good) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, sentence);
     }
-    free(omega);
     return good;
 }
 
@@ -487,6 +474,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     char unit[GM_ROOM_UNIT + 8];
     const double *range = flow->temperature_range,
                  warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
+    const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
     double high = 0;
     for (size_t k = 0; k < count; k++) {
         const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
@@ -506,22 +494,22 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                  {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
         .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
         .sides = sides,
-        .graphs = {flow->heat               ? "temperature_mean"
-                   : user_room->forces[0]   ? user_room->forces[0]
-                   : user_room->room.scalar ? "scalar_mean"
-                                            : "scalar_total",
+        .graphs = {flow->heat             ? "temperature_mean"
+                   : user_room->forces[0] ? user_room->forces[0]
+                   : scalar               ? "scalar_mean"
+                                          : "scalar_total",
                    flow->heat             ? "kinetic_energy"
                    : user_room->forces[1] ? user_room->forces[1]
                                           : "scalar_outflow"},
         .scalar_high = high > 0 ? high : 1,
         .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = user_room->room.scalar ? user_room->room.scalar : "concentration θ"},
+        .names = {[GM_SHOW_SCALAR] = scalar ? scalar : "concentration θ"},
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
     };
     for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
         look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || user_room->room.units) {
+        if (named || user_room->room.system.texts[GM_WORD_UNITS]) {
             look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
         }
     }
@@ -592,15 +580,15 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
 {
     size_t count;
     const struct gm_room_row *rows = gm_room_common_rows(&count);
+    const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
     char unit[GM_ROOM_UNIT + 8];
     for (size_t i = 0; i + !heat < count; i++) { /* the last is of heat */
         struct gm_observable *observable = &user_room->observables[user_room->observable_count++];
         *observable = rows[i].observable;
-        observable->title =
-            rows[i].of_scalar && user_room->room.scalar
-                ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, user_room->room.scalar)
-                : gm_arena_print(user_room->arena, "%s%s", observable->title,
-                                 beside_unit(user_room, rows[i].powers, unit));
+        observable->title = rows[i].of_scalar && scalar
+                                ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, scalar)
+                                : gm_arena_print(user_room->arena, "%s%s", observable->title,
+                                                 beside_unit(user_room, rows[i].powers, unit));
     }
 }
 
@@ -609,8 +597,7 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
     const struct gm_room *room = &user_room->room;
     const bool heat = !isnan(room->buoyancy);
     bool brought = false;
-    struct gm_span listed;
-    const bool all = !room->rectangular || !gm_room_said(room, "observe", 0, &listed);
+    const bool all = !room->rectangular || !gm_room_said(room, GM_WORD_OBSERVE);
     if (all) {
         observe_common(user_room, heat);
     }
@@ -668,7 +655,8 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
 static void find_mesh(struct gm_user_room *user_room)
 {
     const struct gm_room_file *file = &user_room->file;
-    const char *mesh = user_room->room.mesh, *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
+    const char *mesh = user_room->room.system.texts[GM_WORD_MESH],
+               *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
     user_room->mesh = gm_arena_print(user_room->arena, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0,
                                      file->path, mesh);
     if (file->built_in || access(user_room->mesh, F_OK) != 0) {
@@ -722,12 +710,13 @@ static void make(struct gm_arena *arena, void *data)
     gm_room_read(arena, &user_room->room, &(struct gm_room_input){file->text, file->length, NULL, 0},
                  making->wrong);
     const struct gm_room *room = &user_room->room;
+    char *const *texts = room->system.texts;
     user_room->scene = (struct gm_scene){
         .name = user_room->file.name,
-        .title = room->title ? room->title : "A user-defined room",
-        .blurb = room->about ? room->about : "A user-defined room.",
-        .watch = "",
-        .time = "the unit of the room's numbers",
+        .title = texts[GM_WORD_TITLE] ? texts[GM_WORD_TITLE] : "A user-defined room",
+        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined room.",
+        .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
+        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : "the unit of the room's numbers",
         .size = sizeof user_room->initial,
         .initial = &user_room->initial,
         .schemes = schemes,

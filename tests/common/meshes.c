@@ -2,6 +2,7 @@
 /* Meshes of the folder of references, read as a user's are. */
 #include "tests/common/meshes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -51,4 +52,19 @@ unsigned char *sides_of(const struct gm_triangulation *mesh)
                                               : GM_EDGE_WALL;
     }
     return sides;
+}
+
+enum gm_boundary_fault set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
+                                    enum gm_vertex_kind outlet, double theta)
+{
+    struct gm_side sides[GM_EDGE_SLIP + 1];
+    for (int kind = 0; kind <= GM_EDGE_SLIP; kind++) {
+        sides[kind] = (struct gm_side){
+            .kind = (enum gm_edge_kind)kind,
+            .flow = NAN,
+            .speed = kind == GM_EDGE_INLET || kind == GM_EDGE_LID ? speed : 0,
+            .theta = kind == GM_EDGE_INLET ? theta : 0,
+        };
+    }
+    return gm_flow_set_sides(flow, kinds, sides, outlet);
 }

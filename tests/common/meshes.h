@@ -16,4 +16,9 @@ struct gm_triangulation mesh_of(const char *name);
 /* The sides of its boundary edges, by the names inlet, outlet and lid; malloc'ed. */
 unsigned char *sides_of(const struct gm_triangulation *mesh);
 
+/* Sets a boundary with one side per kind of edge: inlets have this speed, lids move with it; theta is held
+   at 0 on walls and lids and at `theta` in inlets. */
+enum gm_boundary_fault set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
+                                    enum gm_vertex_kind outlet, double theta);
+
 #endif

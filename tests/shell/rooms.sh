@@ -169,6 +169,11 @@ summed=$(grep -o '"scalar_total":[^,]*' out)
 status 0 run ./terms.room steps=5 --json
 [ "$summed" = "$(grep -o '"scalar_total":[^,]*' out)" ] || fail "a sum over an index in a room"
 
+# a let stands for what it holds, and holds only what its line may
+{ sed '/^wall/d; s/0.2\*4\*s\*(1 - s)/parabola(s)/; s/scalar = 1/scalar = fresh/' "$rooms/office.room"
+    printf '%s\n' 'let: parabola(u) = 0.2*4*u*(1 - u)' 'let: fresh = 1 + 0*exp(-t)'; } >let.room
+[ "$(state_of ./let.room steps=5)" = "$(state_of "$rooms/office.room" steps=5)" ] || fail 'a let changes a room'
+
 # neither a checkpoint nor `again` goes on with another room, or another mesh
 cp "$rooms/office.room" "$rooms/office.msh" .
 status 0 run ./office.room steps=1 --checkpoint kept.checkpoint
@@ -268,7 +273,7 @@ wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' '
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
 wrong 'the speed is not finite at (0, ' 'inlet: vent speed = 1/(x*y)'
 wrong 'wrong.room:5:21: .*did you mean' 'inlet: vent speed = sinn(s)'
-wrong 'wrong.room:5:21: y is one number, and has no index' 'inlet: vent speed = y[1]'
+wrong 'wrong.room:5:21: y is not a list' 'inlet: vent speed = y[1]'
 wrong 'wrong.room:5:24: ) was expected, not "s"' 'inlet: vent speed = (s scalar = 1'
 wrong 'wrong.room:5:36: what .* may change in time: no start, no source' 'source: printer x = 1 y = 1 rate = t'
 wrong 'wrong.room:5:17: what .* may change in time: no start' 'start: scalar = t'
@@ -287,6 +292,8 @@ wrong 'wrong.room:5:28: the temperature is not finite at (1.7, 1.1' 'wall: pilla
 wrong 'wrong.room:5:23: the scalar is not finite at (1.7, 1.1' 'wall: pillar scalar = 1/(y - 1.1)'
 wrong 'wrong.room:5:27: the tangential speed is not finite at (' 'wall: pillar tangential = log(x - 2)'
 wrong 'wrong.room:5:32: the scalar is not finite at (0, 0.8' 'inlet: vent flow = 1  scalar = 1/s'
+wrong 'wrong.room:6:17: what .* may change in time: no start' 'let: late = 2*t\nstart: scalar = late'
+wrong 'wrong.room:5:23: measures of the flow are for the lines time:' 'wall: pillar scalar = area'
 wrong 'wrong.room:5:23: s runs along an inlet' 'wall: pillar scalar = s'
 wrong 'wrong.room:5:17: s runs along an inlet' 'start: scalar = s'
 wrong 'wrong.room:5:20: a flow is that of a whole side' 'inlet: vent flow = x'
@@ -325,13 +332,14 @@ wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
 wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
 wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # parameters, choices and rectangles of one's own
-wrong 'wrong.room:5:12: parameter: needs a new name' 'parameter: 3 = 1'
-wrong 'wrong.room:6:12: parameter: needs a new name' 'parameter: a = 1\nparameter: a = 2'
+wrong 'wrong.room:5:12: a name was expected' 'parameter: 3 = 1'
+wrong 'wrong.room:6:12: a is defined twice, first in line 5' 'parameter: a = 1\nparameter: a = 2'
 wrong 'wrong.room:5:19: a range.s lower end comes first' 'parameter: a = 1; 2 .. 1'
 wrong 'wrong.room:5:9: a choice has a name, a default and words' 'choice: a = b'
 wrong 'wrong.room:5:13: there is no word "d"' 'choice: a = d of b, c'
 wrong 'wrong.room:5:7: there is no choice "domain"' 'when: domain = box'
-wrong 'wrong.room:6:23: a is a word, not a number' 'choice: a = b of b, c\nwall: pillar scalar = a'
+wrong 'wrong.room:6:23: a is a choice of words: write lines below' 'choice: a = b of b, c\nwall: pillar scalar = a'
+wrong 'wrong.room:6:23: a is a word, not a number' 'parameter: a = soft\nwall: pillar scalar = a'
 wrong 'boundary: needs stream_function =' 'boundary: pillar scalar = 1'
 wrong 'exact: needs stream_function =' 'exact: scalar = 1'
 wrong 'wrong.room:1:7: a rectangle has a width, a height and a number of edges' '' 's/mesh: hole.msh/mesh: rectangle; width 1; height 1/'
@@ -358,15 +366,15 @@ for name in dt until scheme x s t pi perimeter; do
 done
 wrong 'wrong.room:5:9: the name until is reserved' 'choice: until = b of b, c'
 wrong 'wrong.room:5:12: the usual value lies outside of the range' 'parameter: a = 2; 0 .. 1'
-wrong 'wrong.room:5:5: the usual value lies outside of the range' 'dt: 2; 0.1 .. 1'
+wrong 'wrong.room:5:5: dt is 2, and its range is from 0.1 to 1' 'dt: 2; 0.1 .. 1'
 wrong 'wrong.room:13:12: a room has at most 8 parameters' "$(for i in $(seq 9); do printf 'parameter: p%s = 1\\n' "$i"; done)"
 # options
 wrong 'wrong.room:5:10: colours: end at positive numbers' 'colours: foo 3'
 wrong 'wrong.room:5:14: there is no name nope' 'subtitle: x {nope}'
 wrong 'wrong.room:5:8: words key=value were expected, with keys of the room' 'lanes: foo=bar'
-wrong 'wrong.room:5:16: this line has no such option' 'work: until=1; junk 3'
-wrong 'wrong.room:5:22: this line has no such option' 'observe: divergence; junk'
-wrong 'wrong.room:5:12: words key=value were expected' 'figure: a; junk; what it shows'
+wrong 'wrong.room:5:16: work: has no option "junk"' 'work: until=1; junk 3'
+wrong 'wrong.room:5:22: observe: has no option "junk"' 'observe: divergence; junk'
+wrong 'wrong.room:5:12: junk is not of the form key=value' 'figure: a; junk; what it shows'
 wrong 'wrong.room:7:' 'parameter: a = 1\nprofile: p; 0, 1; 1, 1; 3\ntable: t p; a = 1; 0 1; junk'
 wrong 'wrong.room:5:10: a profile shows u, v or scalar' 'profile: a foo; 0, 1; 1, 1; 3'
 wrong 'wrong.room:5:7: a unit of time is a positive number' 'time: 0; s'

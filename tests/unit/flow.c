@@ -91,7 +91,7 @@ static struct gm_flow *flow_on(const char *file, double speed, enum gm_vertex_ki
     assert_non_null(flow);
     mesh.complex = NULL;
     gm_triangulation_close(&mesh);
-    assert_int_equal(gm_flow_set_boundary(flow, sides, speed, outlet, theta), GM_BOUNDARY_OK);
+    assert_int_equal(set_boundary(flow, sides, speed, outlet, theta), GM_BOUNDARY_OK);
     free(sides);
     return flow;
 }

@@ -318,16 +318,16 @@ static void boundaries(void **unused)
         inlet++;
     }
     sides[(inlet + 1) % n] = GM_EDGE_WALL;
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
+    assert_int_equal(set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
     sides[(inlet + 2) % n] = GM_EDGE_WALL;
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
+    assert_int_equal(set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
     sides[inlet] = GM_EDGE_WALL;
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_INLET);
+    assert_int_equal(set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_INLET);
     memset(sides, GM_EDGE_OUTLET, n);
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_WHOLE);
+    assert_int_equal(set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_WHOLE);
     memset(sides, GM_EDGE_WALL, n);
     sides[0] = sides[1] = GM_EDGE_INLET;
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_OUTLET);
+    assert_int_equal(set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_OUTLET);
     free(sides);
     mesh.complex = NULL;
     gm_triangulation_close(&mesh);

@@ -3,15 +3,15 @@
 #include "core/flow/flow.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
 
 #include "core/certify.h"
-#include "core/flow/boundary.h"
 #include "core/flow/families/families.h"
-#include "core/form/generators.h"
+#include "core/flow/room.h"
 #include "core/quantity.h"
 #include "core/run.h"
 
@@ -25,25 +25,49 @@ static struct gm_problem problem_of(const struct gm_flow *flow)
         .name = "flow", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
 }
 
-/* Swirls on an irregular torus, and their start; NULL when out of memory. */
-static struct gm_flow *open_torus(double viscosity, double *start)
+/* Swirls on an irregular torus; a room with its inlet top left and its outlet bottom right. */
+static const char torus_text[] =
+    "mesh: flat-torus; width 1; height 1; edges 6; strips 8; irregular 0.2\n"
+    "parameter: viscosity = 0\n"
+    "scalar: none\n"
+    "start: vorticity = 6*sin(2*pi*x + 2*pi*y + 0.3) + 5*sin(2*pi*x - 2*(2*pi*y) + 1.1)\n"
+    "  + 4*sin(2*(2*pi*x) + 2*pi*y + 0.2)\n";
+static const char room_text[] =
+    "mesh: rectangle; width 4; height 3; edges 9; strips 16; along y; irregular 0.2; keep 0, 2; keep 4, 1\n"
+    "parameter: viscosity = 0\n"
+    "diffusivity: 0.03\n"
+    "side: in; x = 0, y > 2\n"
+    "side: out; x = 4, y < 1\n"
+    "inlet: in  centre = 1  scalar = 1000\n"
+    "outlet: out\n"
+    "wall: all  scalar = 0\n";
+
+/* The flow of a room; NULL when out of memory. */
+static struct gm_flow *open_flow(const char *text, const char *viscosity)
 {
-    const struct gm_rectangle torus = {
-        .width = 1, .height = 1, .edges = EDGES, .strips = STRIPS, .torus = true, .irregular = 0.2};
-    struct gm_triangulation_fault fault;
-    struct gm_complex *complex = gm_rectangle_open(&torus, &fault);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
-    double omega[MOST];
+    const struct gm_system_value given = {"viscosity", viscosity};
+    struct gm_triangulation_fault wrong;
+    struct gm_fault fault;
+    struct gm_room *room = gm_room_open(&(struct gm_room_input){text, strlen(text), &given, 1}, &fault);
+    struct gm_triangulation mesh = {.complex = room ? gm_rectangle_open(&room->rectangle, &wrong) : NULL};
+    struct gm_flow *flow = mesh.complex ? gm_room_flow(room, &mesh, &fault) : NULL;
     if (!flow) {
-        return NULL;
+        gm_room_close(room);
     }
-    flow->viscosity = viscosity;
-    for (size_t v = 0; v < complex->vertices; v++) {
-        const double x = 2 * M_PI * complex->point[2 * v], z = 2 * M_PI * complex->point[2 * v + 1];
-        omega[v] = 6 * sin(x + z + 0.3) + 5 * sin(x - 2 * z + 1.1) + 4 * sin(2 * x + z + 0.2);
-    }
-    if (!gm_flow_start_vorticity(flow, omega, start)) {
-        gm_flow_close(flow);
+    return flow;
+}
+
+static void close_flow(const struct gm_flow *flow)
+{
+    gm_room_close((struct gm_room *)(uintptr_t)flow->given_by);
+}
+
+/* The flow on the torus with its start; NULL when out of memory. */
+static struct gm_flow *open_torus(const char *viscosity, double *start)
+{
+    struct gm_flow *flow = open_flow(torus_text, viscosity);
+    if (flow && !gm_flow_start(flow, start)) {
+        close_flow(flow);
         return NULL;
     }
     return flow;
@@ -84,7 +108,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
     enum { LADDER = 3, STEPS = 64 };
     const double until = 0.1;
     double exact[MOST], start[STATE], end[STATE];
-    struct gm_flow *flow = open_torus(0.02, start);
+    struct gm_flow *flow = open_torus("0.02", start);
     if (!flow) {
         return;
     }
@@ -101,7 +125,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
         ladder->dt[i] = trial.dt;
         ladder->error[i] = gm_distance(gm_flow_block(flow, end, GM_FLOW_OMEGA), exact, n);
     }
-    gm_flow_close(flow);
+    close_flow(flow);
     ladder->count = good ? LADDER : 0;
     certificate->order = good ? log(ladder->error[0] / ladder->error[LADDER - 1]) / log(4) : NAN;
     certificate->order_problem = "torus";
@@ -112,7 +136,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
 static void measure_torus(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     double start[STATE], end[STATE];
-    struct gm_flow *flow = open_torus(0, start);
+    struct gm_flow *flow = open_torus("0", start);
     if (!flow) {
         return;
     }
@@ -124,42 +148,7 @@ static void measure_torus(const struct gm_scheme *scheme, struct gm_certificate 
         gm_certificate_note(certificate, GM_KEEPS_QUADRATIC,
                             fabs(gm_flow_enstrophy(flow, end) - before) / before, "torus");
     }
-    gm_flow_close(flow);
-}
-
-/* A room of 4 by 3 with its inlet top left and its outlet bottom right. */
-static struct gm_flow *open_room(void)
-{
-    const double lips[] = {0, 2, 4, 1};
-    const struct gm_rectangle rectangle = {.width = 4,
-                                           .height = 3,
-                                           .edges = 9,
-                                           .strips = 16,
-                                           .transposed = true,
-                                           .irregular = 0.2,
-                                           .fixed = lips,
-                                           .fixed_count = 2};
-    struct gm_triangulation_fault fault;
-    struct gm_complex *complex = gm_rectangle_open(&rectangle, &fault);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
-    unsigned char *sides = flow ? calloc(complex->boundary, 1) : NULL;
-    for (size_t b = 0; sides && b < complex->boundary; b++) {
-        const int *edge = complex->edge + 2 * complex->boundary_edge[b];
-        const double x = (complex->point[2 * edge[0]] + complex->point[2 * edge[1]]) / 2;
-        const double z = (complex->point[2 * edge[0] + 1] + complex->point[2 * edge[1] + 1]) / 2;
-        sides[b] = x == 0 && z > 2 ? GM_EDGE_INLET : x == 4 && z < 1 ? GM_EDGE_OUTLET : GM_EDGE_WALL;
-    }
-    const bool good = sides && gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1000) == GM_BOUNDARY_OK;
-    free(sides);
-    if (!good) {
-        gm_flow_close(flow);
-        return NULL;
-    }
-    flow->viscosity = 0.02;
-    flow->diffusivity = 0.03;
-    flow->reynolds = 50;
-    flow->scalar = true;
-    return flow;
+    close_flow(flow);
 }
 
 /* max |d1 d0|, whose entries are whole numbers */
@@ -183,21 +172,19 @@ static double incidence_defect(const struct gm_complex *complex)
 static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     enum { STEPS = 20 };
-    struct gm_flow *flow = open_room();
+    struct gm_flow *flow = open_flow(room_text, "0.02");
     double *start = flow ? malloc(gm_flow_size(flow) * sizeof *start) : NULL;
-    if (!start) {
-        gm_flow_close(flow);
+    if (!flow) {
         return;
     }
     const struct gm_problem problem = problem_of(flow);
     const size_t n = flow->complex->vertices;
-    for (int constant = 0; constant < 2; constant++) {
+    for (int constant = 0; constant < 2 && start; constant++) {
         for (size_t v = 0; constant && v < n; v++) {
             flow->theta[v] = 1;
         }
-        struct gm_run *run = gm_flow_start_irrotational(flow, start)
-                                 ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start)
-                                 : NULL;
+        struct gm_run *run =
+            gm_flow_start(flow, start) ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start) : NULL;
         for (int i = 0; run && i < STEPS && gm_run_advance(run, 1) == GM_OK; i++) {
             const double *y = gm_run_state(run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
             gm_certificate_note(certificate, GM_DIVERGENCE_FREE,
@@ -212,7 +199,7 @@ static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *
         gm_run_close(run);
     }
     free(start);
-    gm_flow_close(flow);
+    close_flow(flow);
 }
 
 /* Measures a scheme for flows on complexes: fills the certificate's order and claims. */

@@ -73,7 +73,6 @@ struct gm_system_scene {
     size_t *variables;                    /* for each row the number of its variable, or GM_NO_VARIABLE */
     size_t row_count, common_count;       /* the end of the system's own rows; of common ones */
     struct gm_system_scene *first, *next; /* systems of one file (variants.h); NULL: it is alone */
-    const char *words[GM_MOST_CHOICES][GM_MOST_CHOICE_WORDS + 1]; /* the words of choices, NULL-terminated */
     const char **lacks; /* for each row: why this system lacks it, or NULL; NULL: it is alone */
     struct gm_observable *observables;
     struct gm_tape **formulas; /* for each observable; NULL: a function of its own */
@@ -94,7 +93,6 @@ struct gm_system_scene {
     size_t disc[2];           /* the components that members differ in */
     size_t centre;            /* 1: the key of members does not count their centre */
     double radian;            /* 1 / the largest frequency at the start */
-    struct gm_figure *figures;
     struct gm_work work;
     struct gm_stability stability;
     double values[5];

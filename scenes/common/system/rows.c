@@ -110,27 +110,6 @@ const char *gm_system_idle(const void *parameters, const char *key)
     return NULL;
 }
 
-/* Makes the row of a choice, whose values are its words. */
-static void make_choice(struct gm_system_scene *system_scene, size_t i)
-{
-    const struct gm_written_choice *choice = &system_scene->system.choices.list[i];
-    for (size_t k = 0; k < choice->count; k++) {
-        system_scene->words[i][k] = choice->words[k];
-    }
-    system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
-    struct gm_parameter *row = &system_scene->rows[GM_SYSTEM_ROWS + i];
-    *row = (struct gm_parameter){
-        .key = choice->name,
-        .unit = "",
-        .help = gm_arena_keep(system_scene->arena,
-                              gm_span_words(system_scene->system.source, choice->meaning), free),
-        .type = GM_CHOICE,
-        .offset = offsetof(struct gm_system_lane, values) + i * sizeof(double),
-        .standard = choice->words[choice->chosen],
-        .choices = system_scene->words[i],
-    };
-}
-
 void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
                          const struct gm_parameter *common, size_t count, bool typed)
 {
@@ -145,7 +124,9 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
         gm_arena_take(arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
     const double *start = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
     for (size_t i = 0; i < choices; i++) {
-        make_choice(system_scene, i);
+        system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
+        system_scene->rows[GM_SYSTEM_ROWS + i] = gm_written_choice(
+            arena, system, i, "", offsetof(struct gm_system_lane, values) + i * sizeof(double));
     }
     size_t row = GM_SYSTEM_ROWS + choices;
     for (size_t i = 0; i < parameters + starts; i++) {

@@ -33,19 +33,6 @@ static const char *const *take_schemes(struct gm_arena *arena, const struct gm_s
     return schemes;
 }
 
-static void make_figures(struct gm_system_scene *system_scene)
-{
-    const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_FIGURE);
-    system_scene->figures = gm_arena_take(system_scene->arena, count + 1, sizeof *system_scene->figures);
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_FIGURE, i);
-        system_scene->figures[i] =
-            (struct gm_figure){.name = item->name, .statement = item->text, .arguments = item->words};
-    }
-    system_scene->scene.figures = system_scene->figures;
-    system_scene->scene.figure_count = count;
-}
-
 /* ---- work and precision ---- */
 
 static void make_work(struct gm_system_scene *system_scene, const struct gm_problem *problem)
@@ -225,7 +212,7 @@ void gm_system_make_studies(struct gm_system_scene *system_scene, const struct g
         }
     }
     const char *missing = item ? gm_system_option_text(item, GM_OPTION_MISSING, NULL) : NULL;
-    make_figures(system_scene);
+    gm_written_figures(system_scene->arena, &system_scene->system, &system_scene->scene);
     make_work(system_scene, problem);
     if (missing) {
         system_scene->scene.no_stability = gm_arena_print(
