@@ -35,7 +35,7 @@
 
 static const struct {
     const char *word, *title, *energy;
-} kinds[GM_SYSTEM_KINDS] = {
+} kinds[GM_SYSTEM_KINDS + 1] = {
     {"canonical", "A canonical system", "H"},
     {"lagrangian", "A Lagrangian system", "L"},
     {"ode", "An ordinary differential equation", ""},
@@ -44,7 +44,13 @@ static const struct {
     {"evolution", "An evolution equation on a line", ""},
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
     {"forms", "Differential forms on triangles", ""},
+    {"nodes", "Nodes alone, each", ""},
 };
+
+static size_t kind_of(const struct gm_user_system *system)
+{
+    return system->alone ? GM_SYSTEM_KINDS : (size_t)system->kind;
+}
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
 
@@ -158,7 +164,7 @@ static gm_node_id equation_of(const struct report *report, size_t i, bool latex,
 
 static size_t first_equation(const struct gm_user_system *system)
 {
-    return system->kind == GM_FIELD ? 1 : 0;
+    return system->alone ? system->n : system->kind == GM_FIELD;
 }
 
 static const char *certainty(enum gm_identity check)
@@ -195,7 +201,7 @@ static void print_texts(const struct report *report)
             gm_print_wrapped(texts[i], 0, 0);
         }
     }
-    gm_print_wrapped(gm_arena_print(report->arena, "%s of %zu component%s%s", kinds[system->kind].title,
+    gm_print_wrapped(gm_arena_print(report->arena, "%s of %zu component%s%s", kinds[kind_of(system)].title,
                                     system->n, gm_plural((double)system->n),
                                     system->timed ? " and the time" : ""),
                      0, 0);
@@ -238,7 +244,10 @@ static void print_parameters(const struct report *report)
         return;
     }
     printf("\nstart\n");
-    for (size_t i = 0; i < system->n && i < MOST_EQUATIONS; i++) {
+    if (system->drift != GM_NO_NODE) {
+        print_equation(report, "X_t", system->drift);
+    }
+    for (size_t i = 0; i < system->n && !system->alone && i < MOST_EQUATIONS; i++) {
         if (gm_system_is_field(system)) {
             print_equation(report, system->variables[i].name, system->variables[i].start);
             continue;
@@ -252,8 +261,11 @@ static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     printf("\nequations\n");
-    if (kinds[system->kind].energy[0]) {
-        print_equation(report, kinds[system->kind].energy, system->energy);
+    if (system->alone) {
+        gm_print_wrapped(system->texts[GM_WORD_CELL], printf("  cell = "), 6);
+    }
+    if (kinds[kind_of(system)].energy[0]) {
+        print_equation(report, kinds[kind_of(system)].energy, system->energy);
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {
@@ -354,7 +366,7 @@ static void each_fact(const struct report *report,
     if (report->recognised.name) {
         put(row, "equation", "", true, equation_fact(report));
     }
-    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD && !system->alone; i++) {
         put(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
@@ -421,6 +433,10 @@ static void print_schemes(const struct report *report)
 {
     const char *lacks = gm_system_is_field(&report->system) ? "" : gm_user_model_lacks(&report->model);
     printf("\nschemes that fit\n");
+    if (report->system.alone) {
+        printf("  free-gauss2 free-gauss4\n");
+        return;
+    }
     if (lacks[0]) {
         gm_print_wrapped(lacks, printf("  "), 2);
     } else {
@@ -511,7 +527,7 @@ static void print_json(const struct report *report, const struct gm_file *file)
     const struct gm_user_system *system = &report->system;
     struct gm_row row = gm_row_begin(stdout);
     gm_row_put(&row, "title %s, kind %s, timed %d", gm_system_title(system) ? gm_system_title(system) : "",
-               kinds[system->kind].word, system->timed);
+               kinds[kind_of(system)].word, system->timed);
     put_values(&row, report);
     put_equations(&row, report);
     struct gm_row structure = gm_row_open(&row, "structure", '}');
@@ -574,8 +590,8 @@ static void print_latex(struct report *report)
     const struct gm_user_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
-    if (kinds[system->kind].energy[0]) {
-        printf("  %s &= %s \\\\\n", kinds[system->kind].energy, formula_of(report, system->energy, true));
+    if (kinds[kind_of(system)].energy[0]) {
+        printf("  %s &= %s \\\\\n", kinds[kind_of(system)].energy, formula_of(report, system->energy, true));
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {

@@ -18,7 +18,7 @@ struct gm_user_wave {
     enum gm_known_potential known;
     double degree; /* degree of V' in u; INFINITY: not written as a polynomial */
     /* formulas in x as variable 0; the exact solution has t as variable 1; GM_NO_NODE: not given */
-    gm_node_id start[GM_TYPED_START], start_slope /* u_x */, exact;
+    gm_node_id start[GM_TYPED_START], start_slope /* u_x */, exact, drift /* X_t */;
     gm_node_id exact_while; /* of x and t: above 0 while the exact solution holds */
 };
 

@@ -24,9 +24,11 @@ enum {
     EVOLUTION = 1 << GM_EVOLUTION,
     MATRICES = 1 << GM_MATRICES,
     FORMS = 1 << GM_FORMS,
+    NODES = 1 << GM_SYSTEM_KINDS, /* nodes alone */
     LINE = FIELD | EVOLUTION | MATRICES,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
-    ANY = MOTION | LINE | FORMS
+    OBSERVED = MOTION | LINE | FORMS,
+    ANY = OBSERVED | NODES
 };
 
 const struct gm_line_word gm_system_words[GM_WORDS] = {

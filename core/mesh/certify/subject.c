@@ -108,7 +108,9 @@ bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_sc
     subject->problem = *problem;
     moving->describe(problem, &subject->mesh);
     subject->mesh.cell = gm_scheme_mesh(scheme) == GM_MESH_FREE ? subject->mesh.cell : NULL;
-    return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters,
+    return subject->mesh.points <= GM_MESH_SUBJECT_POINTS &&
+           (!subject->mesh.alone || gm_scheme_mesh(scheme) == GM_MESH_FREE) &&
+           gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters,
                          subject->start);
 }
 
@@ -124,8 +126,11 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
                   double *state)
 {
     const size_t points = subject->mesh.points;
-    memcpy(state, subject->start, 4 * points * sizeof *state);
-    for (size_t i = 0; i < points; i++) {
+    memcpy(state, subject->start, subject->problem.n * sizeof *state);
+    for (size_t i = 0; i < 2 * points && subject->mesh.alone; i++) {
+        state[i] += by[i];
+    }
+    for (size_t i = 0; i < points && !subject->mesh.alone; i++) {
         state[i] += by[i];
         state[2 * points + i] += by[points + i];
         if (kind == GM_MESH_FREE) { /* nodes move by other shares of the same directions */

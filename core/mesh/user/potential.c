@@ -18,9 +18,11 @@
 #include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
+enum { U, RATE, SLOPE, DRIFT, OF_START };
+enum { MOST_LISTED = 128 };
 
 struct own {
-    struct gm_user_line line; /* first; starts are u, u_t, u_x */
+    struct gm_user_line line; /* first; starts are u, u_t, u_x, and X_t if the file gives it */
     struct gm_potential functions;
     struct gm_mesh mesh;
     struct gm_mesh_names names;
@@ -31,7 +33,8 @@ struct own {
     char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
-    struct gm_tape means /* V, V' */, bend /* V'' */;
+    struct gm_tape means /* V, V' */, bend /* V'' */, between;
+    double listed[MOST_LISTED]; /* places of nodes alone */
     struct gm_tape
         known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
@@ -115,13 +118,22 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 static void start(const void *parameters, const double *x, size_t count, double *value, double *slope,
                   double *rate)
 {
-    double of[3 * GM_LINE_ROOM];
+    double of[OF_START * GM_LINE_ROOM];
     for (size_t from = 0, some; from < count; from += some) {
         some = count - from < GM_LINE_ROOM ? count - from : GM_LINE_ROOM;
         gm_tape_values(&((const struct own *)parameters)->line.start, x + from, of, some);
         memcpy(value + from, of, some * sizeof *of);
-        memcpy(rate + from, of + some, some * sizeof *of);
-        memcpy(slope + from, of + 2 * some, some * sizeof *of);
+        memcpy(rate + from, of + RATE * some, some * sizeof *of);
+        memcpy(slope + from, of + SLOPE * some, some * sizeof *of);
+    }
+}
+
+static void drift(const void *parameters, const double *x, size_t count, double *rate)
+{
+    double of[OF_START];
+    for (size_t i = 0; i < count; i++) {
+        gm_tape_values(&((const struct own *)parameters)->line.start, x + i, of, 1);
+        rate[i] = of[DRIFT];
     }
 }
 
@@ -202,7 +214,19 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
     const struct gm_mesh_names *names = &self->names;
     enum { SIZE = sizeof self->refused };
+    size_t count = 0;
+    if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
+        const bool read =
+            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, self->refused, SIZE);
+        self->mesh.listed = self->listed;
+        self->mesh.points = read ? count : self->mesh.points;
+        if (!read) {
+            return self->refused[0];
+        }
+    }
     return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
+            (!chosen->between || !chosen->between[0] ||
+             gm_user_between_open(&self->between, names, chosen->between, self->refused, SIZE)) &&
             (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
             (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
            self->refused[0];
@@ -225,8 +249,10 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     }
     const struct gm_formula *graph = &wave->system->graph;
     const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
-    const gm_node_id means[] = {wave->system->energy, wave->by_u[0]},
-                     begin[] = {wave->start[0], wave->start[1], wave->start_slope};
+    const gm_node_id means
+        [] = {wave->system->energy, wave->by_u[0]},
+   begin[OF_START] = {
+       [U] = wave->start[0], [RATE] = wave->start[1], [SLOPE] = wave->start_slope, [DRIFT] = wave->drift};
     self->functions = (struct gm_potential){.name = "own", .first = first, .second = second};
     self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
                                   .first = chosen->first,
@@ -238,7 +264,8 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
         (wave->exact_while != GM_NO_NODE &&
          !gm_tape_open(&self->known, graph, &wave->exact_while, 1, 2, values)) ||
-        !gm_user_line_open(&self->line, wave->system, begin, GM_COUNT(begin), &wave->exact, values)) {
+        !gm_user_line_open(&self->line, wave->system, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START,
+                           &wave->exact, values)) {
         return false;
     }
     const double places[] = {chosen->first, chosen->first + chosen->length};
@@ -250,13 +277,23 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
-    self->mesh.map = chosen->map ? &self->map.map : NULL;
+    self->mesh.alone = wave->system->alone;
+    self->mesh.drift = wave->drift == GM_NO_NODE ? NULL : drift;
+    self->mesh.map = chosen->map && chosen->map[0] ? &self->map.map : NULL;
     self->mesh.cell = chosen->cell && strcmp(chosen->cell, "0") != 0 ? &self->cell.cell : NULL;
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    return weigh(self, chosen, values) && open_equation(self, chosen);
+    const bool good = weigh(self, chosen, values) && open_equation(self, chosen);
+    problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
+    return good;
+}
+
+void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
+{
+    const struct gm_tape *tape = &((const struct own *)problem->parameters)->between;
+    gm_tape_values(tape, at, velocity, m);
 }
 
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
@@ -268,9 +305,9 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->density.tape,  &self->density.itself, &self->means,
-                                         &self->bend,          &self->known,          &self->map.tape,
-                                         &self->cell.by_first, &self->cell.by_second};
+        struct gm_tape *const tapes[] = {&self->density.tape, &self->density.itself, &self->means,
+                                         &self->bend,         &self->known,          &self->map.tape,
+                                         &self->between,      &self->cell.by_first,  &self->cell.by_second};
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
@@ -285,7 +322,7 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
     const struct own *self = problem->parameters;
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
-    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK];
+    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;
     if (self->refused[0]) {
         snprintf(sentence, size, "%s", self->refused);
         return false;
@@ -294,10 +331,25 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
                            !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
         return false;
     }
+    for (size_t k = 0; self->mesh.listed && k < self->mesh.points; k++) {
+        const double x = self->listed[k], end = self->mesh.first + self->mesh.length;
+        if (!(x > before && x < end)) {
+            snprintf(sentence, size, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
+                     before, self->mesh.first, end);
+            return false;
+        }
+        before = x;
+    }
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
-            const double u = values[i], rate = values[some + i], slope = values[2 * some + i];
+            const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
+                         drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
+            if (!isfinite(drift)) {
+                snprintf(sentence, size, "X_t at the start is not finite where x = %.6g",
+                         gm_grid1_node(&grid, from + i));
+                return false;
+            }
             if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
                 snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
                          !isfinite(u)       ? ""
