@@ -366,6 +366,10 @@ static void each_fact(const struct report *report,
     if (report->recognised.name) {
         put(row, "equation", "", true, equation_fact(report));
     }
+    if (system->alone) {
+        put(row, "lagrangian", "", true,
+            "the sum of the cells' Lagrangian, which does not depend on the time");
+    }
     for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD && !system->alone; i++) {
         put(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
@@ -472,7 +476,10 @@ static void put_values(struct gm_row *row, const struct report *report)
     }
     gm_row_close(&parameters);
     struct gm_row starts = gm_row_open(row, "start", '}');
-    for (size_t i = 0; i < system->n; i++) {
+    if (system->drift != GM_NO_NODE) {
+        put_formula(&starts, "X_t", report, system->drift);
+    }
+    for (size_t i = 0; i < system->n && !system->alone; i++) {
         if (gm_system_is_field(system)) {
             put_formula(&starts, system->variables[i].name, report, system->variables[i].start);
         } else {
@@ -486,6 +493,9 @@ static void put_equations(struct gm_row *row, const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     struct gm_row equations = gm_row_open(row, "equations", '}');
+    if (system->alone) {
+        gm_row_text(&equations, "cell", system->texts[GM_WORD_CELL]);
+    }
     for (size_t i = first_equation(system); i < system->n; i++) {
         const char *name;
         const gm_node_id node = equation_of(report, i, false, &name);
@@ -522,6 +532,12 @@ static void put_part(struct gm_row *row, const char *name, const char *flow)
     gm_row_text(row, name, flow);
 }
 
+/* True for schemes of nodes alone. */
+static bool moves_nodes(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_mesh && gm_scheme_mesh(scheme) == GM_MESH_FREE;
+}
+
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
@@ -539,7 +555,11 @@ static void print_json(const struct report *report, const struct gm_file *file)
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
-        gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
+        if (!system->alone) {
+            gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
+        } else if (moves_nodes(gm_scheme_at(i))) {
+            fitting[count++] = gm_scheme_at(i);
+        }
     }
     for (size_t i = 0; i < count; i++) {
         same[i] = gm_scheme_same_as(fitting[i], &report->problem);
