@@ -62,7 +62,7 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
         return gm_form_scene_open(&system, file->name, NULL, fault, sentence);
     }
     size_t others;
-    const bool elsewhere = gm_user_field_elsewhere(system.kind, system.texts[GM_WORD_SCHEMES], &others) > 0;
+    const bool elsewhere = gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
     return gm_system_is_field(&system)
                ? gm_user_field_open(&system, file->name, NULL, elsewhere, fault, sentence)
                : gm_system_scene_open(&system, file->name, NULL, false, fault, sentence);

@@ -35,7 +35,7 @@
 
 static const struct {
     const char *word, *title, *energy;
-} kinds[GM_SYSTEM_KINDS] = {
+} kinds[GM_SYSTEM_KINDS + 1] = {
     {"canonical", "A canonical system", "H"},
     {"lagrangian", "A Lagrangian system", "L"},
     {"ode", "An ordinary differential equation", ""},
@@ -44,7 +44,13 @@ static const struct {
     {"evolution", "An evolution equation on a line", ""},
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
     {"forms", "Differential forms on triangles", ""},
+    {"nodes", "Nodes alone, each", ""},
 };
+
+static size_t kind_of(const struct gm_user_system *system)
+{
+    return system->alone ? GM_SYSTEM_KINDS : (size_t)system->kind;
+}
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
 
@@ -158,7 +164,7 @@ static gm_node_id equation_of(const struct report *report, size_t i, bool latex,
 
 static size_t first_equation(const struct gm_user_system *system)
 {
-    return system->kind == GM_FIELD ? 1 : 0;
+    return system->alone ? system->n : system->kind == GM_FIELD;
 }
 
 static const char *certainty(enum gm_identity check)
@@ -195,7 +201,7 @@ static void print_texts(const struct report *report)
             gm_print_wrapped(texts[i], 0, 0);
         }
     }
-    gm_print_wrapped(gm_arena_print(report->arena, "%s of %zu component%s%s", kinds[system->kind].title,
+    gm_print_wrapped(gm_arena_print(report->arena, "%s of %zu component%s%s", kinds[kind_of(system)].title,
                                     system->n, gm_plural((double)system->n),
                                     system->timed ? " and the time" : ""),
                      0, 0);
@@ -238,7 +244,10 @@ static void print_parameters(const struct report *report)
         return;
     }
     printf("\nstart\n");
-    for (size_t i = 0; i < system->n && i < MOST_EQUATIONS; i++) {
+    if (system->drift != GM_NO_NODE) {
+        print_equation(report, "X_t", system->drift);
+    }
+    for (size_t i = 0; i < system->n && !system->alone && i < MOST_EQUATIONS; i++) {
         if (gm_system_is_field(system)) {
             print_equation(report, system->variables[i].name, system->variables[i].start);
             continue;
@@ -252,8 +261,11 @@ static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     printf("\nequations\n");
-    if (kinds[system->kind].energy[0]) {
-        print_equation(report, kinds[system->kind].energy, system->energy);
+    if (system->alone) {
+        gm_print_wrapped(system->texts[GM_WORD_CELL], printf("  cell = "), 6);
+    }
+    if (kinds[kind_of(system)].energy[0]) {
+        print_equation(report, kinds[kind_of(system)].energy, system->energy);
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {
@@ -354,7 +366,11 @@ static void each_fact(const struct report *report,
     if (report->recognised.name) {
         put(row, "equation", "", true, equation_fact(report));
     }
-    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
+    if (system->alone) {
+        put(row, "lagrangian", "", true,
+            "the sum of the cells' Lagrangian, which does not depend on the time");
+    }
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD && !system->alone; i++) {
         put(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
@@ -421,6 +437,10 @@ static void print_schemes(const struct report *report)
 {
     const char *lacks = gm_system_is_field(&report->system) ? "" : gm_user_model_lacks(&report->model);
     printf("\nschemes that fit\n");
+    if (report->system.alone) {
+        printf("  free-gauss2 free-gauss4\n");
+        return;
+    }
     if (lacks[0]) {
         gm_print_wrapped(lacks, printf("  "), 2);
     } else {
@@ -456,7 +476,10 @@ static void put_values(struct gm_row *row, const struct report *report)
     }
     gm_row_close(&parameters);
     struct gm_row starts = gm_row_open(row, "start", '}');
-    for (size_t i = 0; i < system->n; i++) {
+    if (system->drift != GM_NO_NODE) {
+        put_formula(&starts, "X_t", report, system->drift);
+    }
+    for (size_t i = 0; i < system->n && !system->alone; i++) {
         if (gm_system_is_field(system)) {
             put_formula(&starts, system->variables[i].name, report, system->variables[i].start);
         } else {
@@ -470,6 +493,9 @@ static void put_equations(struct gm_row *row, const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     struct gm_row equations = gm_row_open(row, "equations", '}');
+    if (system->alone) {
+        gm_row_text(&equations, "cell", system->texts[GM_WORD_CELL]);
+    }
     for (size_t i = first_equation(system); i < system->n; i++) {
         const char *name;
         const gm_node_id node = equation_of(report, i, false, &name);
@@ -506,12 +532,18 @@ static void put_part(struct gm_row *row, const char *name, const char *flow)
     gm_row_text(row, name, flow);
 }
 
+/* True for schemes of nodes alone. */
+static bool moves_nodes(const struct gm_scheme *scheme)
+{
+    return scheme->family->kind == &gm_kind_mesh && gm_scheme_mesh(scheme) == GM_MESH_FREE;
+}
+
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
     struct gm_row row = gm_row_begin(stdout);
     gm_row_put(&row, "title %s, kind %s, timed %d", gm_system_title(system) ? gm_system_title(system) : "",
-               kinds[system->kind].word, system->timed);
+               kinds[kind_of(system)].word, system->timed);
     put_values(&row, report);
     put_equations(&row, report);
     struct gm_row structure = gm_row_open(&row, "structure", '}');
@@ -523,7 +555,11 @@ static void print_json(const struct report *report, const struct gm_file *file)
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
-        gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
+        if (!system->alone) {
+            gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
+        } else if (moves_nodes(gm_scheme_at(i))) {
+            fitting[count++] = gm_scheme_at(i);
+        }
     }
     for (size_t i = 0; i < count; i++) {
         same[i] = gm_scheme_same_as(fitting[i], &report->problem);
@@ -574,8 +610,8 @@ static void print_latex(struct report *report)
     const struct gm_user_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
-    if (kinds[system->kind].energy[0]) {
-        printf("  %s &= %s \\\\\n", kinds[system->kind].energy, formula_of(report, system->energy, true));
+    if (kinds[kind_of(system)].energy[0]) {
+        printf("  %s &= %s \\\\\n", kinds[kind_of(system)].energy, formula_of(report, system->energy, true));
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {

@@ -201,16 +201,24 @@ static void settle_time(struct gm_arena *arena, const struct gm_scene *scene, st
     timing->until = steps_given ? spec->end : timing->until;
 }
 
-/* Checks that a parameter of schemes is given only to schemes that have it. */
+/* True unless a scheme has no use for a key. */
+static bool takes(const struct gm_scene *scene, const struct gm_scheme *scheme, const char *key)
+{
+    const struct gm_parameter *row = gm_setting_find(key);
+    return gm_scene_parameter(scene, key) ? !scene->takes || scene->takes(scheme, key)
+                                          : !row || gm_scheme_takes(scheme, row);
+}
+
+/* Checks that a key is given only to schemes of which one has a use for it. */
 static void check_settings(struct gm_arena *arena, const struct gm_request *request,
                            const struct gm_words *words)
 {
     const struct gm_scene *scene = request->scene;
     for (size_t i = 0; i < words->count; i++) {
-        const struct gm_parameter *row = gm_setting_find(words->list[i].key);
-        bool used = !row || gm_scene_parameter(scene, words->list[i].key);
+        const char *key = words->list[i].key;
+        bool used = false;
         for (size_t k = 0; k < request->count && !used; k++) {
-            used = gm_scheme_takes(request->lanes[k].scheme, row);
+            used = takes(scene, request->lanes[k].scheme, key);
         }
         if (used) {
             continue;
@@ -219,14 +227,14 @@ static void check_settings(struct gm_arena *arena, const struct gm_request *requ
         const size_t count = gm_fitting_schemes(scene, fitting);
         const char *names = "";
         for (size_t k = 0; k < count; k++) {
-            if (gm_scheme_takes(fitting[k], row)) {
+            if (takes(scene, fitting[k], key)) {
                 names = gm_arena_print(arena, "%s%s%s", names, names[0] ? ", " : "", fitting[k]->name);
             }
         }
         if (names[0]) {
-            gm_arena_refuse(arena, "none of these schemes takes %s=; these do: %s", row->key, names);
+            gm_arena_refuse(arena, "none of these schemes takes %s=; these do: %s", key, names);
         }
-        gm_arena_refuse(arena, "no scheme that fits scene %s takes %s=", scene->name, row->key);
+        gm_arena_refuse(arena, "no scheme that fits scene %s takes %s=", scene->name, key);
     }
 }
 

@@ -200,7 +200,7 @@ static bool choose_grid(struct making *making)
         schemes = typed ? typed : schemes;
     }
     size_t others;
-    making->elsewhere = gm_user_field_elsewhere(making->first.kind, schemes, &others) > 0;
+    making->elsewhere = gm_user_field_elsewhere(&making->first, schemes, &others) > 0;
     return !making->elsewhere || others == 0 ||
            gm_refuse(making->message,
                      "some of these schemes %s, and others do not know how: a picture has one "

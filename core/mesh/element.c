@@ -19,7 +19,7 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
     const size_t of_density = mesh->density && mesh->density->local ? 2 * (3 + GM_DENSITY_VALUES) : 0;
     const size_t count = GM_COUNT(arrays), length = mesh->points + 2,
                  of_cells = mesh->cell ? 2 * GM_CELL_INPUTS + 3 : 0;
-    *stage = (struct gm_elements){.count = mesh->points + 1};
+    *stage = (struct gm_elements){.count = mesh->points + 1, .alone = mesh->alone};
     stage->memory =
         calloc((count + 8 + GM_DENSITY_OF_SLOPE + of_density + of_cells) * length, sizeof *stage->memory);
     if (!stage->memory) {
@@ -55,10 +55,12 @@ void gm_elements_close(struct gm_elements *stage)
 void gm_elements_place(struct gm_elements *stage, const double *state)
 {
     const size_t points = stage->count - 1, size = points * sizeof(double);
-    memcpy(stage->y + 1, state, size);
-    memcpy(stage->x + 1, state + points, size);
-    memcpy(stage->u + 1, state + 2 * points, size);
-    memcpy(stage->v + 1, state + 3 * points, size);
+    memcpy(stage->x + 1, state + (stage->alone ? 0 : points), size);
+    memcpy(stage->v + 1, state + (stage->alone ? 1 : 3) * points, size);
+    if (!stage->alone) {
+        memcpy(stage->y + 1, state, size);
+        memcpy(stage->u + 1, state + 2 * points, size);
+    }
 }
 
 /* Geometry of the elements; the least width, NaN if one is NaN. */

@@ -24,6 +24,7 @@
 
 struct gm_elements {
     size_t count; /* N + 1 */
+    bool alone;   /* states have no field (struct gm_mesh) */
     double *memory;
     double *y, *x, *u, *v; /* at the nodes, N + 2 each, ends included */
     /* at the elements */

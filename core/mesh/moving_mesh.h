@@ -15,7 +15,9 @@
    Every strategy starts from it and ends every step with it, so a run may change its strategy. A state of a
    moving mesh meets the constraint, and its velocities the constraint's derivative; of a uniform mesh, X is
    uniform and dX/dt = 0. A scheme that receives a state of the other kind interpolates the field and its
-   velocity phi_t = dy/dt - phi_X dX/dt onto a mesh of its own kind. */
+   velocity phi_t = dy/dt - phi_X dX/dt onto a mesh of its own kind.
+
+   Nodes alone are a mesh whose field is 0: their state has the 2 N components X and dX/dt. */
 
 struct gm_potential {
     const char *name;
@@ -27,8 +29,6 @@ struct gm_potential {
     void (*second)(const struct gm_potential *potential, double middle, double rise, double *w_mm,
                    double *w_mr, double *w_rr);
 };
-extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
-extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
 /* The mesh density rho that a mesh equidistributes: every element has the same
        ell = d^2 (P(left end) + P(right end)) / 2,   P = rho^2,
@@ -74,6 +74,8 @@ struct gm_mesh_map {
 
 struct gm_mesh {
     size_t points;
+    bool alone;           /* the nodes have no field */
+    const double *listed; /* places of the nodes at the start; NULL: by the density */
     double first, length; /* left end and length */
     double left, right;   /* the field at both ends */
     double even;          /* the homotopy of the start has (1 - even) P + even instead of P; else 0 */
@@ -82,8 +84,21 @@ struct gm_mesh {
     double relax;                    /* T of a mesh that is smoothed in time; 0: it is not */
     double t;                        /* the time of states that are started or carried */
     const struct gm_mesh_map *map;   /* NULL: nodes are at their labels */
+    /* dX/dt of free nodes at the start, at `count` places x; NULL: as the density moves */
+    void (*drift)(const void *context, const double *x, size_t count, double *rate);
     const struct gm_potential *potential;
 };
+
+/* The numbers of X and of dX/dt in a state. */
+static inline size_t gm_mesh_place(const struct gm_mesh *mesh)
+{
+    return mesh->alone ? 0 : mesh->points;
+}
+
+static inline size_t gm_mesh_rate(const struct gm_mesh *mesh)
+{
+    return (mesh->alone ? 1 : 3) * mesh->points;
+}
 
 /* A field and its rate of change in time: values, slopes and rates at `count` places x. */
 typedef void gm_mesh_profile(const void *context, const double *x, size_t count, double *value, double *slope,
@@ -135,6 +150,11 @@ double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state);
    slopes: every straight node takes 1 off the rank (Tyranowski & Desbrun 2019, proposition 7). */
 enum { GM_DENSE_POINTS = 255 };
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
+/* Writes the blocks of the mass matrix of every node alone (their eq. 48): by y and y, by y and X, by X and X. False
+   when out of memory. */
+bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3]);
+/* The sum of dL/d(dX/dt) over the nodes. */
+double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state);
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state);
 
 /* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of

@@ -51,8 +51,8 @@ size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *
     const struct gm_mesh_row *row = scheme->coefficients;
     struct gm_mesh mesh;
     gm_moving_mesh_of(problem)->describe(problem, &mesh);
-    const size_t points = problem->n / 4, n = points * strategy_of(row, &mesh)->unknowns * stages_of(row);
-    return MEMORY_HEAD + (PAST + 1) * n + 4 * points;
+    const size_t n = mesh.points * strategy_of(row, &mesh)->unknowns * stages_of(row);
+    return MEMORY_HEAD + (PAST + 1) * n + 4 * mesh.points;
 }
 
 void gm_mesh_workspace_close(void *workspace)
@@ -86,12 +86,14 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
     bool good = gm_elements_open(&solver->ends, mesh);
     for (size_t i = 0; i < solver->stages; i++) {
         good = good && gm_elements_open(&solver->stage[i], mesh);
+        solver->stage[i].alone = false;
     }
     good = good && gm_banded_open(&solver->matrix, n, 2 * solver->per_node - 1) &&
            gm_banded_open(&solver->projection, moves * points, 2 * moves - 1) &&
            gm_banded_open(&solver->places, points, 1);
-    double *next = calloc(3 * n + 6 * points + 1 + solver->stages * (3 * points + 1), sizeof *next);
+    double *next = calloc(3 * n + 10 * points + 1 + solver->stages * (3 * points + 1), sizeof *next);
     solver->unknowns = next;
+    solver->ends.alone = false; /* of whole states */
     if (!good || !next) {
         gm_mesh_workspace_close(solver);
         return NULL;
@@ -101,7 +103,8 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
     solver->momenta = solver->trial + n;
     solver->motion = solver->momenta + 2 * points;
     solver->slack = solver->motion + 3 * points;
-    next = solver->slack + points + 1;
+    solver->whole = solver->slack + points + 1;
+    next = solver->whole + 4 * points;
     for (size_t i = 0; i < solver->stages; i++, next += 3 * points + 1) {
         solver->forces[i] = next;
         solver->share[i] = next + 2 * points;
@@ -425,15 +428,22 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
 {
     struct gm_mesh_solver *solver = task->workspace;
     const struct gm_mesh_strategy *strategy = solver->strategy;
-    double *memory = task->memory_out, *state = task->out;
+    const struct gm_mesh *mesh = &solver->mesh;
+    const size_t size = mesh->points * sizeof(double);
+    double *memory = task->memory_out, *state = mesh->alone ? solver->whole : task->out;
     struct gm_progress progress = {.status = GM_OK};
     solver->noise = DBL_EPSILON * solver->mesh.length / fabs(task->dt);
     for (size_t i = 0; i < solver->per_node; i++) {
         solver->weights[i] = strategy->weight ? strategy->weight(solver->stages, i, fabs(task->dt)) : 1;
     }
-    if (state != task->y) {
-        memcpy(state, task->y, task->problem->n * sizeof *state);
+    if (task->out != task->y) {
+        memcpy(task->out, task->y, task->problem->n * sizeof *state);
         memcpy(memory, task->memory, gm_mesh_memory(task->problem, task->scheme) * sizeof *memory);
+    }
+    if (mesh->alone) {
+        memset(state, 0, 4 * size);
+        memcpy(state + mesh->points, task->out, size);
+        memcpy(state + 3 * mesh->points, task->out + mesh->points, size);
     }
     while (progress.done < task->steps) {
         const double t = task->t0 + (double)(task->n + progress.done) * task->dt;
@@ -445,6 +455,10 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
             break;
         }
         progress.done++;
+    }
+    if (mesh->alone) {
+        memcpy(task->out, state + mesh->points, size);
+        memcpy(task->out + mesh->points, state + 3 * mesh->points, size);
     }
     return progress;
 }

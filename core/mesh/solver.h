@@ -66,6 +66,7 @@ struct gm_mesh_solver {
     double t, h;
     const double *state;
     double *momenta;
+    double *whole;           /* 4 N: the state of nodes alone with a field that is 0 */
     struct gm_elements ends; /* the start, then the end */
     struct gm_elements stage[GM_STAGES];
     struct gm_banded matrix, projection;

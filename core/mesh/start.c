@@ -109,25 +109,33 @@ static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_prof
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state)
 {
-    const size_t points = mesh->points;
+    const size_t points = mesh->points, place = gm_mesh_place(mesh), rate = gm_mesh_rate(mesh);
+    const bool drifts = kind == GM_MESH_FREE && mesh->drift;
     struct bench bench;
     if (!bench_open(&bench, mesh)) {
         return false;
     }
+    struct gm_elements *stage = &bench.stage;
     bool good = true;
-    if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN) {
-        gm_mesh_known(mesh, kind, mesh->t, &bench.stage);
-        memcpy(bench.change, bench.stage.v + 1, points * sizeof *bench.change);
-        profile(context, bench.stage.x + 1, points, bench.stage.y + 1, bench.stage.u + 1, bench.stage.v + 1);
+    if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN || mesh->listed) {
+        gm_mesh_known(mesh, kind, mesh->t, stage);
+        memcpy(mesh->listed ? stage->x + 1 : bench.change, mesh->listed ? mesh->listed : stage->v + 1,
+               points * sizeof *bench.change);
+        profile(context, stage->x + 1, points, stage->y + 1, stage->u + 1, stage->v + 1);
     } else {
         good = refine(&bench, mesh, profile, context) &&
-               gm_nodes_set_in_motion(&bench.stage, &bench.matrix, bench.change);
+               (drifts || gm_nodes_set_in_motion(stage, &bench.matrix, bench.change));
+    }
+    if (drifts) {
+        mesh->drift(context, stage->x + 1, points, bench.change);
     }
     for (size_t k = 0; k < points; k++) {
-        state[k] = bench.stage.y[k + 1];
-        state[points + k] = bench.stage.x[k + 1];
-        state[2 * points + k] = bench.stage.u[k + 1] * bench.change[k] + bench.stage.v[k + 1];
-        state[3 * points + k] = bench.change[k];
+        if (!mesh->alone) {
+            state[k] = stage->y[k + 1];
+            state[2 * points + k] = stage->u[k + 1] * bench.change[k] + stage->v[k + 1];
+        }
+        state[place + k] = stage->x[k + 1];
+        state[rate + k] = bench.change[k];
     }
     bench_close(&bench);
     return good;
@@ -199,6 +207,10 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
 {
     const size_t points = mesh->points;
     struct gm_elements stage;
+    if (mesh->alone) { /* its nodes are free */
+        memmove(out, state, 2 * points * sizeof *out);
+        return kind == GM_MESH_FREE;
+    }
     if (!gm_elements_open(&stage, mesh)) {
         return false;
     }
@@ -223,28 +235,41 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
     return good;
 }
 
+/* Opens the elements of a state and evaluates them. False if it cannot; the caller closes them in both cases. */
+static bool open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state)
+{
+    if (!gm_elements_open(stage, mesh)) {
+        return false;
+    }
+    gm_elements_place(stage, state);
+    return gm_elements_evaluate(stage, mesh);
+}
+
 double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double sum = NAN;
-    if (!gm_elements_open(&stage, mesh)) {
-        return sum;
-    }
-    gm_elements_place(&stage, state);
-    if (gm_elements_evaluate(&stage, mesh)) {
-        sum = 0;
-        for (size_t e = 0; e < stage.count; e++) {
-            const double g = stage.slope[e];
-            const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
-                                    (stage.u[e + 1] - g * stage.v[e + 1]) * stage.momentum_u1[e]) /
-                                   2;
-            if (mesh->cell) { /* d_t LC_dt + m_t LC_m - LC */
-                const double *at = stage.cells + e, *of = at + GM_CELL_INPUTS * stage.count;
-                sum +=
-                    at[stage.count] * of[2 * stage.count] + at[2 * stage.count] * of[3 * stage.count] - of[0];
-            }
-            sum += kinetic + stage.rise[e] * g / 2 + stage.width[e] * stage.w[e];
+    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    for (size_t e = 0; !isnan(sum) && e < stage.count; e++) {
+        const double g = stage.slope[e];
+        const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
+                                (stage.u[e + 1] - g * stage.v[e + 1]) * stage.momentum_u1[e]) /
+                               2;
+        if (mesh->cell) { /* d_t LC_dt + m_t LC_m - LC */
+            const double *at = stage.cells + e, *of = at + GM_CELL_INPUTS * stage.count;
+            sum += at[stage.count] * of[2 * stage.count] + at[2 * stage.count] * of[3 * stage.count] - of[0];
         }
+        sum += kinetic + stage.rise[e] * g / 2 + stage.width[e] * stage.w[e];
+    }
+    gm_elements_close(&stage);
+    return sum;
+}
+
+double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
+{
+    struct gm_elements stage;
+    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    for (size_t k = 1; !isnan(sum) && k <= mesh->points; k++) {
+        sum += gm_momentum_v(&stage, k);
     }
     gm_elements_close(&stage);
     return sum;
@@ -253,13 +278,11 @@ double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    if (!gm_elements_open(&stage, mesh)) {
-        return NAN;
+    double jump = open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
+    if (!isnan(jump)) {
+        gm_elements_constrain(&stage, mesh);
     }
-    gm_elements_place(&stage, state);
-    double jump = 0, size = 0;
-    gm_elements_measure(&stage, mesh);
-    for (size_t k = 1; k <= mesh->points; k++) {
+    for (size_t k = 1; !isnan(jump) && k <= mesh->points; k++) {
         jump = fmax(jump, fabs(gm_jump(stage.ell, k)));
         size = fmax(size, fmax(stage.ell[k], stage.ell[k - 1]));
     }
@@ -270,17 +293,31 @@ double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state
 double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double least = INFINITY;
-    if (!gm_elements_open(&stage, mesh)) {
-        return NAN;
-    }
-    gm_elements_place(&stage, state);
-    gm_elements_evaluate(&stage, mesh);
-    for (size_t k = 1; k <= mesh->points; k++) {
+    double least = open_at(&stage, mesh, state) ? INFINITY : NAN;
+    for (size_t k = 1; !isnan(least) && k <= mesh->points; k++) {
         least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
     }
     gm_elements_close(&stage);
     return least;
+}
+
+bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3])
+{
+    struct gm_elements stage;
+    const bool good = open_at(&stage, mesh, state);
+    memset(blocks, 0, mesh->points * sizeof *blocks);
+    for (size_t i = 0; good && i < 2 * stage.count; i++) {
+        const size_t e = i / 2, end = i % 2, node = e + end; /* 0 and N + 1 are held */
+        struct gm_element_matrices at;
+        gm_elements_matrices(&stage, mesh, e, false, &at);
+        if (node > 0 && node <= mesh->points) {
+            blocks[node - 1][0] += at.mass[2 * end][2 * end];
+            blocks[node - 1][1] += at.mass[2 * end][2 * end + 1];
+            blocks[node - 1][2] += at.mass[2 * end + 1][2 * end + 1];
+        }
+    }
+    gm_elements_close(&stage);
+    return good;
 }
 
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition)
@@ -288,11 +325,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     const size_t points = mesh->points, n = 2 * points;
     struct gm_elements stage = {0};
     double *dense = points <= GM_DENSE_POINTS ? calloc(n * n + 2 * n, sizeof *dense) : NULL;
-    bool good = dense && gm_elements_open(&stage, mesh);
-    if (good) {
-        gm_elements_place(&stage, state);
-        good = gm_elements_evaluate(&stage, mesh);
-    }
+    bool good = dense && open_at(&stage, mesh, state);
     for (size_t e = 0; good && e <= points; e++) {
         struct gm_element_matrices at;
         gm_elements_matrices(&stage, mesh, e, false, &at);
@@ -304,18 +337,16 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
         }
     }
     good = good && gm_eigenvalues(dense, n, dense + n * n, dense + n * n + n);
-    if (good) {
-        double least = INFINITY, largest = 0;
-        for (size_t i = 0; i < n; i++) {
-            largest = fmax(largest, dense[n * n + i]);
-            least = fmin(least, fabs(dense[n * n + i]));
-        }
-        *rank = 0;
-        for (size_t i = 0; i < n; i++) {
-            *rank += dense[n * n + i] > 1e-12 * largest;
-        }
-        *condition = largest / least;
+    double least = INFINITY, largest = 0;
+    for (size_t i = 0; good && i < n; i++) {
+        largest = fmax(largest, dense[n * n + i]);
+        least = fmin(least, fabs(dense[n * n + i]));
     }
+    *rank = 0;
+    for (size_t i = 0; good && i < n; i++) {
+        *rank += dense[n * n + i] > 1e-12 * largest;
+    }
+    *condition = largest / least;
     gm_elements_close(&stage);
     free(dense);
     return good;
@@ -323,7 +354,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
 
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state)
 {
-    const double *x = state + mesh->points;
+    const double *x = state + gm_mesh_place(mesh);
     double least = fmin(x[0] - mesh->first, mesh->first + mesh->length - x[mesh->points - 1]);
     for (size_t k = 1; k < mesh->points; k++) {
         least = fmin(least, x[k] - x[k - 1]);

@@ -295,25 +295,26 @@ void gm_declared_kind(struct gm_reading *reading)
                               *field = gm_reading_line(reading, GM_WORD_FIELD),
                               *potential = gm_reading_line(reading, GM_WORD_POTENTIAL),
                               *matrix = gm_reading_line(reading, GM_WORD_K_MATRIX), *mesh = mesh_of(reading);
+    system->alone = !matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh;
     enum gm_system_kind kind = mesh                          ? GM_FORMS
                                : matrix                      ? GM_MATRICES
                                : field && rate && !potential ? GM_EVOLUTION
-                               : field                       ? GM_FIELD
+                               : field || system->alone      ? GM_FIELD
                                : lagrange                    ? GM_LAGRANGIAN
                                : rate                        ? GM_RATES
                                : bracket                     ? GM_POISSON
                                                              : GM_CANONICAL;
     static const char *const called[] = {"with H",         "with L",       "with rates",
                                          "with a bracket", "with a field", "with a field and its rate",
-                                         "with K-matrix",  "of forms"};
+                                         "with K-matrix",  "of forms",     "of nodes alone"};
+    const unsigned which = system->alone ? GM_SYSTEM_KINDS : kind;
     gm_system_refuse_if(system,
                         !matrix && (gm_reading_line(reading, GM_WORD_L_MATRIX) ||
                                     gm_reading_line(reading, GM_WORD_S_FUNCTION)),
                         0, "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
-    gm_system_refuse_if(
-        system, !matrix && !energy && !lagrange && !rate && !bracket && !field && !potential && !mesh, 0,
-        "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
-        "or K-matrix, L-matrix and S");
+    gm_system_refuse_if(system, system->alone && !gm_reading_line(reading, GM_WORD_CELL), 0,
+                        "the file has no equation: H, L, rate, bracket and H, field and V or rate, cell, "
+                        "or K-matrix, L-matrix and S");
     if (field && !mesh && gm_span_until(reading->text, field->value, "=") < field->value.end) {
         gm_system_refuse(system, field->place,
                          "a field with a degree needs a line \"mesh\", as in mesh: sphere 1 3");
@@ -329,8 +330,9 @@ void gm_declared_kind(struct gm_reading *reading)
     }
     for (size_t i = 0; i < reading->line_count; i++) {
         const struct gm_read_line *line = &reading->lines[i];
-        gm_system_refuse_if(system, !(gm_system_words[line->word].kinds & 1u << kind), line->place,
-                            "a system %s has no line \"%s\"", called[kind], gm_system_words[line->word].word);
+        gm_system_refuse_if(system, !(gm_system_words[line->word].kinds & 1u << which), line->place,
+                            "a system %s has no line \"%s\"", called[which],
+                            gm_system_words[line->word].word);
     }
     for (size_t i = 0; i < GM_COUNT(needed); i++) {
         if (needed[i].kind == kind && !gm_reading_line(reading, needed[i].word)) {
@@ -530,6 +532,16 @@ static void add_counted(struct gm_reading *reading, const struct gm_read_line *l
 /* Adds u and u_t, and the variables of densities: x and u_x. */
 static void add_field(struct gm_reading *reading, const struct gm_read_line *field)
 {
+    if (!field) { /* nodes alone */
+        for (size_t i = 0; i < 2; i++) {
+            add_variable(reading, &(struct gm_entry){.name = ""});
+            reading->component_count++;
+        }
+        add_place(reading, "x", 0);
+        add_variable(reading, &(struct gm_entry){.name = ""});
+        reading->velocity_count++;
+        return;
+    }
     add_components(reading, field->value);
     gm_system_refuse_if(reading->system, reading->component_count != 1, field->value.begin,
                         "a field has one name, as in field: u");

@@ -940,6 +940,9 @@ static void check_line(struct gm_user_system *system, size_t densities)
             need_only(system, field->exact, in_exact, 2, "the exact solution of a field", NULL);
         }
     }
+    if (system->drift != GM_NO_NODE) {
+        need_only(system, system->drift, in_start, 1, "the start of a field", NULL);
+    }
     for (size_t i = 0; i < system->item_count; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {

@@ -110,7 +110,8 @@ static void derive_start(struct gm_user_wave *wave, struct gm_user_system *syste
 
 bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *system)
 {
-    *wave = (struct gm_user_wave){.system = system, .exact = system->variables[0].exact};
+    *wave =
+        (struct gm_user_wave){.system = system, .exact = system->variables[0].exact, .drift = system->drift};
     gm_node_id last = system->energy;
     for (size_t k = 0; k < GM_TYPED_DERIVATIVES; k++) {
         last = wave->by_u[k] = gm_system_derivative(system, last, 0);
@@ -127,6 +128,7 @@ bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *syste
     }
     return !system->graph.failed && gm_system_place(system, wave->start, GM_TYPED_START) &&
            gm_system_place(system, &wave->start_slope, 1) &&
+           (wave->drift == GM_NO_NODE || gm_system_place(system, &wave->drift, 1)) &&
            (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1)) &&
            (wave->exact_while == GM_NO_NODE || gm_system_place(system, &wave->exact_while, 1));
 }

@@ -111,6 +111,13 @@ static void read_assignments(struct gm_reading *reading, const struct gm_read_li
     reading->exact = ranged;
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
         const struct gm_target target = gm_reading_assignment(reading, piece);
+        if (line->word == GM_WORD_START && reading->system->kind == GM_FIELD &&
+            gm_span_is(reading->text, target.name, "X_t")) {
+            gm_system_refuse_if(reading->system, reading->system->drift != GM_NO_NODE, target.name.begin,
+                                "start: X_t is given twice");
+            reading->system->drift = gm_reading_formula(reading, target.value);
+            continue;
+        }
         gm_reading_elements(reading, &target, assign, &assignment);
     }
     reading->exact = false;
@@ -892,6 +899,11 @@ static void complete(struct gm_reading *reading)
     if (gm_system_is_field(system)) {
         start_exactly(system);
     }
+    if (system->alone) {
+        system->energy = system->variables[0].start = system->variables[1].start = zero;
+        gm_system_refuse_if(system, system->drift == GM_NO_NODE, start ? start->value.begin : reading->length,
+                            "the nodes have no velocity at the start, as in start: X_t = exp(-x^2)");
+    }
     for (size_t k = 1; k <= system->tangents; k++) {
         for (size_t c = 0; c < gm_system_motion(system); c++) {
             struct gm_system_variable *variable = &system->variables[gm_system_component(system, c, k)];
@@ -988,7 +1000,7 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
         reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
     }
     *fault = (struct gm_fault){0};
-    *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault};
+    *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault, .drift = GM_NO_NODE};
     gm_formula_open(&system->graph);
     const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
     gm_arena_close(reading.scratch);

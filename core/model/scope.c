@@ -25,11 +25,13 @@ enum {
     MATRICES = 1 << GM_MATRICES,
     FORMS = 1 << GM_FORMS,
     ROOM = 1 << GM_ROOM,
-    IN_BLOCKS = 1 << GM_SYSTEM_KINDS,
+    NODES = 1 << GM_SYSTEM_KINDS, /* nodes alone */
+    IN_BLOCKS = 1 << (GM_SYSTEM_KINDS + 1),
     FREE = ROOM | IN_BLOCKS,
     LINE = FIELD | EVOLUTION | MATRICES,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
-    ANY = MOTION | LINE | FORMS
+    OBSERVED = MOTION | LINE | FORMS,
+    ANY = OBSERVED | NODES
 };
 
 const struct gm_line_word gm_system_words[GM_WORDS] = {

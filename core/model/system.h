@@ -148,6 +148,8 @@ struct gm_user_system {
     struct gm_arena *arena; /* all that is read, until the system is closed */
     struct gm_fault *fault; /* where gm_system_refuse writes, while the text is read and checked */
     enum gm_system_kind kind;
+    bool
+        alone; /* of kind GM_FIELD: nodes whose cells have a Lagrangian, with a field that is 0 and has no name */
     char *source; /* source text, closed by a NUL */
     size_t length;
     bool typed; /* the text is made of words: its line numbers have no meaning */
@@ -164,6 +166,7 @@ struct gm_user_system {
     size_t variable_count, parameters, velocities, initial,
         exact;         /* first numbers; parameters end at velocities; `exact` is variable_count for fields */
     gm_node_id energy; /* H, L, V or S */
+    gm_node_id drift;  /* start: X_t = .. of free nodes; GM_NO_NODE: not given */
     /* [n]; a Lagrangian has none for coordinates, the second of a field is without u_xx, and rates of
        matrices are the derivatives of S. */
     gm_node_id *rates;

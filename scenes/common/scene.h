@@ -215,6 +215,8 @@ struct gm_scene {
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
     /* Writes choices made with the problem into the lane's own copy; NULL: no choices. */
     void (*chosen)(const struct gm_problem *problem, void *parameters);
+    /* False for a key that a scheme has no use for; NULL: each uses all. */
+    bool (*takes)(const struct gm_scheme *scheme, const char *key);
     /* True if the files named by the parameters can be read; else false with a sentence. NULL: they name
        none. */
     bool (*readable)(const void *parameters, char *sentence);

@@ -35,7 +35,7 @@ struct gm_field_kind {
     void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     int frame_shown; /* the choice that shows the moving frame; 0: the kind has none */
-    bool by_matrices, complex_valued;
+    bool by_matrices, complex_valued, moves;     /* moves: on a moving mesh */
     double (*shift)(const struct gm_view *view); /* how far the nodes have moved; NULL: not at all */
     /* Draws the field; NULL: as a surface over space and time, and profiles. With it the line has two ends. */
     void (*paint)(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
@@ -54,8 +54,9 @@ struct gm_field_kind {
     bool (*place)(const struct gm_view *view, size_t number, double *values, double *weight);
 };
 
-/* Waves, the same on a moving mesh, rates, equations by matrices (kinds.c); equations that are recognised (equations.c). */
-extern const struct gm_field_kind gm_field_waves, gm_field_moving_waves, gm_field_evolutions, gm_field_forms;
+/* Waves, the same on a moving mesh, nodes alone, rates, equations by matrices (kinds.c); equations that are recognised (equations.c). */
+extern const struct gm_field_kind gm_field_waves, gm_field_moving_waves, gm_field_nodes, gm_field_evolutions,
+    gm_field_forms;
 extern const struct gm_field_kind gm_field_korteweg, gm_field_schroedinger, gm_field_heat, gm_field_burgers;
 
 struct gm_user_field {
@@ -172,7 +173,9 @@ bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *se
 void gm_field_start(const void *parameters, const struct gm_problem *problem, double *y);
 bool gm_field_start_mesh(const void *parameters, const struct gm_problem *problem,
                          const struct gm_scheme *scheme, double *y, char *sentence);
-void gm_field_note_alpha(const struct gm_problem *problem, void *parameters);
+/* Returns false for a key that a scheme on a moving mesh does not use. */
+bool gm_field_takes(const struct gm_scheme *scheme, const char *key);
+void gm_field_note_mesh(const struct gm_problem *problem, void *parameters);
 size_t gm_field_point(const void *parameters, double x, double u, struct gm_choice *choices);
 /* Returns the start on a grid: the ring's, or a fine one if the mesh moves. malloc'ed; NULL when out of
    memory. */

@@ -152,6 +152,8 @@ static bool open_mesh(struct gm_problem *problem, const struct gm_system_lane *l
                                       .density = lane->grid.density,
                                       .map = lane->grid.mesh,
                                       .cell = lane->grid.cell,
+                                      .nodes = lane->grid.nodes,
+                                      .between = lane->grid.between,
                                       .relax = lane->grid.relax,
                                       .until = lane->timing.until};
     return gm_user_mesh_open(problem, &gm_user_field_of(lane)->wave, values, &mesh);
@@ -189,13 +191,15 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
     return true;
 }
 
+#define MESH_ROWS(views, about)                                                                              \
+    GM_INTEGER_ROW(GM_FIELD_LANE, grid.points, "points", "", 1, 1e5, "nodes between the ends",               \
+                   .logarithmic = true),                                                                     \
+        GM_CHOICE_ROW(GM_FIELD_LANE, grid.show, "show", "all", views, about, .live = true)
 static const struct gm_parameter mesh_rows[] = {
-    GM_INTEGER_ROW(GM_FIELD_LANE, grid.points, "points", "", 1, 1e5, "nodes between the ends",
-                   .logarithmic = true),
-    GM_CHOICE_ROW(
-        GM_FIELD_LANE, grid.show, "show", "all", gm_mesh_views,
-        "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
-        .live = true),
+    MESH_ROWS(
+        gm_mesh_views,
+        "what the picture shows: all, the field, the paths of the nodes, the energy, the error over nodes, the "
+        "error of the energy over steps, or with the field the inertia of every node"),
     GM_REAL_ROW(
         GM_FIELD_LANE, grid.alpha, "alpha", "auto", 0, 1e6,
         "weight of the field's slope in the mesh density; auto: the file's, or else 3/2 over the largest slope at the start, or π/10 of the "
@@ -220,6 +224,7 @@ const struct gm_field_kind gm_field_moving_waves = {
     GM_FIELD_ROWS(mesh_rows),
     GM_FIELD_OBSERVABLES(of_mesh),
     GM_FIELD_ERRORS(gm_mesh_errors),
+    .moves = true,
     .no_walls = "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u",
     .schemes = strategies,
     .open = open_mesh,
@@ -228,6 +233,66 @@ const struct gm_field_kind gm_field_moving_waves = {
     .draw = gm_field_draw_mesh,
     .value = gm_field_u,
     .place = place_on_mesh,
+};
+
+static double node_momentum(const struct gm_view *view)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return gm_mesh_momentum(&mesh, view->state);
+}
+
+/* The number of the fastest node. */
+static size_t fastest(const struct gm_view *view)
+{
+    const size_t points = view->problem->n / 2;
+    size_t top = 0;
+    for (size_t k = 1; k < points; k++) {
+        top = view->state[points + k] > view->state[points + top] ? k : top;
+    }
+    return top;
+}
+
+static double crest_of_nodes(const struct gm_view *view)
+{
+    return view->state[fastest(view)];
+}
+
+static double height_of_nodes(const struct gm_view *view)
+{
+    return view->state[view->problem->n / 2 + fastest(view)];
+}
+
+static const struct gm_parameter node_rows[] = {
+    MESH_ROWS(gm_node_views,
+              "what the picture shows: all, the velocity, the paths of the nodes, or the energy"),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.density, "density", "1",
+                "what the nodes equidistribute at the start, a formula in x", .names = true),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.cell, "cell", "0", "the Lagrangian of a cell in d, d_t and m_t",
+                .names = true),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.nodes, "nodes", "density", "their places at the start, or density",
+                .names = true),
+    GM_TEXT_ROW(GM_FIELD_LANE, grid.between, "between", "(1 - s)*v0 + s*v1",
+                "the velocity between nodes of distance d and velocities v0 and v1, for s from 0 to 1",
+                .names = true)};
+static const struct gm_observable of_nodes[] = {
+    GM_OBSERVABLE("energy", gm_view_mesh_energy, "energy"),
+    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
+    GM_KEPT_OBSERVABLE("momentum_error", node_momentum, "P", "momentum error"),
+    GM_OBSERVABLE("crest", crest_of_nodes, "place of the fastest node"),
+    GM_OBSERVABLE("amplitude", height_of_nodes, "its velocity"),
+    GM_MESH_SOLVING};
+static const char *const free_schemes[] = {"free-gauss4", "free-gauss2", NULL};
+
+const struct gm_field_kind gm_field_nodes = {
+    GM_FIELD_ROWS(node_rows),
+    GM_FIELD_OBSERVABLES(of_nodes),
+    .moves = true,
+    .schemes = free_schemes,
+    .open = open_mesh,
+    .close = gm_user_mesh_close,
+    .closes = gm_user_mesh_rests,
+    .draw = gm_field_draw_mesh,
+    .value = gm_field_u,
 };
 
 static bool open_evolution(struct gm_problem *problem, const struct gm_system_lane *lane,

@@ -145,10 +145,13 @@ void gm_field_draw_mesh(const struct gm_lane *const *lanes, size_t count, struct
                                          [GM_MESH_FIELD] = "%s",
                                          [GM_MESH_PATHS] = "%s: the paths",
                                          [GM_MESH_ENERGY] = "%s: the energy",
-                                         [GM_MESH_CONVERGENCE] = "%s: what moving the mesh gains"};
+                                         [GM_MESH_CONVERGENCE] = "%s: what moving the mesh gains",
+                                         [GM_MESH_ENERGY_ORDER] = "%s: the energy over steps",
+                                         [GM_MESH_INERTIA] = "%s: the inertia of nodes"};
     const struct gm_user_field *field = gm_user_field_of(lanes[0]->parameters);
     const enum gm_mesh_view show =
         (enum gm_mesh_view)((const struct gm_system_lane *)lanes[0]->parameters)->grid.show;
+    const bool alone = field->of_file.system.alone;
     const struct gm_view first = gm_lane_view(lanes[0]);
     const char *subtitle = gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, ""),
                *means = field->wave.known ? "exact means of V"
@@ -158,13 +161,20 @@ void gm_field_draw_mesh(const struct gm_lane *const *lanes, size_t count, struct
     const bool given = colours_of(field, &first, ends);
     struct gm_mesh_look look = {
         .show = show,
-        .front = subtitle[0] ? subtitle : means,
-        .name = field->of_file.system.variables[0].name,
+        .front = subtitle[0] || alone ? subtitle : means,
+        .name = alone ? "v" : field->of_file.system.variables[0].name,
         .scale = field->wave.known == GM_POTENTIAL_SINE_GORDON ? GM_PI : GM_LINEAR,
-        .low = ends[0],
-        .high = ends[1],
+        .low = alone && !given ? 0 : ends[0],
+        .high = alone && !given ? 0 : ends[1],
     };
-    for (size_t i = 0; i < count && !given; i++) {
+    for (size_t i = 0; i < count && !given && alone; i++) {
+        const struct gm_view view = gm_lane_view(lanes[i]);
+        const size_t points = view.problem->n / 2;
+        widen(&look.low, &look.high, INFINITY, view.start + points, points);
+        widen(&look.low, &look.high, INFINITY, view.state + points, points);
+    }
+    look.high = look.high > look.low ? look.high : look.low + 1;
+    for (size_t i = 0; i < count && !given && !alone; i++) {
         widen(&look.low, &look.high, 5 * highest_of(field), gm_lane_view(lanes[i]).state,
               lanes[i]->problem.n / 4);
     }

@@ -22,6 +22,11 @@ void gm_field_start(const void *parameters, const struct gm_problem *problem, do
     }
 }
 
+bool gm_field_takes(const struct gm_scheme *scheme, const char *key)
+{
+    return gm_scheme_mesh(scheme) == GM_MESH_FREE || strcmp(key, "cell") != 0;
+}
+
 bool gm_field_start_mesh(const void *parameters, const struct gm_problem *problem,
                          const struct gm_scheme *scheme, double *y, char *sentence)
 {
@@ -32,11 +37,16 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
         return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
     }
+    const bool free = gm_scheme_mesh(scheme) == GM_MESH_FREE;
+    if (mesh.alone && !(free && mesh.cell)) {
+        return free ? gm_refuse(sentence, "cell: is 0, and nodes alone move by nothing else")
+                    : gm_refuse(sentence, "nodes alone are of free- schemes, and not of %s", scheme->name);
+    }
     const size_t points = mesh.points;
     double rank, condition;
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
-        const bool straight = gm_scheme_mesh(scheme) == GM_MESH_FREE && !mesh.cell &&
-                              gm_mesh_mass(&mesh, y, &rank, &condition) && rank < 2 * (double)points;
+        const bool straight =
+            free && !mesh.cell && gm_mesh_mass(&mesh, y, &rank, &condition) && rank < 2 * (double)points;
         return !straight ||
                gm_refuse(sentence,
                          "%g of %zu nodes are straight: the mass matrix has rank %g of %zu; a line cell: "
@@ -61,16 +71,19 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
         gm_user_mesh_names(problem)->steepest);
 }
 
-/* Notes the weight of the slope if the start chose it. */
-void gm_field_note_alpha(const struct gm_problem *problem, void *parameters)
+/* Notes the weight of the slope if the start chose it, and the number of nodes that are listed. */
+void gm_field_note_mesh(const struct gm_problem *problem, void *parameters)
 {
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(problem)->describe(problem, &mesh);
     ((struct gm_system_lane *)parameters)->grid.alpha = gm_user_mesh_names(problem)->alpha;
+    ((struct gm_system_lane *)parameters)->grid.points = (long)mesh.points;
 }
 
 double *gm_field_start_on(const struct gm_system_lane *lane, const struct gm_problem *problem,
                           struct gm_grid1 *grid)
 {
-    const bool moves = gm_user_field_of(lane)->kind == &gm_field_moving_waves;
+    const bool moves = gm_user_field_of(lane)->kind->moves;
     *grid = problem->line;
     if (moves) {
         struct gm_mesh mesh;

@@ -59,7 +59,9 @@ static void close_evolution(void *evolution)
 static void make_rows(struct gm_user_field *field)
 {
     static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
-                                                 GM_WORD_MESH,  GM_WORD_RELAX,    GM_WORD_CELL};
+                                                 GM_WORD_MESH,  GM_WORD_RELAX,    GM_WORD_CELL,
+                                                 GM_WORD_NODES, GM_WORD_BETWEEN};
+    static const char *const in_formulas[] = {"steepest", "bend", "X"};
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
@@ -67,7 +69,7 @@ static void make_rows(struct gm_user_field *field)
     const double *values = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
     /* a moving mesh needs fewer nodes than a ring, for which a file of other schemes gives them */
     const double half_length = values[system->velocities - 2], grid = values[system->velocities - 1],
-                 points = kind == &gm_field_moving_waves && !field->written_elsewhere
+                 points = kind->moves && !system->alone && !field->written_elsewhere
                               ? fmax(1, floor(grid / 4))
                               : grid;
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
@@ -104,9 +106,13 @@ static void make_rows(struct gm_user_field *field)
     }
     for (size_t i = GM_SYSTEM_ROWS; i < of_file->row_count; i++) {
         for (size_t k = 0; k < kind->row_count; k++) {
-            if (strcmp(common[k].key, of_file->rows[i].key) == 0) {
+            const char *key = common[k].key;
+            for (size_t w = 0; kind->moves && w < GM_COUNT(in_formulas); w++) {
+                key = strcmp(in_formulas[w], of_file->rows[i].key) == 0 ? in_formulas[w] : key;
+            }
+            if (strcmp(key, of_file->rows[i].key) == 0) {
                 gm_arena_refuse(arena, "%.60s is a key of moving meshes: a parameter needs another name",
-                                common[k].key);
+                                key);
             }
         }
     }
@@ -194,7 +200,7 @@ static void make_observables(struct gm_user_field *field)
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
-    const bool moves = field->kind == &gm_field_moving_waves;
+    const bool moves = field->kind->moves;
     const struct gm_hook *hook =
         of_file->hook && (moves || field->kind == &gm_field_waves) && of_file->hook->on_moving_mesh == moves
             ? of_file->hook
@@ -238,7 +244,7 @@ static void make_work(struct gm_user_field *field)
         .arguments = "", .coarsest = gm_system_half_length(initial) / points * 2, .halvings = 5};
     if (field->solved) {
         work->measure = "solution_error";
-    } else if (field->kind == &gm_field_moving_waves) {
+    } else if (field->kind == &gm_field_moving_waves) { /* peakons have nodes of their own number */
         work->reference = "multiplier-lobatto4";
         work->distance = gm_mesh_distance;
         work->distance_title = "distance from a finer run";
@@ -262,8 +268,8 @@ static const char *title_of(struct gm_user_field *field)
     if (gm_system_title(system)) {
         return gm_system_title(system);
     }
-    if (system->kind != GM_FIELD) {
-        return "A user-defined field";
+    if (system->kind != GM_FIELD || system->alone) {
+        return system->alone ? "Nodes alone" : "A user-defined field";
     }
     const struct gm_naming naming = gm_system_naming(system);
     char *formula = gm_formula_text(&system->graph, system->energy, &naming);
@@ -315,8 +321,9 @@ static const struct {
                     {&gm_field_heat, on_heat},
                     {&gm_field_burgers, on_burgers}};
 
-size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, size_t *others)
+size_t gm_user_field_elsewhere(const struct gm_user_system *system, const char *schemes, size_t *others)
 {
+    const enum gm_system_kind kind = system->kind;
     const struct gm_kind *const of_rates = kind == GM_EVOLUTION ? &gm_kind_field : NULL,
                                 *const there = kind == GM_FIELD ? &gm_kind_mesh : of_rates;
     size_t count = 0;
@@ -331,7 +338,7 @@ size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, si
         count += is_there;
         *others += !is_there;
     }
-    return count;
+    return count + system->alone;
 }
 
 /* Finds the range of the field at the start. */
@@ -388,8 +395,7 @@ static void make(struct gm_arena *arena, void *data)
                by_matrices = system->kind == GM_MATRICES;
     field->elsewhere = making->elsewhere;
     size_t others;
-    field->written_elsewhere =
-        gm_user_field_elsewhere(system->kind, system->texts[GM_WORD_SCHEMES], &others) > 0;
+    field->written_elsewhere = gm_user_field_elsewhere(system, system->texts[GM_WORD_SCHEMES], &others) > 0;
     gm_arena_need(arena, gm_user_equation_derive(&field->equation, system));
     size_t known = 0;
     while (known < GM_COUNT(of_equations) && of_equations[known].kind->equation != field->equation.needs) {
@@ -399,7 +405,9 @@ static void make(struct gm_arena *arena, void *data)
     const struct gm_field_kind *const of_rates = is_known && making->elsewhere ? of_equations[known].kind
                                                                                : &gm_field_evolutions,
                                       *const of_matrices = by_matrices ? &gm_field_forms : of_rates,
-                                      *const of_potentials = moves ? &gm_field_moving_waves : &gm_field_waves,
+                                      *const on_mesh =
+                                          system->alone ? &gm_field_nodes : &gm_field_moving_waves,
+                                      *const of_potentials = moves ? on_mesh : &gm_field_waves,
                                       *const kind = in_potential ? of_potentials : of_matrices;
     field->kind = kind;
     const char *const *texts = (const char *const *)system->texts;
@@ -415,9 +423,9 @@ static void make(struct gm_arena *arena, void *data)
         .title = title_of(field),
         .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined field.",
         .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
-        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME]
-                : in_potential      ? "what light needs for a length of 1"
-                                    : "the unit of the equation",
+        .time = texts[GM_WORD_TIME]              ? texts[GM_WORD_TIME]
+                : in_potential && !system->alone ? "what light needs for a length of 1"
+                                                 : "the unit of the equation",
         .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
         .initial = of_file->initial,
         .words = making->words,
@@ -444,9 +452,12 @@ static void make(struct gm_arena *arena, void *data)
         .failure = kind->failure ? kind->failure : gm_field_failure,
     };
     if (moves) {
-        of_file->scene.elsewhere = on_a_ring;
+        of_file->scene.elsewhere = system->alone ? NULL : on_a_ring;
         of_file->scene.start_with = gm_field_start_mesh;
-        of_file->scene.chosen = gm_field_note_alpha;
+        of_file->scene.chosen = gm_field_note_mesh;
+        of_file->scene.takes = gm_field_takes;
+    }
+    if (moves && !system->alone) {
         of_file->scene.asked = gm_mesh_asked;
         of_file->scene.asked_count = GM_COUNT(gm_mesh_asked);
     } else if (in_potential && making->words && !of_file->initial->grid.walls) {

@@ -13,6 +13,6 @@ const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const c
                                           char *sentence);
 /* Returns how many of these schemes, separated by blanks or commas, or NULL, need that `elsewhere`; *others: the
    number of the rest. */
-size_t gm_user_field_elsewhere(enum gm_system_kind kind, const char *schemes, size_t *others);
+size_t gm_user_field_elsewhere(const struct gm_user_system *system, const char *schemes, size_t *others);
 
 #endif

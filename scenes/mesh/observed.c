@@ -89,8 +89,7 @@ const struct gm_observable gm_mesh_errors[2] = {
                   .missing = "no shift in time brings the exact solution near"),
 };
 
-/* The mesh with the cells' Lagrangian if the scheme integrates it. */
-static struct gm_mesh integrated(const struct gm_view *view)
+struct gm_mesh gm_mesh_integrated(const struct gm_view *view)
 {
     struct gm_mesh mesh = gm_mesh_of(view);
     mesh.cell = gm_scheme_mesh(view->scheme) == GM_MESH_FREE ? mesh.cell : NULL;
@@ -99,13 +98,13 @@ static struct gm_mesh integrated(const struct gm_view *view)
 
 double gm_view_mesh_energy(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = integrated(view);
+    const struct gm_mesh mesh = gm_mesh_integrated(view);
     return gm_mesh_energy(&mesh, view->state);
 }
 
 double gm_view_field_energy(const struct gm_view *view)
 {
-    struct gm_mesh mesh = integrated(view);
+    struct gm_mesh mesh = gm_mesh_integrated(view);
     const bool adds = mesh.cell;
     mesh.cell = NULL;
     return adds ? gm_mesh_energy(&mesh, view->state) : NAN;
@@ -119,14 +118,14 @@ static double straightest(const struct gm_view *view)
 
 static double rank(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = integrated(view);
+    const struct gm_mesh mesh = gm_mesh_integrated(view);
     double rank, condition;
     return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? rank : NAN;
 }
 
 static double condition(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = integrated(view);
+    const struct gm_mesh mesh = gm_mesh_integrated(view);
     double rank, condition;
     return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? condition : NAN;
 }
@@ -173,7 +172,7 @@ static size_t path_stride(size_t points)
 
 static size_t path_count(const struct gm_view *view)
 {
-    const size_t points = view->problem->n / 4, stride = path_stride(points);
+    const size_t points = gm_mesh_of(view).points, stride = path_stride(points);
     return (points + stride - 1) / stride;
 }
 
@@ -184,9 +183,10 @@ static double path_interval(const void *parameters)
 
 static void record_paths(const struct gm_view *view, double *entry)
 {
-    const size_t points = view->problem->n / 4, stride = path_stride(points);
-    for (size_t k = 0; k < points; k += stride) {
-        *entry++ = view->state[points + k];
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    const size_t stride = path_stride(mesh.points);
+    for (size_t k = 0; k < mesh.points; k += stride) {
+        *entry++ = view->state[gm_mesh_place(&mesh) + k];
     }
 }
 

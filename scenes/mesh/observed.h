@@ -8,6 +8,8 @@
 /* The observables of every field on a moving mesh. */
 
 struct gm_mesh gm_mesh_of(const struct gm_view *view);
+/* The mesh with the cells' Lagrangian if the scheme integrates it. */
+struct gm_mesh gm_mesh_integrated(const struct gm_view *view);
 /* Returns the exact solution; NaN if none is known. */
 double gm_mesh_exact(const struct gm_view *view, double x, double t);
 /* Returns the largest difference of a lane's field at its nodes from the field of a lane with more nodes,
@@ -35,8 +37,9 @@ extern const struct gm_observable gm_mesh_errors[2];
 #define GM_MESH_NODES                                                                                        \
     GM_LOG_OBSERVABLE("constraint_defect", gm_view_constraint_defect, "defect of the mesh constraint",       \
                       .missing = "this mesh does not move"),                                                 \
-        GM_OBSERVABLE("multiplier_norm", gm_view_multiplier_norm, "largest multiplier"),                     \
-        GM_LOG_OBSERVABLE("smallest_cell", gm_view_smallest_cell, "smallest cell"),                          \
+        GM_OBSERVABLE("multiplier_norm", gm_view_multiplier_norm, "largest multiplier"), GM_MESH_SOLVING
+#define GM_MESH_SOLVING                                                                                      \
+    GM_LOG_OBSERVABLE("smallest_cell", gm_view_smallest_cell, "smallest cell"),                              \
         GM_OBSERVABLE("newton_iterations", gm_view_newton_iterations, "Newton iterations"),                  \
         GM_OBSERVABLE("factorisations", gm_view_factorisations, "matrices factored")
 

@@ -2,15 +2,19 @@
 #include "scenes/mesh/picture.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/number.h"
+#include "core/mesh/user/potential.h"
 #include "scenes/common/graph.h"
 #include "scenes/mesh/observed.h"
 
 enum { EXACT_POINTS = 1500 };
 
-const char *const gm_mesh_views[] = {"all", "field", "mesh", "energy", "convergence", NULL};
+const char *const gm_mesh_views[] = {"all",         "field",        "mesh",    "energy",
+                                     "convergence", "energy-order", "inertia", NULL};
+const char *const gm_node_views[] = {"all", "field", "mesh", "energy", NULL};
 
 static void field_axes(struct gm_panel *panel, const struct gm_mesh *mesh, const struct gm_mesh_look *look)
 {
@@ -37,10 +41,10 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const
     gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 2.4, GM_SOLID}, points, EXACT_POINTS, false);
 }
 
-/* The nodes with both ends, as points of a line. */
+/* The nodes with both ends, as points of a line: the field, or of nodes alone their velocity. */
 static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, const double *state)
 {
-    const size_t points = mesh->points;
+    const size_t points = mesh->points, place = gm_mesh_place(mesh), value = mesh->alone ? points : 0;
     double *nodes = gm_picture_memory(picture, 2 * (points + 2) * sizeof *nodes);
     if (!nodes) {
         return NULL;
@@ -48,31 +52,132 @@ static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, 
     nodes[0] = mesh->first;
     nodes[1] = mesh->left;
     for (size_t k = 0; k < points; k++) {
-        nodes[2 * k + 2] = state[points + k];
-        nodes[2 * k + 3] = state[k];
+        nodes[2 * k + 2] = state[place + k];
+        nodes[2 * k + 3] = state[value + k];
     }
     nodes[2 * points + 2] = mesh->first + mesh->length;
     nodes[2 * points + 3] = mesh->right;
     return nodes;
 }
 
-static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+/* Draws a line through the nodes; between nodes alone it is the file's. */
+static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,
+                      struct gm_style style, const double *nodes)
+{
+    enum { PARTS = 16 };
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    const size_t cells = mesh.points + 1;
+    double *line = gm_picture_memory(picture, mesh.alone ? 2 * (cells * PARTS + 1) * sizeof *line : 1);
+    if (!mesh.alone || !line) {
+        gm_mark_line(picture, panel, style, nodes, cells + 1, false);
+        return;
+    }
+    for (size_t e = 0; e < cells; e++) {
+        const double *left = nodes + 2 * e, d = left[2] - left[0];
+        double at[GM_BETWEEN_INPUTS][PARTS + 1], velocity[PARTS + 1];
+        for (size_t i = 0; i <= PARTS; i++) {
+            at[0][i] = (1 - cos(M_PI * (double)i / PARTS)) / 2; /* closer where a long cell bends */
+            at[1][i] = d;
+            at[2][i] = left[1];
+            at[3][i] = left[3];
+        }
+        gm_user_mesh_between(view->problem, at[0], velocity, PARTS + 1);
+        for (size_t i = 0; i <= PARTS; i++) {
+            line[2 * (e * PARTS + i)] = left[0] + at[0][i] * d;
+            line[2 * (e * PARTS + i) + 1] = velocity[i];
+        }
+    }
+    gm_mark_line(picture, panel, style, line, cells * PARTS + 1, false);
+}
+
+/* The axes of the ellipse dq^T A dq = 1 of displacements dq = (dy, dX), the long one first; false if A has rank 1. */
+struct ellipse {
+    double axes[2][2];
+};
+
+static bool find_axes(const double block[3], struct ellipse *ellipse)
+{
+    const double mean = (block[0] + block[2]) / 2, half = (block[0] - block[2]) / 2,
+                 apart = hypot(half, block[1]),
+                 angle = atan2(block[1], half) / 2; /* of the stiff direction */
+    const double least = mean - apart, largest = mean + apart;
+    const double axes[2][2] = {{-sin(angle) / sqrt(least), cos(angle) / sqrt(least)},
+                               {cos(angle) / sqrt(largest), sin(angle) / sqrt(largest)}};
+    memcpy(ellipse->axes, axes, sizeof axes);
+    return least > 1e-9 * largest;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Tyranowski and Desbrun's figure 1 for every node: an ellipse of displacements of equal kinetic energy, a quarter of
+   whose long axes are below a twentieth of the panel, or, where a displacement along the field has none, a segment along it. Both
+   end at the neighbours. */
+static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                         const double *nodes)
+{
+    enum { AROUND = 48 };
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_mesh mesh = gm_mesh_integrated(&view);
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    double(*blocks)[3] = gm_picture_memory(picture, mesh.points * sizeof *blocks);
+    double *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND];
+    size_t count = 0;
+    struct ellipse ellipse;
+    if (!blocks || !sizes || !gm_mesh_inertia(&mesh, view.state, blocks)) {
+        return;
+    }
+    for (size_t k = 0; k < mesh.points; k++) {
+        if (find_axes(blocks[k], &ellipse)) {
+            sizes[count++] = hypot(ellipse.axes[0][1] / width, ellipse.axes[0][0] / height);
+        }
+    }
+    qsort(sizes, count, sizeof *sizes, ascending);
+    const double scale = count > 0 ? 1. / 40 / sizes[count / 4] : 0; /* most others are nearly straight */
+    for (size_t k = 0; k < mesh.points; k++) {
+        const double *node = nodes + 2 * k + 2;
+        if (!find_axes(blocks[k], &ellipse)) {
+            gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 1, 2.4, GM_SOLID}, node - 2, 3, false);
+            continue;
+        }
+        const double reach = scale * fabs(ellipse.axes[0][1]),
+                     room = fmin(node[0] - node[-2], node[2] - node[0]),
+                     along = scale * fmin(1, room / reach);
+        for (size_t i = 0; i < AROUND; i++) {
+            const double c = along * cos(2 * M_PI * (double)i / AROUND),
+                         s = scale * sin(2 * M_PI * (double)i / AROUND);
+            around[2 * i] = node[0] + c * ellipse.axes[0][1] + s * ellipse.axes[1][1];
+            around[2 * i + 1] = node[1] + c * ellipse.axes[0][0] + s * ellipse.axes[1][0];
+        }
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2, GM_SOLID}, around, AROUND, true);
+    }
+}
+
+static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       enum gm_mesh_view show)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_mesh mesh = gm_mesh_of(&view);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     double *nodes = nodes_of(picture, &mesh, view.start);
     if (nodes && view.t != view.t0) {
-        gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes,
-                     mesh.points + 2, false);
+        draw_line(picture, panel, &view, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes);
     }
     nodes = nodes_of(picture, &mesh, view.state);
     if (!nodes) {
         return;
     }
-    gm_mark_line(picture, panel, (struct gm_style){role, 1, 1.6, GM_SOLID}, nodes, mesh.points + 2, false);
+    const bool inertia = show == GM_MESH_INERTIA;
+    draw_line(picture, panel, &view, (struct gm_style){role, inertia ? 0.4 : 1, 1.6, GM_SOLID}, nodes);
+    if (inertia) {
+        draw_inertia(picture, panel, lane, nodes);
+    }
     if (mesh.points <= 400) {
-        const double size = mesh.points <= 40 ? 6 : mesh.points <= 130 ? 4.5 : 3;
+        const double size = inertia ? 3 : mesh.points <= 40 ? 6 : mesh.points <= 130 ? 4.5 : 3;
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = size}, nodes,
                        mesh.points + 2);
     }
@@ -97,7 +202,7 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
             field_axes(panel, &mesh, look);
             draw_exact(picture, panel, &view, &mesh);
         }
-        draw_field(picture, panel, walk.lane);
+        draw_field(picture, panel, walk.lane, look->show);
     }
 }
 
@@ -106,8 +211,9 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
 {
     const struct gm_entries *entries = &lane->entries[0];
     const struct gm_view view = gm_lane_view(lane);
-    const size_t points = view.problem->n / 4, rows = entries->count + 1;
-    const size_t stride = (points + entries->width - 1) / entries->width; /* nodes from path to path */
+    const struct gm_mesh mesh = gm_mesh_of(&view);
+    const size_t rows = entries->count + 1;
+    const size_t stride = (mesh.points + entries->width - 1) / entries->width; /* nodes from path to path */
     const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
                                    GM_SOLID};
     double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
@@ -116,7 +222,7 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
             path[2 * i] = entries->values[i * entries->width + k];
             path[2 * i + 1] = entries->times[i];
         }
-        path[2 * rows - 2] = view.state[points + k * stride];
+        path[2 * rows - 2] = view.state[gm_mesh_place(&mesh) + k * stride];
         path[2 * rows - 1] = view.t;
         gm_mark_line(picture, panel, style, path, rows, false);
     }
@@ -154,32 +260,40 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* The largest error so far against the number of elements, a line for each scheme. */
-static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+/* The largest error so far against the number of elements, or that of the energy against the step, a line for each
+   scheme. */
+static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                             bool of_energy)
 {
-    const int error = gm_asked_series(picture, lanes[0]->scene, "solution_error");
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "largest error at any node and step");
+    const int error =
+        gm_asked_series(picture, lanes[0]->scene, of_energy ? "energy_error" : "solution_error");
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH,
+                     of_energy ? "largest error of the energy" : "largest error at any node and step");
     double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
     double *largest = gm_picture_memory(picture, count * sizeof *largest);
-    double *points = gm_picture_memory(picture, 2 * count * sizeof *points);
-    if (!largest || !points || error < 0) {
+    double *points = gm_picture_memory(picture, 2 * count * sizeof *points),
+           *over = gm_picture_memory(picture, count * sizeof *over);
+    if (!largest || !points || !over || error < 0) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
+        over[i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
         const struct gm_history *history = &lanes[i]->history;
         largest[i] = lanes[i]->run->status == GM_OK ? 0 : NAN;
         for (size_t b = 0; b < history->count; b++) {
             largest[i] = fmax(history->bins[b * history->series + (size_t)error].high, largest[i]);
         }
         largest[i] = lanes[i]->run->status == GM_OK ? largest[i] : NAN;
-        gm_range_add(&low_x, &high_x, (double)(lanes[i]->problem.n / 4 + 1));
+        gm_range_add(&low_x, &high_x, over[i]);
         gm_range_add(&low_y, &high_y, largest[i]);
     }
     gm_range_round(&low_y, &high_y, GM_LOG);
+    high_y *= of_energy ? 10 : 1; /* room for names */
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x =
-        (struct gm_axis){.label = "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
+    panel->x = (struct gm_axis){
+        .label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
     size_t series = 0;
     for (size_t i = 0; i < count; i++) {
@@ -193,7 +307,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         size_t made = 0;
         for (size_t k = i; k < count; k++) {
             if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
-                points[2 * made] = (double)(lanes[k]->problem.n / 4 + 1);
+                points[2 * made] = over[k];
                 points[2 * made + 1] = largest[k];
                 made++;
             }
@@ -203,8 +317,9 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
                      false);
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
         if (made > 0) {
-            gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, points[0],
-                         points[1] * pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
+            const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
+            gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
+                         at[1] * pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
         }
         series++;
     }
@@ -218,25 +333,28 @@ static const char *step_text(struct gm_picture *picture, double dt)
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                             const struct gm_mesh_look *look)
 {
-    const size_t points = lanes[0]->problem.n / 4;
+    const struct gm_view view = gm_lane_view(lanes[0]);
+    const struct gm_mesh mesh = gm_mesh_of(&view);
+    const size_t points = mesh.points;
     const bool named = look->show != GM_MESH_CONVERGENCE;
     const bool one_step = gm_one_step(lanes, count);
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
-        one_size &= lanes[i]->problem.n / 4 == points;
+        one_size &= lanes[i]->problem.n == lanes[0]->problem.n;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
-    const bool fields = look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD;
-    const struct gm_view view = gm_lane_view(lanes[0]);
-    const bool exact = isfinite(gm_mesh_exact(&view, gm_mesh_of(&view).first, view.t0)),
+    const bool fields =
+        look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD || look->show == GM_MESH_INERTIA;
+    const bool exact = isfinite(gm_mesh_exact(&view, mesh.first, view.t0)),
                later = lanes[0]->run->t != lanes[0]->t0;
-    return gm_picture_text(
-        picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
-        one_size ? gm_picture_text(picture, ",  %zu node%s", points, gm_plural((double)points)) : "",
-        one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
-        one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",
-        fields && exact ? "  grey: exact" : "", fields && exact && later ? "," : "",
-        fields && later ? "  red: at the start" : "");
+    return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
+                           one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "",
+                                                      points, gm_plural((double)points))
+                                    : "",
+                           one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
+                           one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
+                           fields && (exact || later) ? ";" : "", fields && exact ? "  grey: exact" : "",
+                           fields && exact && later ? "," : "", fields && later ? "  red: at the start" : "");
 }
 
 /* Returns the largest change of a lane's energy since its start. */
@@ -286,13 +404,13 @@ void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
     picture->subtitle = subtitle(picture, lanes, count, look);
     gm_draw_clock(picture, lanes, count);
     const size_t panels = gm_panel_count(lanes, count);
-    if (show == GM_MESH_CONVERGENCE) {
-        draw_convergence(picture, lanes, count);
+    if (show == GM_MESH_CONVERGENCE || show == GM_MESH_ENERGY_ORDER) {
+        draw_convergence(picture, lanes, count, show == GM_MESH_ENERGY_ORDER);
         return;
     }
     /* with many lanes only the paths are shown, the subject of the scene */
     const bool all = show == GM_MESH_ALL, both = all && panels <= 4;
-    if (both || show == GM_MESH_FIELD) {
+    if (both || show == GM_MESH_FIELD || show == GM_MESH_INERTIA) {
         draw_fields(picture, lanes, count, look);
     }
     if (all || show == GM_MESH_PATHS) {
@@ -313,6 +431,14 @@ void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
                                       .calm_low = 0.99,
                                       .calm_high = 1.01};
         gm_draw_graphs(picture, lanes, count, &kept, 1);
+        const struct gm_graph momentum = {.observable = "momentum_error",
+                                          .highest = true,
+                                          .scale = GM_LOG,
+                                          .calm_low = 1e-16,
+                                          .calm_high = 1e-2};
+        if (gm_scene_observable(lanes[0]->scene, momentum.observable) >= 0) {
+            gm_draw_graphs(picture, lanes, count, &momentum, 1);
+        }
         const struct gm_graph error = {.observable = "solution_error",
                                        .scale = GM_LOG,
                                        .calm_low = 1e-4,

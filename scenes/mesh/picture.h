@@ -13,10 +13,12 @@ enum gm_mesh_view {
     GM_MESH_PATHS,
     GM_MESH_ENERGY,
     GM_MESH_CONVERGENCE,
+    GM_MESH_ENERGY_ORDER,
+    GM_MESH_INERTIA,
 };
 
-/* The names of enum gm_mesh_view, NULL-terminated. */
-extern const char *const gm_mesh_views[];
+/* The names of enum gm_mesh_view, NULL-terminated, and of those that nodes alone have. */
+extern const char *const gm_mesh_views[], *const gm_node_views[];
 
 /* The differences between scenes; the picture has the title. The first track of such a scene holds the paths
    (scenes/mesh/observed.h). */

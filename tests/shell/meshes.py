@@ -95,7 +95,7 @@ def densities():
     refused("the formula ends where a number", "soliton", "density=sqrt(1 +")
     refused("bad.system:9:10: density: there is no name w, at column 5 of 1 + w", file_of("bad", "density: 1 + w"))
     refused("alpha is a key of moving meshes", file_of("alpha", "parameter: alpha = 1"))
-    refused("steepest has a meaning here, and a parameter of that name needs another one",
+    refused("steepest is a key of moving meshes: a parameter needs another name",
             file_of("steepest", "parameter: steepest = 1", "density: limited"))
     refused("density: has at most 255 characters", file_of("long", "density: 1" + " + u^2" * 60))
 
@@ -262,8 +262,113 @@ def free_nodes():
     refused("cell: it does not hold x", path, "scheme=free-gauss4", "cell=x*d_t^2")
 
 
+def momenta(places, velocities, wall=24):
+    """Momenta of peakons: M is the inverse of exp(-|x_i - x_j|)/2, or with walls of what is 0 there; by elimination."""
+    def green(a, b):
+        return math.sinh(wall - max(a, b)) * math.sinh(wall + min(a, b)) / math.sinh(2 * wall)
+
+    n = len(places)
+    rows = [[green(a, b) for b in places] + [v] for a, v in zip(places, velocities, strict=True)]
+    for i in range(n):
+        rows[i] = [value / rows[i][i] for value in rows[i]]
+        for k in range(n):
+            if k != i:
+                rows[k] = [a - rows[k][i] * b for a, b in zip(rows[k], rows[i], strict=True)]
+    return [row[-1] for row in rows]
+
+
+def alone(*words):
+    made = run(*words, "--state", "--json")
+    lanes = [json.loads(line) for line in made.stdout.splitlines()]
+    if not lanes:
+        print(made.stderr)
+    return lanes
+
+
+def nodes_alone():
+    """Peakons, whose Lagrangian is that of the cells alone."""
+    lane = alone("peakons", "nodes=-8, -2", "until=8", "dt=0.05", "scheme=free-gauss4")[0]
+    compare("two peakons, places and velocities", lane["state"], (5.86044683, 9.44434523, 1.10905804, 1.97424367), 2e-8)
+    for name in ("momentum_error", "energy_error"):
+        near(name, lane["observables"][name], 0, 1e-10)
+    check(lane["parameters"]["points"] == 2, "as many points as nodes are listed")
+    # the places obey dx/dt = sum p_j exp(-|x - x_j|)/2, dp/dt = p/2 sum p_j sign(x - x_j) exp(-|x - x_j|), by Runge and Kutta
+    x, p = [-8.0, -2.0], momenta((-8, -2), (2 + math.exp(-6), 1 + 2 * math.exp(-6)))
+
+    def rates(z):
+        q, p = z[:2], z[2:]
+        decay = math.exp(-abs(q[0] - q[1])) / 2
+        pull = p[0] * p[1] * decay * (1 if q[0] > q[1] else -1)
+        return [p[0] / 2 + p[1] * decay, p[1] / 2 + p[0] * decay, pull, -pull]
+
+    z, h = x + p, 0.002
+    for _ in range(4000):
+        k1 = rates(z)
+        k2 = rates([a + h / 2 * b for a, b in zip(z, k1, strict=True)])
+        k3 = rates([a + h / 2 * b for a, b in zip(z, k2, strict=True)])
+        k4 = rates([a + h * b for a, b in zip(z, k3, strict=True)])
+        z = [a + h / 6 * (b + 2 * c + 2 * d + e) for a, b, c, d, e in zip(z, k1, k2, k3, k4, strict=True)]
+    compare("Camassa and Holm's equations of two peakons", lane["state"][:2], z[:2], 1e-8)
+    compare("their momenta", momenta(lane["state"][:2], lane["state"][2:]), z[2:], 1e-8)
+    path = f"{folder.name}/one.system"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("cell: m_t^2*tanh(d/2) + d_t^2/(4*tanh(d/2))\ndensity: 1 + 2/cosh(x)\nhalf_length: 20\n"
+                   "start: X_t = sinh(20 - abs(x))/sinh(20)\nuntil: 5\ndt: 0.05\n")
+    for lane in alone(path, "points=3,7,31", "scheme=free-gauss2,free-gauss4"):
+        n = len(lane["state"]) // 2
+        name = f"{n} nodes, {lane['scheme']}"
+        near(f"{name}: crest", lane["observables"]["crest"], 5, 1e-10)
+        near(f"{name}: height", lane["observables"]["amplitude"], 1, 1e-10)
+        others = sorted(map(abs, momenta(lane["state"][:n], lane["state"][n:], 20)))[:-1]
+        near(f"{name}: momentum of the other nodes", max(others), 0, 1e-10)
+    for scheme in ("free-gauss2", "free-gauss4"):
+        made = subprocess.run([program, "certify", scheme, "--on", path, "points=3", "until=1"], capture_output=True,
+                              text=True, check=False)
+        check(made.returncode == 0 and made.stdout.count("holds ") == 3, f"certify {scheme} --on nodes: {made.stderr}")
+    grid = run("camassa-holm", "half_length=20", "points=31", "until=10", "scheme=rk4", "space=differences,fourier", "--json")
+    lanes = [json.loads(line) for line in grid.stdout.splitlines()]
+    near("a grid of 31 points: error", lanes[0]["observables"]["solution_error"], 0.845, 5e-4)
+    check(lanes[1]["status"] == "blow-up", "by Fourier: " + lanes[1]["status"])
+    bare = "cell: d_t^2/d\n"
+    for number, (sentence, text) in enumerate((
+        ("nodes: 0 follows 1, and places grow, between -20 and 20", bare + "nodes: 1, 0\nstart: X_t = x\n"),
+        ("nodes: 30 follows 1, and places grow", bare + "nodes: 1, 30\nstart: X_t = x\n"),
+        ("nodes: there is no name w", bare + "nodes: 1, w\nstart: X_t = x\n"),
+        ("between: there is no name w", bare + "between: w\nstart: X_t = x\n"),
+        ("no name u", bare + "start: X_t = u\n"),
+        ("the nodes have no velocity at the start", bare),
+        ("X_t at the start is not finite where x = 0", bare + "start: X_t = 1/x\n"),
+        ("start: X_t is given twice", bare + "start: X_t = 1, X_t = x\n"),
+        ('a system of nodes alone has no line "relax"', bare + "relax: 1\nstart: X_t = x\n"),
+        ('a system of nodes alone has no line "invariant"', bare + "invariant: a = x\nstart: X_t = x\n"),
+        ("the file has no equation: H, L, rate", "half_length: 2\n"),
+        ('a system with a field has no line "nodes"', SYSTEM + "nodes: 1\n"),
+    )):
+        path = f"{folder.name}/bad{number}.system"
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        refused(sentence, path)
+    refused("nodes alone are of free- schemes, and not of control-gauss4", "peakons", "scheme=control-gauss4")
+    refused("cell: is 0, and nodes alone move by nothing else", "peakons", "cell=0")
+    refused("none of these schemes takes cell=; these do: free-gauss2, free-gauss4", "soliton", "cell=d_t^2")
+    for name in ("steepest", "bend", "X"):
+        refused(f"{name} is a key of moving meshes", file_of(f"name{name}", f"parameter: {name} = 1"))
+    text = SYSTEM.replace("u_t = 0.2*x*exp(-x^2/2)", "u_t = 0.2*x*exp(-x^2/2), X_t = 0.1*cos(pi*x/12)")
+    path = file_of("drifts", STEEP, "cell: 0.05*(d_t/d)^2")
+    still = states(path, "scheme=free-gauss4", "steps=0")[0]["state"]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text + STEEP + "\ncell: 0.05*(d_t/d)^2\n")
+    state, held = (lane["state"] for lane in states(path, "scheme=free-gauss4,multiplier-lobatto4", "steps=0"))
+    compare("X_t at the start", state["x_dot"], [0.1 * math.cos(math.pi * x / 12) for x in state["x"]], 1e-14)
+    slopes = [-2 / 3 * (x - 0.5) * u for x, u in zip(state["x"], state["u"], strict=True)]
+    compare("u follows the nodes", state["u_dot"],
+            [0.2 * x * math.exp(-x * x / 2) + s * v for x, s, v in zip(state["x"], slopes, state["x_dot"], strict=True)], 1e-13)
+    compare("schemes that hold the mesh have their own", held["x_dot"], still["x_dot"], 1e-14)
+
+
 densities()
 known_meshes()
 smoothing()
 free_nodes()
+nodes_alone()
 sys.exit(len(faults) > 0)

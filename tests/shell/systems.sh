@@ -18,7 +18,7 @@ for file in "$systems"/*.system; do
 import json, sys
 about = json.load(sys.stdin)
 assert about["title"] and about["equations"] and about["structure"]
-fits = {"field": "leapfrog", "multisymplectic": "gauss-box4"}
+fits = {"field": "leapfrog", "nodes": "free-gauss4", "multisymplectic": "gauss-box4"}
 assert fits.get(about["kind"], "rk4") in about["schemes"]
 # fifteen square roots exist together in one of 2^15 points: what holds them is tested, not proved; so is what
 # the parameters of the file alone have, as the symmetry of a bowl without a dent

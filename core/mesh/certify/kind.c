@@ -69,8 +69,10 @@ static double return_defect(const struct gm_mesh_subject *subject, const struct 
 static void momenta(const struct gm_mesh_subject *subject, const double *state, double *phase)
 {
     const size_t points = subject->mesh.points;
+    const bool alone = subject->mesh.alone;
     struct gm_elements stage;
-    memcpy(phase, state, 2 * points * sizeof *phase);
+    memset(phase, 0, points * sizeof *phase); /* nodes alone have a field that is 0 */
+    memcpy(phase + alone * points, state, (2 - alone) * points * sizeof *phase);
     if (!gm_elements_open(&stage, &subject->mesh)) {
         return;
     }
@@ -102,7 +104,7 @@ static bool step_in_phase_space(const struct gm_mesh_subject *subject, const voi
         return false;
     }
     momenta(subject, state, values);
-    momenta(subject, end, values + subject->problem.n);
+    momenta(subject, end, values + 4 * subject->mesh.points);
     return true;
 }
 
@@ -110,7 +112,7 @@ static bool step_in_phase_space(const struct gm_mesh_subject *subject, const voi
 static double symplecticity_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
                                    double dt)
 {
-    const size_t points = subject->mesh.points, n = subject->problem.n;
+    const size_t points = subject->mesh.points, n = 4 * points;
     const struct gm_mesh_step step = {scheme, dt};
     double tangents[DIRECTIONS][OBSERVED];
     double defect = 0;
@@ -176,11 +178,13 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
     if (gm_mesh_subject_open(&fine, scheme, FINE_POINTS)) {
         certificate->order = measure_order(&fine, scheme, dt, &certificate->ladder);
     }
+    gm_mesh_subject_close(&fine);
     certificate->order_problem = name;
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
     if (gm_mesh_subject_open(&few, scheme, POINTS)) {
         measure(certificate, &few, dt, 1, name);
     }
+    gm_mesh_subject_close(&few);
 }
 
 /* On the mesh of a given system, which has few nodes too. */
@@ -188,7 +192,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                        struct gm_certificate *certificate)
 {
     const char *const name = system->problem->name;
-    struct gm_mesh_subject subject;
+    struct gm_mesh_subject subject = {0};
     if (gm_mesh_subject_open_on(&subject, scheme, system->problem)) {
         certificate->order = measure_order(&subject, scheme, 2 * system->dt, &certificate->ladder);
         double size = 1;
@@ -205,6 +209,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     certificate->order_holds = !(certificate->order <= scheme->order - 0.15);
     gm_certificate_withhold(certificate, GM_MULTISYMPLECTIC,
                             scheme->family->adaptive ? "the scheme is adaptive"
+                            : subject.mesh.alone     ? "it is a law of fields"
                                                      : "the law is measured on 3 nodes: points=3");
     gm_certificate_withhold_all(certificate, scheme->claims, "it means nothing of waves on moving meshes");
 }

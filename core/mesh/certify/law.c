@@ -250,7 +250,7 @@ static double defect_of(const struct gm_mesh_subject *subject, const struct law 
 
 double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt)
 {
-    if (scheme->family->adaptive || subject->mesh.points != POINTS) {
+    if (scheme->family->adaptive || subject->mesh.points != POINTS || subject->mesh.alone) {
         return NAN;
     }
     struct law law = {{scheme, dt}, gm_scheme_mesh(scheme), TRAPEZOIDAL};

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/expression/lines.h"
 #include "core/model/scope.h"
 
 /* A formula while it is read. Its inputs are variables 0, 1 .. of the graph. */
@@ -128,12 +129,17 @@ static bool refuse(const struct reading *reading, const char *text, size_t offse
     return false;
 }
 
-static bool read_formula(struct reading *reading, const char *text, gm_node_id *node)
+static bool read_span(struct reading *reading, const char *text, struct gm_span span, gm_node_id *node)
 {
     const struct gm_scope scope = {.find = find, .known = known, .data = reading};
     struct gm_fault fault = {0};
-    return gm_formula_read(&reading->graph, text, 0, strlen(text), &scope, node, &fault) ||
+    return gm_formula_read(&reading->graph, text, span.begin, span.end, &scope, node, &fault) ||
            (fault.sentence[0] && refuse(reading, text, fault.offset, fault.sentence));
+}
+
+static bool read_formula(struct reading *reading, const char *text, gm_node_id *node)
+{
+    return read_span(reading, text, (struct gm_span){0, strlen(text)}, node);
 }
 
 /* A corner would end Newton's method. */
@@ -333,6 +339,41 @@ bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *na
         .names = names, .word = GM_WORD_CELL, .inputs = words, .sentence = sentence, .size = size};
     *cell = (struct gm_user_cell){.cell = {cell_first, cell_second}};
     const bool good = open_reading(&reading, NULL, 0) && derive_cell(&reading, text, cell);
+    close_reading(&reading);
+    return good;
+}
+
+bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
+                          char *sentence, size_t size)
+{
+    static const char *const words[] = {"s", "d", "v0", "v1", NULL};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_BETWEEN, .inputs = words, .sentence = sentence, .size = size};
+    gm_node_id node;
+    const bool good = open_reading(&reading, NULL, 0) && read_formula(&reading, text, &node) &&
+                      gm_tape_open(between, &reading.graph, &node, 1, GM_BETWEEN_INPUTS, NULL);
+    close_reading(&reading);
+    return good;
+}
+
+bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
+                         size_t *count, char *sentence, size_t size)
+{
+    static const char *const words[] = {NULL};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_NODES, .inputs = words, .sentence = sentence, .size = size};
+    struct gm_span rest = {0, strlen(text)}, piece;
+    struct gm_tape tape = {0};
+    bool good = open_reading(&reading, NULL, 0);
+    for (*count = 0; good && *count < most && gm_span_take(text, &rest, ",", &piece); ++*count) {
+        gm_node_id node;
+        good =
+            read_span(&reading, text, piece, &node) && gm_tape_open(&tape, &reading.graph, &node, 1, 0, NULL);
+        if (good) {
+            gm_tape_values(&tape, NULL, &places[*count], 1);
+        }
+        gm_tape_close(&tape);
+    }
     close_reading(&reading);
     return good;
 }

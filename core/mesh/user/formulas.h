@@ -46,6 +46,15 @@ struct gm_user_cell {
 bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
                        char *sentence, size_t size);
 
+/* The velocity between two nodes as a formula. */
+enum { GM_BETWEEN_INPUTS = 4 }; /* s from 0 to 1, the distance d of the nodes, their velocities v0 and v1 */
+bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
+                          char *sentence, size_t size);
+
+/* Places of nodes, formulas of parameters separated by commas: writes at most `most` of them, and their number. */
+bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
+                         size_t *count, char *sentence, size_t size);
+
 /* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. The caller closes both tapes
    in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,

@@ -3,7 +3,7 @@
    Gauss's formula with nodes s_k in (-1, 1) and weights g_k that add up to 1,
        w(m, r) = sum_k g_k V(m + s_k r / 2),   w_m = sum_k g_k V'(..),   w_r = sum_k g_k s_k / 2 V'(..),
    and all derivatives are those of this sum: schemes are of one Lagrangian, whatever it leaves of the
-   integral. */
+   integral. Fewer nodes serve where r is so small that their means are the same to rounding. */
 #include "core/mesh/user/potential.h"
 
 #include <math.h>
@@ -14,13 +14,16 @@
 #include <gsl/gsl_integration.h>
 
 #include "core/basics.h"
+#include "core/linear/sine.h"
 #include "core/memory.h"
 #include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
+enum { U, RATE, SLOPE, DRIFT, OF_START };
+enum { MOST_LISTED = 128 };
 
 struct own {
-    struct gm_user_line line; /* first; starts are u, u_t, u_x */
+    struct gm_user_line line; /* first; starts are u, u_t, u_x, and X_t if the file gives it */
     struct gm_potential functions;
     struct gm_mesh mesh;
     struct gm_mesh_names names;
@@ -30,8 +33,11 @@ struct own {
     double until;
     char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
-    double place[MOST_NODES], weight[MOST_NODES];
-    struct gm_tape means /* V, V' */, bend /* V'' */;
+    struct rule {
+        double place[MOST_NODES], weight[MOST_NODES], reach; /* reach: the largest rise that it serves */
+    } rules[MOST_NODES + 1];                                 /* [number of nodes] */
+    struct gm_tape means /* V, V' */, bend /* V'' */, between;
+    double listed[MOST_LISTED]; /* places of nodes alone */
     struct gm_tape
         known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
@@ -48,44 +54,104 @@ size_t gm_user_mesh_order(const struct gm_user_wave *wave)
 }
 
 /* Gauss's nodes, and weights that add up to 1, which GSL has in tables. Returns false when out of memory. */
-static bool set_rule(void *data)
+static bool set_rules(void *data)
 {
     struct own *self = data;
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(self->nodes);
-    for (size_t k = 0; table && k < self->nodes; k++) {
-        gsl_integration_glfixed_point(-1, 1, k, &self->place[k], &self->weight[k], table);
-        self->weight[k] /= 2;
+    gsl_integration_glfixed_table *table = NULL;
+    for (size_t n = 1; n <= self->nodes; n++) {
+        struct rule *rule = &self->rules[n];
+        rule->reach = n == self->nodes ? INFINITY : 0;
+        table = gsl_integration_glfixed_table_alloc(n);
+        for (size_t k = 0; table && k < n; k++) {
+            gsl_integration_glfixed_point(-1, 1, k, &rule->place[k], &rule->weight[k], table);
+            rule->weight[k] /= 2;
+        }
+        gsl_integration_glfixed_table_free(table);
+        if (!table) {
+            return false;
+        }
     }
-    gsl_integration_glfixed_table_free(table);
-    return table != NULL;
+    return true;
+}
+
+/* The number of nodes of the rule for an element: with a single one, w would not bend with the rise. */
+static size_t nodes_for(const struct own *self, double rise)
+{
+    size_t n = self->nodes > 1 ? 2 : 1;
+    while (n < self->nodes && !(fabs(rise) <= self->rules[n].reach)) {
+        n++;
+    }
+    return n;
+}
+
+/* Means by n nodes: w and its derivatives by m and r, from values V and behind them V' at the nodes. */
+static void add_up(const struct rule *rule, size_t n, const double *v, const double *slope, double means[3])
+{
+    means[0] = means[1] = means[2] = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double part = rule->weight[k] * slope[k];
+        means[0] += rule->weight[k] * v[k];
+        means[1] += part;
+        means[2] += part * rule->place[k] / 2;
+    }
 }
 
 static void first(const struct gm_potential *potential, const double *middle, const double *rise, size_t n,
                   double *w, double *w_m, double *w_r)
 {
     const struct own *self = own_of(potential);
-    const size_t nodes = self->nodes, most = ROOM / nodes;
-    double at[ROOM], values[2 * ROOM];
-    for (size_t from = 0; from < n; from += most) {
-        const size_t some = n - from < most ? n - from : most;
-        for (size_t k = 0; k < nodes; k++) {
-            for (size_t e = 0; e < some; e++) {
-                at[k * some + e] = middle[from + e] + self->place[k] * (rise[from + e] / 2);
+    double at[ROOM], values[2 * ROOM], means[3];
+    size_t nodes[ROOM];
+    for (size_t from = 0, some; from < n; from += some) {
+        size_t count = 0;
+        for (some = 0; from + some < n && count + MOST_NODES <= ROOM; some++) {
+            const size_t e = from + some;
+            nodes[some] = nodes_for(self, rise[e]);
+            for (size_t k = 0; k < nodes[some]; k++) {
+                at[count++] = middle[e] + self->rules[nodes[some]].place[k] * (rise[e] / 2);
             }
         }
-        gm_tape_values(&self->means, at, values, some * nodes);
-        for (size_t e = 0; e < some; e++) {
-            double sum = 0, by_m = 0, by_r = 0;
-            for (size_t k = 0; k < nodes; k++) {
-                const double slope = self->weight[k] * values[some * nodes + k * some + e];
-                sum += self->weight[k] * values[k * some + e];
-                by_m += slope;
-                by_r += slope * self->place[k] / 2;
-            }
-            w[from + e] = sum;
-            w_m[from + e] = by_m;
-            w_r[from + e] = by_r;
+        gm_tape_values(&self->means, at, values, count);
+        const double *v = values;
+        for (size_t e = from; e < from + some; v += nodes[e++ - from]) {
+            add_up(&self->rules[nodes[e - from]], nodes[e - from], v, v + count, means);
+            w[e] = means[0];
+            w_m[e] = means[1];
+            w_r[e] = means[2];
         }
+    }
+}
+
+/* Finds the rises up to which fewer nodes have the means of all, between these values of the field. */
+static void set_reaches(struct own *self, double low, double high)
+{
+    enum { MIDDLES = 17 };
+    const double round_off = 1e-15, shortest = 1e-12 * (high - low);
+    double middle[MIDDLES], rise[MIDDLES], means[2][3][MIDDLES], reach = high - low;
+    for (size_t n = self->nodes - 1; n > 1 && reach > shortest; n--) {
+        bool same = false;
+        for (; !same && reach > shortest; reach *= same ? 1 : 0.85) {
+            double size[2] = {0};
+            for (size_t i = 0; i < MIDDLES; i++) {
+                middle[i] = low + (high - low) * (double)i / (MIDDLES - 1);
+                rise[i] = reach;
+            }
+            for (size_t by = 0; by < 2; by++) { /* by n nodes, then by all */
+                self->rules[n].reach = by ? 0 : INFINITY;
+                first(&self->functions, middle, rise, MIDDLES, means[by][0], means[by][1], means[by][2]);
+            }
+            for (size_t i = 0; i < MIDDLES; i++) {
+                size[0] = fmax(size[0], fabs(means[1][0][i]));
+                size[1] = fmax(size[1], fabs(means[1][1][i]));
+            }
+            same = true;
+            for (size_t c = 0; c < 3; c++) {
+                for (size_t i = 0; i < MIDDLES; i++) {
+                    same &= fabs(means[0][c][i] - means[1][c][i]) <= round_off * size[c > 0];
+                }
+            }
+        }
+        self->rules[n].reach = same ? reach : 0;
     }
 }
 
@@ -93,14 +159,16 @@ static void second(const struct gm_potential *potential, double middle, double r
                    double *w_mr, double *w_rr)
 {
     const struct own *self = own_of(potential);
+    const size_t n = nodes_for(self, rise);
+    const struct rule *rule = &self->rules[n];
     double at[MOST_NODES], values[MOST_NODES];
-    for (size_t k = 0; k < self->nodes; k++) {
-        at[k] = middle + self->place[k] * (rise / 2);
+    for (size_t k = 0; k < n; k++) {
+        at[k] = middle + rule->place[k] * (rise / 2);
     }
-    gm_tape_values(&self->bend, at, values, self->nodes);
+    gm_tape_values(&self->bend, at, values, n);
     *w_mm = *w_mr = *w_rr = 0;
-    for (size_t k = 0; k < self->nodes; k++) {
-        const double bend = self->weight[k] * values[k], half = self->place[k] / 2;
+    for (size_t k = 0; k < n; k++) {
+        const double bend = rule->weight[k] * values[k], half = rule->place[k] / 2;
         *w_mm += bend;
         *w_mr += bend * half;
         *w_rr += bend * half * half;
@@ -115,13 +183,22 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
 static void start(const void *parameters, const double *x, size_t count, double *value, double *slope,
                   double *rate)
 {
-    double of[3 * GM_LINE_ROOM];
+    double of[OF_START * GM_LINE_ROOM];
     for (size_t from = 0, some; from < count; from += some) {
         some = count - from < GM_LINE_ROOM ? count - from : GM_LINE_ROOM;
         gm_tape_values(&((const struct own *)parameters)->line.start, x + from, of, some);
         memcpy(value + from, of, some * sizeof *of);
-        memcpy(rate + from, of + some, some * sizeof *of);
-        memcpy(slope + from, of + 2 * some, some * sizeof *of);
+        memcpy(rate + from, of + RATE * some, some * sizeof *of);
+        memcpy(slope + from, of + SLOPE * some, some * sizeof *of);
+    }
+}
+
+static void drift(const void *parameters, const double *x, size_t count, double *rate)
+{
+    double of[OF_START];
+    for (size_t i = 0; i < count; i++) {
+        gm_tape_values(&((const struct own *)parameters)->line.start, x + i, of, 1);
+        rate[i] = of[DRIFT];
     }
 }
 
@@ -144,20 +221,22 @@ static struct gm_grid1 cells_of(const struct gm_mesh *mesh, size_t count)
     return (struct gm_grid1){.points = count + 1, .dx = mesh->length / (double)count, .first = mesh->first};
 }
 
-/* The start: the total variation of u, its largest slope, and the largest force. */
+/* The start: the range of u and its total variation, its largest slope, and the largest force. */
 struct extent {
-    double variation, slope, force;
+    double low, high, variation, slope, force;
 };
 
 static struct extent extent_of(const struct own *self)
 {
     const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
-    struct extent of = {0};
+    struct extent of = {.low = self->mesh.left, .high = self->mesh.left};
     double values[GM_LINE_BLOCK], before = self->mesh.left, at[2];
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
             gm_tape_values(&self->means, &values[i], at, 1);
+            of.low = fmin(of.low, values[i]);
+            of.high = fmax(of.high, values[i]);
             of.variation += fabs(values[i] - before);
             of.slope = fmax(of.slope, fabs(values[2 * some + i]));
             of.force = fmax(of.force, fabs(at[1]));
@@ -168,7 +247,8 @@ static struct extent extent_of(const struct own *self)
 }
 
 /* Sets the numbers of densities, by the file's line alpha:, or else as steep as the start is. */
-static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const double *values)
+static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const struct extent *of,
+                  const double *values)
 {
     const struct gm_user_system *system = self->line.system;
     const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
@@ -176,15 +256,14 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
                                   *bend = item ? gm_system_option(item, GM_OPTION_BEND) : NULL;
     double alpha = NAN, slope = NAN, curvature = NAN;
     if (!steepest || !bend) {
-        const struct extent of = extent_of(self);
         /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
            drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
            rise of 2 pi in a box of 25 */
-        alpha = of.variation > 0 && of.slope > 0
-                    ? fmin(1.5 / of.slope, M_PI / 10 * self->mesh.length / of.variation)
+        alpha = of->variation > 0 && of->slope > 0
+                    ? fmin(1.5 / of->slope, M_PI / 10 * self->mesh.length / of->variation)
                     : 0;
-        slope = of.slope > 0 ? of.slope : 1;
-        curvature = of.force > 0 ? of.slope * of.slope / of.force : 0;
+        slope = of->slope > 0 ? of->slope : 1;
+        curvature = of->force > 0 ? of->slope * of->slope / of->force : 0;
     }
     if ((item && !gm_user_line_numbers(system, item->nodes, 1, values, &alpha)) ||
         (steepest && !gm_user_line_numbers(system, &steepest->node, 1, values, &slope)) ||
@@ -202,7 +281,19 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
     const struct gm_mesh_names *names = &self->names;
     enum { SIZE = sizeof self->refused };
+    size_t count = 0;
+    if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
+        const bool read =
+            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, self->refused, SIZE);
+        self->mesh.listed = self->listed;
+        self->mesh.points = read ? count : self->mesh.points;
+        if (!read) {
+            return self->refused[0];
+        }
+    }
     return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
+            (!chosen->between || !chosen->between[0] ||
+             gm_user_between_open(&self->between, names, chosen->between, self->refused, SIZE)) &&
             (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
             (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
            self->refused[0];
@@ -211,8 +302,6 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen)
 {
-    static const struct gm_potential *const known[] = {
-        [GM_POTENTIAL_SINE_GORDON] = &gm_potential_sine_gordon, [GM_POTENTIAL_PHI4] = &gm_potential_phi4};
     struct own *self = calloc(1, sizeof *self);
     *problem = (struct gm_problem){.name = "wave equation",
                                    .n = 4 * (size_t)chosen->points,
@@ -225,22 +314,27 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     }
     const struct gm_formula *graph = &wave->system->graph;
     const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
-    const gm_node_id means[] = {wave->system->energy, wave->by_u[0]},
-                     begin[] = {wave->start[0], wave->start[1], wave->start_slope};
+    const gm_node_id means
+        [] = {wave->system->energy, wave->by_u[0]},
+   begin[OF_START] = {
+       [U] = wave->start[0], [RATE] = wave->start[1], [SLOPE] = wave->start_slope, [DRIFT] = wave->drift};
     self->functions = (struct gm_potential){.name = "own", .first = first, .second = second};
     self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
                                   .first = chosen->first,
                                   .length = chosen->length,
-                                  .potential = wave->known ? known[wave->known] : &self->functions};
+                                  .potential = &self->functions};
     self->nodes = gm_user_mesh_order(wave);
-    if (!gm_memory_guard_gsl(set_rule, self) ||
+    if (!gm_memory_guard_gsl(set_rules, self) ||
         !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
         (wave->exact_while != GM_NO_NODE &&
          !gm_tape_open(&self->known, graph, &wave->exact_while, 1, 2, values)) ||
-        !gm_user_line_open(&self->line, wave->system, begin, GM_COUNT(begin), &wave->exact, values)) {
+        !gm_user_line_open(&self->line, wave->system, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START,
+                           &wave->exact, values)) {
         return false;
     }
+    self->means.sines = gm_sines; /* no other engine computes them */
+    self->means.cosines = true;
     const double places[] = {chosen->first, chosen->first + chosen->length};
     double ends[2], slopes[2], rates[2];
     start(self, places, GM_COUNT(places), ends, slopes, rates);
@@ -250,13 +344,25 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
-    self->mesh.map = chosen->map ? &self->map.map : NULL;
+    self->mesh.alone = wave->system->alone;
+    self->mesh.drift = wave->drift == GM_NO_NODE ? NULL : drift;
+    self->mesh.map = chosen->map && chosen->map[0] ? &self->map.map : NULL;
     self->mesh.cell = chosen->cell && strcmp(chosen->cell, "0") != 0 ? &self->cell.cell : NULL;
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    return weigh(self, chosen, values) && open_equation(self, chosen);
+    const struct extent of = extent_of(self);
+    set_reaches(self, of.low, of.high);
+    const bool good = weigh(self, chosen, &of, values) && open_equation(self, chosen);
+    problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
+    return good;
+}
+
+void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
+{
+    const struct gm_tape *tape = &((const struct own *)problem->parameters)->between;
+    gm_tape_values(tape, at, velocity, m);
 }
 
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
@@ -268,9 +374,9 @@ void gm_user_mesh_close(struct gm_problem *problem)
 {
     struct own *self = (struct own *)problem->parameters;
     if (self) {
-        struct gm_tape *const tapes[] = {&self->density.tape,  &self->density.itself, &self->means,
-                                         &self->bend,          &self->known,          &self->map.tape,
-                                         &self->cell.by_first, &self->cell.by_second};
+        struct gm_tape *const tapes[] = {&self->density.tape, &self->density.itself, &self->means,
+                                         &self->bend,         &self->known,          &self->map.tape,
+                                         &self->between,      &self->cell.by_first,  &self->cell.by_second};
         gm_user_line_close(&self->line);
         for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
@@ -285,7 +391,7 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
     const struct own *self = problem->parameters;
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
-    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK];
+    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;
     if (self->refused[0]) {
         snprintf(sentence, size, "%s", self->refused);
         return false;
@@ -294,10 +400,25 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
                            !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
         return false;
     }
+    for (size_t k = 0; self->mesh.listed && k < self->mesh.points; k++) {
+        const double x = self->listed[k], end = self->mesh.first + self->mesh.length;
+        if (!(x > before && x < end)) {
+            snprintf(sentence, size, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
+                     before, self->mesh.first, end);
+            return false;
+        }
+        before = x;
+    }
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
-            const double u = values[i], rate = values[some + i], slope = values[2 * some + i];
+            const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
+                         drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
+            if (!isfinite(drift)) {
+                snprintf(sentence, size, "X_t at the start is not finite where x = %.6g",
+                         gm_grid1_node(&grid, from + i));
+                return false;
+            }
             if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
                 snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
                          !isfinite(u)       ? ""

@@ -13,6 +13,9 @@ struct gm_user_mesh {
     const char *density;  /* a word of gm_user_densities, or a formula */
     const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
     const char *cell;     /* the Lagrangian of a cell; NULL or "0": none */
+    const char
+        *nodes; /* of nodes alone: their places at the start, instead of `points`; NULL or "density": by it */
+    const char *between; /* of nodes alone: the velocity between them */
     double relax, until;
 };
 
@@ -28,6 +31,10 @@ void gm_user_mesh_close(struct gm_problem *problem);
 
 /* The numbers that formulas of its mesh may hold: alpha, steepest and bend, resolved. */
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem);
+
+/* Writes the velocities of nodes alone between them, at m places: `at` holds the inputs of gm_user_between_open,
+   [number * m + place]. */
+void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m);
 
 /* Returns true if the start is finite and, unless a line ends: holds it there, rests at both ends up to a thousandth of
    its largest rate; else `sentence` is the reason. */

@@ -113,6 +113,7 @@ struct gm_line_keys {
     double alpha; /* only on a moving mesh */
     double relax;
     char density[GM_TEXT_SIZE], mesh[GM_TEXT_SIZE], cell[GM_TEXT_SIZE];
+    char nodes[GM_TEXT_SIZE], between[GM_TEXT_SIZE]; /* only of nodes alone */
 };
 
 /* A lane's parameters. */

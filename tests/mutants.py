@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many small faults in the program the tests see.
+
+    mutants.py FOLDER [--count 200] [--seed 1] [--only WORDS] [--jobs 2] [--show]
+
+A mutant is the program with one fault: a statement left out, a comparison turned, a number one too large, + for -, ||
+for &&. FOLDER gets a copy of the committed sources in which all mutants stand side by side, behind a number that
+GM_MUTANT chooses when the program runs. So one build serves all of them, and a mutant costs its tests alone. They
+run until one fails. A mutant that none of them kills is printed; it wants a test, or a line in mutants.equivalent with
+the reason why no test can see it. --only: files that hold these words; --show: the mutants, which are not built."""
+
+import argparse
+import concurrent.futures
+import os
+import random
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+# Which tests see which folder, the quickest first; the first folder that holds a file counts. Tests are names in
+# `meson test --list`, of the suite `fast`.
+SEEN_BY = {
+    "core/expression": "formula choices typed|user evaluation|operations baseline|system_lines|systems|invariants found",
+    "core/model": "system_lines typed|system|user|lagrangian|user_fields|systems|input|user schemes|claims",
+    "core/theory": "theory|user_schemes|backward|splittings by parts|user schemes|claims",
+    "core/linear": "factors|ring|settled|sink|reference|flow|claims",
+    "core/ode/user": "user|lagrangian|poisson|native|engines|systems",
+    "core/ode/certify": "claims|user_schemes|names of one method",
+    "core/ode/families": "steps|reference|variational|manifold|poisson|splittings by parts|invariants held|stiff|claims",
+    "core/ode": "problems|reference|indicators|vortices|portrait|recorded runs|claims",
+    "core/field": "waves|wave_steps|local_laws|heat|burgers|kdv_moving_frames|user_fields|user_forms|recorded runs|claims",
+    "core/mesh": "lobatto|user_meshes|mesh equations|soliton command line|recorded runs|claims",
+    "core/flow": "flow|gmsh|walls|rooms|rooms of files|recorded runs|claims",
+    "core/form": "forms|forms of files",
+    "core": "arena|run|user_schemes|typed|recorded runs|claims",
+    "scenes/common": "lane|parameter|typed|space|ticks|views|session|indicators command line|golden system",
+    "scenes": "lane|system|disc|heat|burgers|recorded runs|built-in files|command line|data|rooms of files|forms of files",
+    "app/words": "names|typed|command line|input|sentences",
+    "app/data": "data|drawings|rooms of files|resume|forms of files",
+    "render/layout": "layout|ticks|picture|pictures|golden disc|golden system|golden space",
+}
+FOLDERS = ("core", "scenes", "app/words", "app/data", "render/layout")
+
+HEAD = """#include <stdlib.h>
+static int gm_mutant(void)
+{
+    static int number = -1;
+    if (number < 0) {
+        const char *text = getenv("GM_MUTANT");
+        number = text ? atoi(text) : 0;
+    }
+    return number;
+}
+"""
+
+OPERAND = r"[A-Za-z_][\w.\[\]]*(?:->[\w.\[\]]+)*(?:\([^()\"']*\))?|\d[\w.]*"
+BEFORE, AFTER = r"(?<=[(,!&|=?:;])\s*|(?<=return)\s+", r"(?=\s*(?:[),;?:]|&&|\|\|))"
+COMPARISON = re.compile(rf"(?:{BEFORE})(?P<a>{OPERAND}) (?P<op><=|>=|<|>|==|!=) (?P<b>{OPERAND}){AFTER}")
+SUM = re.compile(rf"(?:{BEFORE})(?P<a>{OPERAND}) (?P<op>\+|-) (?P<b>{OPERAND}){AFTER}")
+LOGIC = re.compile(r"(?:if|while) \((?P<a>[^()&|?]*(?:\([^()]*\)[^()&|?]*)*) (?P<op>&&|\|\|) (?P<b>[^()&|?]*(?:\([^()]*\)[^()&|?]*)*)\) \{$")
+NUMBER = re.compile(r"(?<![\w.\[\"'%])(?P<a>\d+(?:\.\d+)?)(?![\w.\"'\]])")
+STATEMENT = re.compile(r"^\s+(?P<a>(?:\*?[\w.\[\]]+(?:->[\w.\[\]]+)*(?: [-+*/|&]?= [^;{}\"]*|\+\+|--)|\w+\([^;{}]*\));)$")
+TURNED = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "+": "-", "-": "+", "&&": "||", "||": "&&"}
+DECLARES = re.compile(r"^\s*(?:static|const|enum|struct|case|#|extern|typedef|\}|\.|\{|double \*|size_t \w+\[|char \w+\[)|\[\w*\] = |sizeof|_Static_assert")
+
+
+def bodies(text):
+    """The lines of functions: (number, line, the line before). Others hold constant expressions."""
+    inside, before, comment, prepares = False, "", False, False
+    for number, line in enumerate(text.split("\n")):
+        if line == "{":
+            inside = True
+        elif line == "}":
+            inside = False
+        elif inside and not comment and "/*" not in line and not prepares and not line.rstrip().endswith("\\"):
+            yield number, line, before
+        comment = ("/*" in line or comment) and "*/" not in line
+        prepares = line.rstrip().endswith("\\")
+        before = line.strip() or before
+
+
+def places(name, text):
+    """All faults that a file may have: (file, line number, begin, end, the faulty text, the kind)."""
+    for number, line, before in bodies(text):
+        declares = bool(DECLARES.search(line))
+        for kind, pattern in (("comparison", COMPARISON), ("sum", SUM), ("logic", LOGIC)):
+            for found in pattern.finditer(line):
+                a, b, op = found["a"], found["b"], found["op"]
+                if declares or '"' in a + b or kind == "sum" and ("[" in line[: found.start("a")][-1:]):
+                    continue
+                right = f"({a}) {op} ({b})" if kind == "logic" else f"{a} {op} {b}"
+                wrong = right.replace(f" {op} ", f" {TURNED[op]} ", 1)
+                yield name, number, found.start("a"), found.end("b"), f"(gm_mutant() == GM_NUMBER ? {wrong} : {right})", kind
+        for found in NUMBER.finditer(line):
+            if not declares and '"' not in line and "?" not in line and found["a"] != "0":
+                yield name, number, found.start("a"), found.end("a"), f"(gm_mutant() == GM_NUMBER ? {found['a']} + 1 : {found['a']})", "number"
+        found = STATEMENT.match(line)
+        if found and before[-1:] in ";{}" and not re.match(r"(?:return|free|va_|assert|longjmp|GM_)", found["a"]):
+            yield name, number, found.start("a"), found.end("a"), f"if (gm_mutant() != GM_NUMBER) {{ {found['a']} }}", "statement"
+
+
+def chosen(count, seed, only):
+    """Mutants, spread over folders and kinds."""
+    files = subprocess.run(["git", "-C", ROOT, "ls-files", *FOLDERS], check=True, capture_output=True, text=True).stdout.split()
+    every = {}
+    for name in files:
+        if name.endswith(".c") and not name.endswith(".loops.c") and only in name:
+            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                for place in places(name, file.read()):
+                    every.setdefault((folder_of(name), place[5]), []).append(place)
+    numbers = random.Random(seed)
+    for list_ in every.values():
+        numbers.shuffle(list_)
+    picked, taken = [], set()
+    while len(picked) < count and any(every.values()):
+        for key in sorted(every):
+            place = every[key].pop() if every[key] else None
+            if place and (place[0], place[1]) not in taken and len(picked) < count:
+                taken.add((place[0], place[1]))  # one a line
+                picked.append(place)
+    return picked
+
+
+def folder_of(name):
+    return next(folder for folder in SEEN_BY if name.startswith(folder + "/")) if any(
+        name.startswith(folder + "/") for folder in SEEN_BY) else "core"
+
+
+def change_of(place):
+    """The change, as a reader names it."""
+    found = re.fullmatch(r"\(gm_mutant\(\) == GM_NUMBER \? (.*?) : (.*)\)", place[4])
+    return f"{found[2]} -> {found[1]}" if found else "without " + re.search(r"\{ (.*) \}", place[4])[1]
+
+
+def write(folder, picked):
+    """A copy of the committed sources with the mutants."""
+    archive = subprocess.run(["git", "-C", ROOT, "archive", "HEAD"], check=True, capture_output=True).stdout
+    os.makedirs(folder, exist_ok=True)
+    subprocess.run(["tar", "-x", "-C", folder], input=archive, check=True)
+    by_file = {}
+    for number, place in enumerate(picked, 1):
+        by_file.setdefault(place[0], []).append((number, place))
+    for name, mutants in by_file.items():
+        path = os.path.join(folder, name)
+        with open(path, encoding="utf-8") as file:
+            lines = file.read().split("\n")
+        for number, (_, at, begin, end, text, _) in mutants:
+            lines[at] = lines[at][:begin] + text.replace("GM_NUMBER", str(number)) + lines[at][end:]
+        include = next(i for i, line in enumerate(lines) if line.startswith("#include"))
+        lines.insert(include, HEAD)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("\n".join(lines))
+
+
+def build(folder, picked):
+    """Builds; a mutant that is no C, as a number where C wants a constant, is put back, and left out. Returns them."""
+    if not os.path.exists(os.path.join(folder, "build")):
+        subprocess.run(["meson", "setup", os.path.join(folder, "build"), folder, "-Dtests=enabled", "-Dloops=baseline"], check=True,
+                       stdout=subprocess.DEVNULL)
+    bad = set()
+    while True:
+        made = subprocess.run(["ninja", "-k", "0", "-C", os.path.join(folder, "build")], capture_output=True, text=True)
+        if made.returncode == 0:
+            return bad
+        fresh = set()
+        for name, line in re.findall(r"^(?:\.\./)*([\w/.-]+\.c):(\d+):\d+: error", made.stdout, re.M):
+            path = os.path.join(folder, name)
+            if not os.path.exists(path):
+                continue
+            with open(path, encoding="utf-8") as file:
+                lines = file.read().split("\n")
+            for number in map(int, re.findall(r"gm_mutant\(\) [!=]= (\d+)", lines[int(line) - 1])):
+                place = picked[number - 1]
+                with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                    lines[int(line) - 1] = file.read().split("\n")[place[1]]
+                fresh.add(number)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("\n".join(lines))
+        if not fresh - bad:
+            sys.exit(made.stdout[-3000:])
+        bad |= fresh
+
+
+def judge(folder, number, place):
+    """The first test that fails with this mutant, or None."""
+    environment = dict(os.environ, GM_MUTANT=str(number))
+    for test in SEEN_BY[folder_of(place[0])].split("|"):
+        ran = subprocess.run(["meson", "test", "-C", os.path.join(folder, "build"), "--no-rebuild", "--logbase", f"mutant{number}",
+                              "--num-processes", "1", *([test] if " " in test else test.split())], env=environment, capture_output=True, text=True)
+        if ran.returncode != 0:
+            return test
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder")
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--show", action="store_true")
+    words = parser.parse_args()
+    picked = chosen(words.count, words.seed, words.only)
+    if words.show:
+        for number, place in enumerate(picked, 1):
+            print(f"{number} {place[0]}:{place[1] + 1}: {change_of(place)}")
+        return
+    equivalent = {}
+    with open(os.path.join(ROOT, "tests", "mutants.equivalent"), encoding="utf-8") as file:
+        for line in file:
+            if line.strip() and not line.startswith("#"):
+                name, change, reason = line.rstrip("\n").split(" | ")
+                equivalent[name, change] = reason
+    write(words.folder, picked)
+    bad = build(words.folder, picked)
+    killed = same = 0
+    survivors = []
+    with concurrent.futures.ThreadPoolExecutor(words.jobs) as pool:
+        tries = {pool.submit(judge, words.folder, number, place): (number, place) for number, place in enumerate(picked, 1)
+                 if number not in bad}
+        for done in concurrent.futures.as_completed(tries):
+            number, place = tries[done]
+            where = f"{number} {place[0]}:{place[1] + 1}: {change_of(place)}"
+            if done.result():
+                killed += 1
+                print(f"{where}: killed by {done.result()}", flush=True)
+            elif (place[0], change_of(place)) in equivalent:
+                same += 1
+                print(f"{where}: equivalent, {equivalent[place[0], change_of(place)]}", flush=True)
+            else:
+                survivors.append(where)
+                print(f"{where}: SURVIVES", flush=True)
+    print(f"seed {words.seed}: {len(picked) - len(bad)} mutants, {killed} killed, {same} equivalent, {len(survivors)} survive")
+    sys.exit(1 if survivors else 0)
+
+
+if __name__ == "__main__":
+    main()
