@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A form as what it is: a number on each vertex, edge or triangle of a small mesh, with the orientation that gives
+   it its sign. Edges run from their lower to their higher vertex, triangles turn counter-clockwise, a dual edge
+   crosses its edge from the right to the left. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/form/form.h"
+
+static const struct gm_style primal = {GM_LANE, 1, 1.6, GM_SOLID}, dual = {GM_INITIAL, 1, 1.6, GM_SOLID},
+                             faint = {GM_SECONDARY, 0.55, 1, GM_SOLID};
+
+/* Draws the head of an arrow, with its middle at a place. */
+static void draw_head(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                      const double at[2], double dx, double dy)
+{
+    const double tip[2] = {at[0] + dx / 2, at[1] + dy / 2}, back[2] = {at[0] - dx / 2, at[1] - dy / 2};
+    const double head[6] = {back[0] - dy / 2, back[1] + dx / 2, tip[0],
+                            tip[1],           back[0] + dy / 2, back[1] - dx / 2};
+    style.width *= 1.4;
+    gm_mark_line(picture, panel, style, head, 3, false);
+}
+
+static void draw_text(struct gm_picture *picture, struct gm_panel *panel, enum gm_role role, double x,
+                      double y, const char *text)
+{
+    gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, x, y,
+                 GM_ANCHOR_CENTRE, text);
+}
+
+/* A number to four digits; "v₁", "e₂", "f₃" without numbers. */
+static const char *text_of(struct gm_picture *picture, const double *form, char letter, size_t i)
+{
+    static const char *const digits[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+    if (!form) {
+        const size_t n = i + 1;
+        return gm_picture_text(picture, "%c%s%s%s", letter, n > 99 ? digits[n / 100] : "",
+                               n > 9 ? digits[n / 10 % 10] : "", digits[n % 10]);
+    }
+    const double value = fabs(form[i]) < 1e-13 ? 0 : form[i];
+    return gm_picture_text(picture, "%s%.4g", value < 0 ? "−" : "", fabs(value));
+}
+
+/* One kind of simplices, or their duals. */
+struct kind {
+    size_t dimension;
+    bool dual;
+    const double *form; /* NULL: their names */
+    double size;        /* of arrows */
+};
+
+/* The number on corner or edge k of a triangle of the sheet, or on the triangle. */
+static void draw_one(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                     const struct kind *kind, size_t i, size_t k)
+{
+    const struct gm_complex *complex = sheet->complex;
+    const size_t t = sheet->triangle[i];
+    const double *p = sheet->places + 6 * i, *from = p + 2 * k, *to = p + 2 * ((k + 1) % 3);
+    const double middle[2] = {(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3};
+    const enum gm_role role = kind->dual ? dual.role : GM_INK;
+    double at[2] = {from[0], from[1]};
+    if (kind->dimension == 0) {
+        const size_t v = (size_t)complex->triangle[3 * t + k];
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, at, 1);
+        draw_text(picture, panel, role, at[0], at[1] + 0.7 * kind->size,
+                  text_of(picture, kind->form, 'v', v));
+    } else if (kind->dimension == 1) {
+        const size_t e = (size_t)complex->triangle_edge[3 * t + k];
+        const double sign = complex->triangle_sign[3 * t + k], x = to[0] - from[0], y = to[1] - from[1];
+        const double length = hypot(x, y) > 0 ? hypot(x, y) : 1, scale = kind->size / 3 / length;
+        at[0] += x / 2;
+        at[1] += y / 2;
+        draw_head(picture, panel, kind->dual ? dual : primal, at, scale * sign * (kind->dual ? -y : x),
+                  scale * sign * (kind->dual ? x : y));
+        /* beside the edge, above it if it is level */
+        const double side = fabs(x) > 0.2 * length ? (x > 0 ? 1 : -1) : (y < 0 ? 1 : -1);
+        const double off = 0.75 * side * kind->size / length;
+        draw_text(picture, panel, kind->dual ? dual.role : primal.role, at[0] - off * y, at[1] + off * x,
+                  text_of(picture, kind->form, 'e', e));
+    } else {
+        enum { ARC = 25 };
+        double circle[2 * ARC], dot[2];
+        gm_form_dual_place(sheet, i, dot);
+        memcpy(at, kind->dual ? dot : middle, sizeof at);
+        const double area = (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
+        const double round = 0.62 * sqrt(fabs(area) / 12), sense = area > 0 ? 1 : -1;
+        for (size_t n = 0; n < ARC && !kind->dual; n++) {
+            const double a = sense * (0.6 + 5 * (double)n / (ARC - 1));
+            circle[2 * n] = at[0] + round * cos(a);
+            circle[2 * n + 1] = at[1] + round * sin(a);
+        }
+        if (kind->dual) {
+            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, at, 1);
+            at[1] += 0.7 * kind->size;
+        } else {
+            const struct gm_style style = {GM_LANE + 2, 1, 1.6, GM_SOLID};
+            const double *end = circle + 2 * (ARC - 1), a = sense * 5.6, head = kind->size / 4;
+            gm_mark_line(picture, panel, style, circle, ARC, false);
+            draw_head(picture, panel, style, end, -sense * head * sin(a), sense * head * cos(a));
+        }
+        draw_text(picture, panel, kind->dual ? role : GM_LANE + 2, at[0], at[1],
+                  text_of(picture, kind->form, 'f', t));
+    }
+}
+
+/* Draws each simplex of a kind once. */
+static void draw_kind(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                      struct kind kind)
+{
+    const struct gm_complex *complex = sheet->complex;
+    const size_t count = complex->vertices + complex->edges + complex->triangles;
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    bool *drawn = gm_picture_memory(picture, count * sizeof *drawn);
+    if (!drawn) {
+        return;
+    }
+    memset(drawn, 0, count * sizeof *drawn);
+    kind.size = fmin(0.045 * fmax(width, height), 0.25 * complex->mean_edge);
+    for (size_t i = 0; i < 3 * sheet->count; i++) {
+        const size_t t = sheet->triangle[i / 3], k = i % 3;
+        const size_t number = kind.dimension == 0   ? (size_t)complex->triangle[3 * t + k]
+                              : kind.dimension == 1 ? (size_t)complex->triangle_edge[3 * t + k]
+                                                    : t;
+        if (!sheet->hidden[i / 3] && !drawn[number]) {
+            drawn[number] = true;
+            draw_one(picture, panel, sheet, &kind, i / 3, k);
+        }
+    }
+}
+
+/* Room for what stands beside the mesh, without axes. */
+static void widen(struct gm_panel *panel)
+{
+    struct gm_axis *axes[2] = {&panel->x, &panel->y};
+    const double room =
+        0.06 * fmax(panel->x.high - panel->x.low, panel->y.high - panel->y.low);
+    for (size_t c = 0; c < 2; c++) {
+        axes[c]->low -= room;
+        axes[c]->high += room;
+        axes[c]->label = "";
+    }
+    panel->axes = false;
+}
+
+void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
+                          const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form)
+{
+    const size_t dimension = (size_t)(type.dual ? 2 - type.degree : type.degree);
+    widen(panel);
+    gm_form_draw_grid(picture, panel, sheet, type.degree == 1 && !type.dual ? primal : faint,
+                      false);
+    if (type.dual) {
+        struct gm_style style = dual;
+        style.alpha = 0.7;
+        gm_form_draw_dual(picture, panel, sheet, style);
+    }
+    draw_kind(picture, panel, sheet, (struct kind){dimension, type.dual, form, 0});
+}
+
+void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
+                        const struct gm_form_sheet *sheet)
+{
+    widen(panel);
+    gm_form_draw_grid(picture, panel, sheet, primal, false);
+    for (size_t k = 3; k-- > 0;) {
+        draw_kind(picture, panel, sheet, (struct kind){k, false, NULL, 0});
+    }
+}
+
+/* ---- one of each kind with its dual ---- */
+
+struct around {
+    double angle, place[2];
+};
+
+static int by_angle(const void *a, const void *b)
+{
+    const struct around *p = a, *q = b;
+    return (p->angle > q->angle) - (p->angle < q->angle);
+}
+
+/* Fills the dual cell of a vertex, and marks the vertex. */
+static void draw_cell(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                      size_t vertex, const double at[2])
+{
+    enum { MOST = 64 };
+    struct around ring[MOST];
+    double cell[2 * MOST];
+    size_t count = 0;
+    for (size_t i = 0; i < 3 * sheet->count && count + 2 <= MOST; i++) {
+        if ((size_t)sheet->complex->triangle[3 * sheet->triangle[i / 3] + i % 3] == vertex) {
+            const double *to = sheet->places + 6 * (i / 3) + 2 * ((i + 1) % 3);
+            gm_form_dual_place(sheet, i / 3, ring[count++].place);
+            memcpy(ring[count++].place,
+                   (const double[]){(at[0] + to[0]) / 2, (at[1] + to[1]) / 2}, sizeof ring->place);
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        ring[i].angle = atan2(ring[i].place[1] - at[1], ring[i].place[0] - at[0]);
+    }
+    qsort(ring, count, sizeof *ring, by_angle);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(cell + 2 * i, ring[i].place, sizeof ring->place);
+    }
+    gm_mark_polygon(picture, panel, (struct gm_style){.role = dual.role, .alpha = 0.22, .width = 1}, cell,
+                    count);
+    gm_mark_line(picture, panel, (struct gm_style){dual.role, 1, 3.4, GM_SOLID}, cell, count, true);
+    gm_mark_points(picture, panel, (struct gm_style){.role = primal.role, .alpha = 1, .width = 11}, at, 1);
+}
+
+void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel,
+                        const struct gm_form_sheet *sheet)
+{
+    const struct gm_complex *complex = sheet->complex;
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    const double wanted[3][2] = {{0.2, 0.5}, {0.5, 0.62}, {0.78, 0.42}};
+    double nearest[3] = {INFINITY, INFINITY, INFINITY};
+    size_t chosen[3] = {0, 0, 0};
+    widen(panel);
+    gm_form_draw_grid(picture, panel, sheet, (struct gm_style){primal.role, 0.55, 1.2, GM_SOLID}, false);
+    gm_form_draw_dual(picture, panel, sheet, (struct gm_style){dual.role, 0.45, 1.1, GM_SOLID});
+    for (size_t i = 0; i < 3 * sheet->count; i++) {
+        const double *p = sheet->places + 6 * (i / 3), *from = p + 2 * (i % 3), *to = p + 2 * ((i + 1) % 3);
+        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
+        const bool inner = complex->edge_triangle[2 * e] >= 0 && complex->edge_triangle[2 * e + 1] >= 0;
+        for (size_t c = 0; c < 3 && inner && !sheet->hidden[i / 3]; c++) {
+            const double at[2] = {c == 0   ? from[0]
+                                  : c == 1 ? (from[0] + to[0]) / 2
+                                           : (p[0] + p[2] + p[4]) / 3,
+                                  c == 0   ? from[1]
+                                  : c == 1 ? (from[1] + to[1]) / 2
+                                           : (p[1] + p[3] + p[5]) / 3};
+            const double away = hypot((at[0] - panel->x.low) / width - wanted[c][0],
+                                      (at[1] - panel->y.low) / height - wanted[c][1]);
+            if (away < nearest[c]) {
+                nearest[c] = away;
+                chosen[c] = i;
+            }
+        }
+    }
+    if (!isfinite(nearest[0])) {
+        return;
+    }
+    const struct gm_style bold[2] = {{primal.role, 1, 3.6, GM_SOLID}, {dual.role, 1, 3.6, GM_SOLID}};
+    const double *whole = sheet->places + 6 * (chosen[2] / 3);
+    double dot[2];
+    gm_form_dual_place(sheet, chosen[2] / 3, dot);
+    gm_mark_polygon(picture, panel, (struct gm_style){.role = primal.role, .alpha = 0.25, .width = 1}, whole,
+                    3);
+    gm_mark_line(picture, panel, bold[0], whole, 3, true);
+    gm_mark_points(picture, panel, (struct gm_style){.role = dual.role, .alpha = 1, .width = 11}, dot, 1);
+    const double *p = sheet->places + 6 * (chosen[1] / 3), *from = p + 2 * (chosen[1] % 3),
+                 *to = p + 2 * ((chosen[1] + 1) % 3);
+    const size_t e =
+        (size_t)complex->triangle_edge[3 * sheet->triangle[chosen[1] / 3] + chosen[1] % 3];
+    const double edge[4] = {from[0], from[1], to[0], to[1]};
+    gm_mark_line(picture, panel, bold[0], edge, 2, false);
+    for (size_t i = 0; i < sheet->count; i++) {
+        for (size_t side = 0; side < 2; side++) {
+            if (complex->edge_triangle[2 * e + side] == (int)sheet->triangle[i]) {
+                double line[4] = {0, 0, (edge[0] + edge[2]) / 2, (edge[1] + edge[3]) / 2};
+                gm_form_dual_place(sheet, i, line);
+                gm_mark_line(picture, panel, bold[1], line, 2, false);
+            }
+        }
+    }
+    const size_t corner = chosen[0];
+    draw_cell(picture, panel, sheet,
+              (size_t)complex->triangle[3 * sheet->triangle[corner / 3] + corner % 3],
+              sheet->places + 6 * (corner / 3) + 2 * (corner % 3));
+}
