@@ -68,15 +68,15 @@ static void draw_one(struct gm_picture *picture, struct gm_panel *panel, const s
     } else if (kind->dimension == 1) {
         const size_t e = (size_t)complex->triangle_edge[3 * t + k];
         const double sign = complex->triangle_sign[3 * t + k], x = to[0] - from[0], y = to[1] - from[1];
-        const double length = hypot(x, y) > 0 ? hypot(x, y) : 1, scale = kind->size / 3 / length;
+        const double scale = kind->size / 3 / fmax(hypot(x, y), 1e-300), ahead = sign * 0.28;
         at[0] += x / 2;
         at[1] += y / 2;
-        draw_head(picture, panel, kind->dual ? dual : primal, at, scale * sign * (kind->dual ? -y : x),
+        const double head[2] = {at[0] + (kind->dual ? 0 : ahead * x), at[1] + (kind->dual ? 0 : ahead * y)};
+        draw_head(picture, panel, kind->dual ? dual : primal, head, scale * sign * (kind->dual ? -y : x),
                   scale * sign * (kind->dual ? x : y));
-        /* beside the edge, above it if it is level */
-        const double side = fabs(x) > 0.2 * length ? (x > 0 ? 1 : -1) : (y < 0 ? 1 : -1);
-        const double off = 0.75 * side * kind->size / length;
-        draw_text(picture, panel, kind->dual ? dual.role : primal.role, at[0] - off * y, at[1] + off * x,
+        /* the text interrupts its edge, or is beside its dual edge */
+        const double aside = kind->dual ? 0.2 : 0;
+        draw_text(picture, panel, kind->dual ? dual.role : primal.role, at[0] + aside * x, at[1] + aside * y,
                   text_of(picture, kind->form, 'e', e));
     } else {
         enum { ARC = 25 };
@@ -116,7 +116,7 @@ static void draw_kind(struct gm_picture *picture, struct gm_panel *panel, const 
         return;
     }
     memset(drawn, 0, count * sizeof *drawn);
-    kind.size = fmin(0.045 * fmax(width, height), 0.25 * complex->mean_edge);
+    kind.size = fmin(0.045 * fmax(width, height), 0.3 * complex->mean_edge);
     for (size_t i = 0; i < 3 * sheet->count; i++) {
         const size_t t = sheet->triangle[i / 3], k = i % 3;
         const size_t number = kind.dimension == 0   ? (size_t)complex->triangle[3 * t + k]
