@@ -85,10 +85,10 @@ static void walk_triangle(const struct walk *walk, const struct corner c[3])
             const double second = (px * (c[2].y - c[0].y) - (c[2].x - c[0].x) * py) / area;
             const double third = ((c[1].x - c[0].x) * py - px * (c[1].y - c[0].y)) / area;
             if (second >= -rounding && third >= -rounding && second + third <= 1.0 + rounding) {
-                walk->put(
-                    walk->self, walk->mark, x, y,
-                    c[0].value + second * (c[1].value - c[0].value) + third * (c[2].value - c[0].value),
-                    c[0].light + second * (c[1].light - c[0].light) + third * (c[2].light - c[0].light));
+                walk->put(walk->self, walk->mark, x, y,
+                          c[0].value + second * (c[1].value - c[0].value) + third * (c[2].value - c[0].value),
+                          c[0].light + second * (c[1].light - c[0].light) +
+                              third * (c[2].light - c[0].light));
             }
         }
     }

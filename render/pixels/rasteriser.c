@@ -179,9 +179,9 @@ static void put_field(const struct target *target, const struct planes *planes,
         const int shade = value > 0.0 ? (value < 1.0 ? (int)(value * (SHADES - 1) + 0.5) : SHADES - 1) : 0;
         const float light = planes->light.start + (float)i * planes->light.right;
         const uint32_t black = pixel_of((const uint8_t[4]){0, 0, 0, 255});
-        const uint32_t colour =
-            light < 254.5f ? mixed(black, colours[shade], light > 0 ? (uint32_t)(light + 0.5f) : 0)
-                           : colours[shade];
+        const uint32_t colour = light < 254.5f
+                                    ? mixed(black, colours[shade], light > 0 ? (uint32_t)(light + 0.5f) : 0)
+                                    : colours[shade];
         const uint32_t pixel = mixed(pixel_of(rgba + 4 * i), colour, alpha);
         memcpy(rgba + 4 * i, &pixel, sizeof pixel);
     }

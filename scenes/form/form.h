@@ -18,7 +18,7 @@ struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
     struct gm_form_subject subjects[GM_MOST_FORM_OBSERVABLES];
-    const char *shows[GM_MOST_SHOWN_FORMS + 3]; /* words of show=: forms, then "numbers" and "mesh" */
+    const char *shows[GM_MOST_SHOWN_FORMS + 3];        /* words of show=: forms, then "numbers" and "mesh" */
     struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */
     size_t show_count;                                 /* forms */
 };
@@ -28,8 +28,7 @@ static inline const struct gm_form_scene *gm_form_scene_of(const void *parameter
     return (const struct gm_form_scene *)((const struct gm_system_lane *)parameters)->owner;
 }
 
-/* What a lane shows instead of colours: numbers of the first form, or of the one shown with numbers=yes; or the
-   names of simplices. */
+/* True if a lane shows the numbers of a form, or the names of simplices, instead of colours. */
 bool gm_form_shows_numbers(const struct gm_system_lane *lane);
 bool gm_form_shows_names(const struct gm_system_lane *lane);
 /* True if a mesh has more simplices than such a picture has room for, GM_MOST_NUMBERS. */

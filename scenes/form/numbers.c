@@ -129,12 +129,11 @@ static void draw_kind(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-/* Room for what stands beside the mesh, without axes. */
+/* Makes room for what is beside the mesh, without axes. */
 static void widen(struct gm_panel *panel)
 {
     struct gm_axis *axes[2] = {&panel->x, &panel->y};
-    const double room =
-        0.06 * fmax(panel->x.high - panel->x.low, panel->y.high - panel->y.low);
+    const double room = 0.06 * fmax(panel->x.high - panel->x.low, panel->y.high - panel->y.low);
     for (size_t c = 0; c < 2; c++) {
         axes[c]->low -= room;
         axes[c]->high += room;
@@ -148,8 +147,7 @@ void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
 {
     const size_t dimension = (size_t)(type.dual ? 2 - type.degree : type.degree);
     widen(panel);
-    gm_form_draw_grid(picture, panel, sheet, type.degree == 1 && !type.dual ? primal : faint,
-                      false);
+    gm_form_draw_grid(picture, panel, sheet, type.degree == 1 && !type.dual ? primal : faint, false);
     if (type.dual) {
         struct gm_style style = dual;
         style.alpha = 0.7;
@@ -158,8 +156,7 @@ void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
     draw_kind(picture, panel, sheet, (struct kind){dimension, type.dual, form, 0});
 }
 
-void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
-                        const struct gm_form_sheet *sheet)
+void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet)
 {
     widen(panel);
     gm_form_draw_grid(picture, panel, sheet, primal, false);
@@ -170,103 +167,79 @@ void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
 
 /* ---- one of each kind with its dual ---- */
 
-struct around {
-    double angle, place[2];
-};
-
-static int by_angle(const void *a, const void *b)
+/* The place of a corner, of the middle of the edge after it, or of the middle of its triangle. */
+static void find_place(const struct gm_form_sheet *sheet, size_t dimension, size_t corner, double at[2])
 {
-    const struct around *p = a, *q = b;
-    return (p->angle > q->angle) - (p->angle < q->angle);
+    const double *p = sheet->places + 6 * (corner / 3), *from = p + 2 * (corner % 3),
+                 *to = p + 2 * ((corner + 1) % 3);
+    for (size_t c = 0; c < 2; c++) {
+        at[c] = dimension == 0   ? from[c]
+                : dimension == 1 ? (from[c] + to[c]) / 2
+                                 : (p[c] + p[2 + c] + p[4 + c]) / 3;
+    }
 }
 
-/* Fills the dual cell of a vertex, and marks the vertex. */
-static void draw_cell(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                      size_t vertex, const double at[2])
-{
-    enum { MOST = 64 };
-    struct around ring[MOST];
-    double cell[2 * MOST];
-    size_t count = 0;
-    for (size_t i = 0; i < 3 * sheet->count && count + 2 <= MOST; i++) {
-        if ((size_t)sheet->complex->triangle[3 * sheet->triangle[i / 3] + i % 3] == vertex) {
-            const double *to = sheet->places + 6 * (i / 3) + 2 * ((i + 1) % 3);
-            gm_form_dual_place(sheet, i / 3, ring[count++].place);
-            memcpy(ring[count++].place,
-                   (const double[]){(at[0] + to[0]) / 2, (at[1] + to[1]) / 2}, sizeof ring->place);
-        }
-    }
-    for (size_t i = 0; i < count; i++) {
-        ring[i].angle = atan2(ring[i].place[1] - at[1], ring[i].place[0] - at[0]);
-    }
-    qsort(ring, count, sizeof *ring, by_angle);
-    for (size_t i = 0; i < count; i++) {
-        memcpy(cell + 2 * i, ring[i].place, sizeof ring->place);
-    }
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = dual.role, .alpha = 0.22, .width = 1}, cell,
-                    count);
-    gm_mark_line(picture, panel, (struct gm_style){dual.role, 1, 3.4, GM_SOLID}, cell, count, true);
-    gm_mark_points(picture, panel, (struct gm_style){.role = primal.role, .alpha = 1, .width = 11}, at, 1);
-}
-
-void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel,
-                        const struct gm_form_sheet *sheet)
+/* The inner simplex that is nearest to parts of the panel's width and height. */
+static size_t nearest_of(const struct gm_panel *panel, const struct gm_form_sheet *sheet, size_t dimension,
+                         double across, double up)
 {
     const struct gm_complex *complex = sheet->complex;
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
-    const double wanted[3][2] = {{0.2, 0.5}, {0.5, 0.62}, {0.78, 0.42}};
-    double nearest[3] = {INFINITY, INFINITY, INFINITY};
-    size_t chosen[3] = {0, 0, 0};
+    double nearest = INFINITY;
+    size_t chosen = 0;
+    for (size_t i = 0; i < 3 * sheet->count; i++) {
+        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
+        double at[2];
+        find_place(sheet, dimension, i, at);
+        const double away =
+            hypot((at[0] - panel->x.low) / width - across, (at[1] - panel->y.low) / height - up);
+        if (away < nearest && complex->edge_triangle[2 * e] >= 0 && complex->edge_triangle[2 * e + 1] >= 0) {
+            nearest = away;
+            chosen = i;
+        }
+    }
+    return chosen;
+}
+
+void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet)
+{
+    const struct gm_complex *complex = sheet->complex;
+    const struct gm_style bold[2] = {{primal.role, 1, 3.6, GM_SOLID}, {dual.role, 1, 3.6, GM_SOLID}},
+                          pale[2] = {{.role = primal.role, .alpha = 0.25, .width = 1},
+                                     {.role = dual.role, .alpha = 0.22, .width = 1}},
+                          dot[2] = {{.role = primal.role, .alpha = 1, .width = 11},
+                                    {.role = dual.role, .alpha = 1, .width = 11}};
     widen(panel);
     gm_form_draw_grid(picture, panel, sheet, (struct gm_style){primal.role, 0.55, 1.2, GM_SOLID}, false);
     gm_form_draw_dual(picture, panel, sheet, (struct gm_style){dual.role, 0.45, 1.1, GM_SOLID});
+    const size_t vertex = nearest_of(panel, sheet, 0, 0.22, 0.5),
+                 edge = nearest_of(panel, sheet, 1, 0.5, 0.6),
+                 whole = nearest_of(panel, sheet, 2, 0.76, 0.44);
+    const int *corner = complex->triangle, v = corner[3 * sheet->triangle[vertex / 3] + vertex % 3],
+              e = complex->triangle_edge[3 * sheet->triangle[edge / 3] + edge % 3];
     for (size_t i = 0; i < 3 * sheet->count; i++) {
-        const double *p = sheet->places + 6 * (i / 3), *from = p + 2 * (i % 3), *to = p + 2 * ((i + 1) % 3);
-        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
-        const bool inner = complex->edge_triangle[2 * e] >= 0 && complex->edge_triangle[2 * e + 1] >= 0;
-        for (size_t c = 0; c < 3 && inner && !sheet->hidden[i / 3]; c++) {
-            const double at[2] = {c == 0   ? from[0]
-                                  : c == 1 ? (from[0] + to[0]) / 2
-                                           : (p[0] + p[2] + p[4]) / 3,
-                                  c == 0   ? from[1]
-                                  : c == 1 ? (from[1] + to[1]) / 2
-                                           : (p[1] + p[3] + p[5]) / 3};
-            const double away = hypot((at[0] - panel->x.low) / width - wanted[c][0],
-                                      (at[1] - panel->y.low) / height - wanted[c][1]);
-            if (away < nearest[c]) {
-                nearest[c] = away;
-                chosen[c] = i;
-            }
+        const size_t t = sheet->triangle[i / 3], before = 3 * (i / 3) + (i + 2) % 3;
+        double kite[8]; /* the part of a corner's dual cell, from its first side to its second one */
+        find_place(sheet, 1, i, kite);
+        gm_form_dual_place(sheet, i / 3, kite + 2);
+        find_place(sheet, 1, before, kite + 4);
+        find_place(sheet, 0, i, kite + 6);
+        if (corner[3 * t + i % 3] == v) {
+            gm_mark_polygon(picture, panel, pale[1], kite, 4);
+            gm_mark_line(picture, panel, bold[1], kite, 3, false);
+        }
+        if (complex->triangle_edge[3 * t + i % 3] == e) {
+            gm_mark_line(picture, panel, bold[1], kite, 2, false);
         }
     }
-    if (!isfinite(nearest[0])) {
-        return;
-    }
-    const struct gm_style bold[2] = {{primal.role, 1, 3.6, GM_SOLID}, {dual.role, 1, 3.6, GM_SOLID}};
-    const double *whole = sheet->places + 6 * (chosen[2] / 3);
-    double dot[2];
-    gm_form_dual_place(sheet, chosen[2] / 3, dot);
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = primal.role, .alpha = 0.25, .width = 1}, whole,
-                    3);
-    gm_mark_line(picture, panel, bold[0], whole, 3, true);
-    gm_mark_points(picture, panel, (struct gm_style){.role = dual.role, .alpha = 1, .width = 11}, dot, 1);
-    const double *p = sheet->places + 6 * (chosen[1] / 3), *from = p + 2 * (chosen[1] % 3),
-                 *to = p + 2 * ((chosen[1] + 1) % 3);
-    const size_t e =
-        (size_t)complex->triangle_edge[3 * sheet->triangle[chosen[1] / 3] + chosen[1] % 3];
-    const double edge[4] = {from[0], from[1], to[0], to[1]};
-    gm_mark_line(picture, panel, bold[0], edge, 2, false);
-    for (size_t i = 0; i < sheet->count; i++) {
-        for (size_t side = 0; side < 2; side++) {
-            if (complex->edge_triangle[2 * e + side] == (int)sheet->triangle[i]) {
-                double line[4] = {0, 0, (edge[0] + edge[2]) / 2, (edge[1] + edge[3]) / 2};
-                gm_form_dual_place(sheet, i, line);
-                gm_mark_line(picture, panel, bold[1], line, 2, false);
-            }
-        }
-    }
-    const size_t corner = chosen[0];
-    draw_cell(picture, panel, sheet,
-              (size_t)complex->triangle[3 * sheet->triangle[corner / 3] + corner % 3],
-              sheet->places + 6 * (corner / 3) + 2 * (corner % 3));
+    const double *p = sheet->places + 6 * (edge / 3), *from = p + 2 * (edge % 3),
+                 *to = p + 2 * ((edge + 1) % 3), side[4] = {from[0], from[1], to[0], to[1]};
+    double centre[2];
+    gm_form_dual_place(sheet, whole / 3, centre);
+    gm_mark_line(picture, panel, bold[0], side, 2, false);
+    gm_mark_polygon(picture, panel, pale[0], sheet->places + 6 * (whole / 3), 3);
+    gm_mark_line(picture, panel, bold[0], sheet->places + 6 * (whole / 3), 3, true);
+    gm_mark_points(picture, panel, dot[1], centre, 1);
+    find_place(sheet, 0, vertex, centre);
+    gm_mark_points(picture, panel, dot[0], centre, 1);
 }

@@ -62,8 +62,8 @@ static void find_vector(const struct gm_complex *complex, size_t t, const double
     gm_form_normal(p, n);
     const double twice = 2 * complex->area[t];
     for (size_t k = 0; k < 3; k++) {
-        const double value = complex->triangle_sign[3 * t + k] *
-                             form[complex->triangle_edge[3 * t + k]] / (3 * twice);
+        const double value =
+            complex->triangle_sign[3 * t + k] * form[complex->triangle_edge[3 * t + k]] / (3 * twice);
         /* n x (g_j - g_i) times twice the area is the edge from the middle of ij to the third corner, thrice */
         for (size_t c = 0; c < 3; c++) {
             w[c] += value * (p[3 * k + c] + p[3 * ((k + 1) % 3) + c] - 2 * p[3 * ((k + 2) % 3) + c]);
@@ -153,35 +153,20 @@ static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, cons
         const double *p = sheet->places + 6 * i, *v = vectors + 3 * sheet->triangle[i];
         const double x = (p[0] + p[2] + p[4]) / 3, y = (p[1] + p[3] + p[5]) / 3;
         const double column = floor((x - panel->x.low) / cell), row = floor((y - panel->y.low) / cell);
-        if (sheet->hidden[i] || !(column >= 0 && row >= 0 && column < (double)columns && row < (double)rows)) {
+        if (sheet->hidden[i] ||
+            !(column >= 0 && row >= 0 && column < (double)columns && row < (double)rows)) {
             continue;
         }
         const size_t place = (size_t)row * columns + (size_t)column;
-        const double away = hypot((x - panel->x.low) / cell - column - 0.5,
-                                  (y - panel->y.low) / cell - row - 0.5);
+        const double away =
+            hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
         if (away < nearest[place]) {
             double d[2] = {v[0], v[1]};
             if (!sheet->flat) {
                 gm_space_place(&sheet->sight, v, d);
             }
-            const double dx = 0.9 * cell * d[0] / largest, dy = 0.9 * cell * d[1] / largest;
-            const double tip[2] = {x + dx / 2, y + dy / 2},
-                         back[2] = {tip[0] - 0.32 * dx, tip[1] - 0.32 * dy};
-            const double arrow[14] = {x - dx / 2,
-                                      y - dy / 2,
-                                      tip[0],
-                                      tip[1],
-                                      NAN,
-                                      NAN,
-                                      back[0] + 0.18 * dy,
-                                      back[1] - 0.18 * dx,
-                                      tip[0],
-                                      tip[1],
-                                      back[0] - 0.18 * dy,
-                                      back[1] + 0.18 * dx,
-                                      NAN,
-                                      NAN};
-            memcpy(lines + 14 * place, arrow, sizeof arrow);
+            const double arrow[2] = {0.9 * cell * d[0] / largest, 0.9 * cell * d[1] / largest};
+            gm_arrow(x, y, arrow, lines + 14 * place);
             nearest[place] = away;
         }
     }
@@ -239,31 +224,12 @@ static void draw_colours(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
-/* Draws d of a form, and returns its panel's form. */
-static const double *derivative(struct gm_picture *picture, const struct gm_complex *complex, int degree,
-                                const double *form)
-{
-    const size_t count = degree == 0 ? complex->edges : complex->triangles;
-    double *d = gm_picture_memory(picture, count * sizeof *d);
-    for (size_t i = 0; i < count && d; i++) {
-        if (degree == 0) {
-            d[i] = form[complex->edge[2 * i + 1]] - form[complex->edge[2 * i]];
-            continue;
-        }
-        d[i] = 0;
-        for (size_t k = 3 * i; k < 3 * i + 3; k++) {
-            d[i] += complex->triangle_sign[k] * form[complex->triangle_edge[k]];
-        }
-    }
-    return d;
-}
-
 /* Draws the numbers of a lane's form; of the only lane's 0-form also those of d and d d, each in its panel. */
 static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          const struct painted *painted, bool alone)
 {
     const struct gm_system_lane *self = lane->parameters;
-    const struct gm_complex *complex = gm_form_space_of(&lane->problem)->complex;
+    const struct gm_form_space *space = gm_form_space_of(&lane->problem);
     const char *name = gm_form_scene_of(self)->shows[shown_number(self)];
     struct gm_form_type type = painted->type;
     const double *form = painted->form;
@@ -272,7 +238,8 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
         if (!first) {
             panel = gm_panel_add(picture, GM_PLACE_STATE, "");
         }
-        if (!gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t - lane->t0, &sheet)) {
+        if (!gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t - lane->t0,
+                                &sheet)) {
             return;
         }
         gm_form_draw_numbers(picture, panel, &sheet, type, form);
@@ -282,7 +249,12 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
         panel->title = name;
         panel->title_role = GM_INK;
         const bool more = !painted->type.dual && painted->type.degree == 0 && type.degree < 2;
-        form = more ? derivative(picture, complex, type.degree, form) : NULL;
+        const struct gm_matrix *d = &space->matrix[type.degree == 0 ? GM_MATRIX_D0 : GM_MATRIX_D1];
+        double *next = more ? gm_picture_memory(picture, space->complex->edges * sizeof *next) : NULL;
+        if (next) { /* there are fewer triangles than edges */
+            gm_matrix_apply(d, form, next);
+        }
+        form = next;
         type.degree++;
         name = gm_picture_text(picture, "d(%s)", name);
     }
@@ -332,8 +304,8 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     panel->colour_bar_label = painted.vector ? gm_picture_text(picture, "|%s|", name) : name;
 }
 
-/* The range of the colours of all lanes, now and, so that colours stay, at the start: round, and even where
-   there are both signs. */
+/* The range of the colours of all lanes, now and, so that colours stay, at the start: round, and symmetric
+   with both signs. */
 static void find_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        double range[2])
 {
@@ -361,7 +333,8 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
         range[0] = -most;
         range[1] = most;
     }
-    const double unit = pow(10, floor(log10(fmin(fmax(most, 1e-300), range[1] - range[0])))) / 5, slack = 0.05;
+    const double unit = pow(10, floor(log10(fmin(fmax(most, 1e-300), range[1] - range[0])))) / 5,
+                 slack = 0.05;
     range[0] = unit * floor(range[0] / unit + slack);
     range[1] = unit * ceil(range[1] / unit - slack);
 }
@@ -384,7 +357,8 @@ static const char *subtitle_of(struct gm_picture *picture, const struct gm_lane 
     const char *mesh = one_mesh ? gm_picture_text(picture, "%zu vertices, %zu edges, %zu triangles",
                                                   complex->vertices, complex->edges, complex->triangles)
                                 : "Meshes of triangles";
-    const char *dual = one_star ? gm_picture_text(picture, ", dual vertices at %s", stars[complex->star]) : "";
+    const char *dual =
+        one_star ? gm_picture_text(picture, ", dual vertices at %s", stars[complex->star]) : "";
     const char *asked = (gm_form_shows_numbers(self) || gm_form_shows_names(self)) && gm_form_is_fine(complex)
                             ? ", too many for numbers"
                             : "";

@@ -60,6 +60,7 @@ static void find_hidden(struct gm_picture *picture, const struct gm_panel *panel
     double *nearest = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *nearest);
     double *depth = gm_picture_memory(picture, 3 * sheet->count * sizeof *depth), place[2];
     const double scale[2] = {CELLS / (panel->x.high - panel->x.low), CELLS / (panel->y.high - panel->y.low)};
+    const double origin[2] = {panel->x.low, panel->y.low};
     if (!nearest || !depth) {
         return;
     }
@@ -70,17 +71,17 @@ static void find_hidden(struct gm_picture *picture, const struct gm_panel *panel
         const double *p = sheet->places + 6 * i, area = facing(p);
         double low[2] = {CELLS, CELLS}, high[2] = {-1, -1};
         for (size_t k = 0; k < 6; k++) {
-            const double cell = ((k % 2 ? p[k] - panel->y.low : p[k] - panel->x.low)) * scale[k % 2];
-            low[k % 2] = fmax(0, fmin(low[k % 2], floor(cell)));
-            high[k % 2] = fmin(CELLS - 1, fmax(high[k % 2], floor(cell)));
+            const double cell = floor((p[k] - origin[k % 2]) * scale[k % 2]);
+            low[k % 2] = fmax(0, fmin(low[k % 2], cell));
+            high[k % 2] = fmin(CELLS - 1, fmax(high[k % 2], cell));
         }
         for (size_t k = 0; k < 3; k++) {
             depth[3 * i + k] = gm_space_place(&sheet->sight, sheet->corners + 9 * i + 3 * k, place);
         }
         for (int row = (int)low[1]; row <= (int)high[1] && area != 0; row++) {
             for (int column = (int)low[0]; column <= (int)high[0]; column++) {
-                const double x = panel->x.low + (column + 0.5) / scale[0] - p[0],
-                             y = panel->y.low + (row + 0.5) / scale[1] - p[1];
+                const double x = origin[0] + (column + 0.5) / scale[0] - p[0],
+                             y = origin[1] + (row + 0.5) / scale[1] - p[1];
                 const double b = (x * (p[5] - p[1]) - (p[4] - p[0]) * y) / area,
                              c = ((p[2] - p[0]) * y - x * (p[3] - p[1])) / area;
                 const double here = depth[3 * i] + b * (depth[3 * i + 1] - depth[3 * i]) +
@@ -92,8 +93,8 @@ static void find_hidden(struct gm_picture *picture, const struct gm_panel *panel
     }
     for (size_t i = 0; i < sheet->count; i++) {
         const double *p = sheet->places + 6 * i, *z = depth + 3 * i, middle = (z[0] + z[1] + z[2]) / 3;
-        const double column = floor(((p[0] + p[2] + p[4]) / 3 - panel->x.low) * scale[0]),
-                     row = floor(((p[1] + p[3] + p[5]) / 3 - panel->y.low) * scale[1]);
+        const double column = floor(((p[0] + p[2] + p[4]) / 3 - origin[0]) * scale[0]),
+                     row = floor(((p[1] + p[3] + p[5]) / 3 - origin[1]) * scale[1]);
         const double slope = fmax(z[0], fmax(z[1], z[2])) - fmin(z[0], fmin(z[1], z[2])) + 4 / scale[0];
         const bool within = column >= 0 && column < CELLS && row >= 0 && row < CELLS;
         sheet->hidden[i] = within && middle < nearest[(int)row * CELLS + (int)column] - slope;
@@ -146,8 +147,8 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
     }
     gm_space_place(sight, centre, middle);
     const double room = 1.03 / camera->zoom;
-    panel->x = (struct gm_axis){
-        .label = "", .low = middle[0] - room * across, .high = middle[0] + room * across};
+    panel->x =
+        (struct gm_axis){.label = "", .low = middle[0] - room * across, .high = middle[0] + room * across};
     panel->y =
         (struct gm_axis){.label = "", .low = middle[1] - room * along, .high = middle[1] + room * along};
     find_normals(complex, normals);
@@ -180,13 +181,13 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
                         const struct gm_camera *camera, double t, struct gm_form_sheet *sheet)
 {
     const size_t most = (complex->period[0] > 0 ? 4 : 1) * complex->triangles;
-    *sheet = (struct gm_form_sheet){.complex = complex,
-                                    .sight = {.low = {INFINITY, INFINITY, INFINITY},
-                                              .high = {-INFINITY, -INFINITY, -INFINITY}},
-                                    .triangle = gm_picture_memory(picture, most * sizeof *sheet->triangle),
-                                    .corners = gm_picture_memory(picture, 9 * most * sizeof *sheet->corners),
-                                    .places = gm_picture_memory(picture, 6 * most * sizeof *sheet->places),
-                                    .hidden = gm_picture_memory(picture, most * sizeof *sheet->hidden)};
+    *sheet = (struct gm_form_sheet){
+        .complex = complex,
+        .sight = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}},
+        .triangle = gm_picture_memory(picture, most * sizeof *sheet->triangle),
+        .corners = gm_picture_memory(picture, 9 * most * sizeof *sheet->corners),
+        .places = gm_picture_memory(picture, 6 * most * sizeof *sheet->places),
+        .hidden = gm_picture_memory(picture, most * sizeof *sheet->hidden)};
     if (!sheet->triangle || !sheet->corners || !sheet->places || !sheet->hidden) {
         return false;
     }

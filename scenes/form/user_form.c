@@ -228,10 +228,11 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     problem->name = lane->owner->scene.name;
     const struct gm_complex *complex = gm_form_space_of(problem)->complex;
     if ((gm_form_shows_numbers(lane) || gm_form_shows_names(lane)) && gm_form_is_fine(complex)) {
-        gm_refuse(sentence,
-                  "numbers and names are drawn on at most %d vertices, edges and triangles, and this mesh has "
-                  "%zu: take a coarser one",
-                  GM_MOST_NUMBERS, complex->vertices + complex->edges + complex->triangles);
+        gm_refuse(
+            sentence,
+            "numbers and names are drawn on at most %d vertices, edges and triangles, and this mesh has "
+            "%zu: take a coarser one",
+            GM_MOST_NUMBERS, complex->vertices + complex->edges + complex->triangles);
         gm_form_problem_close(problem);
         return false;
     }
