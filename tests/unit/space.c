@@ -222,7 +222,7 @@ static void test_surfaces(void **state)
                     assert_true(sheet.light[k] >= 0.45 && sheet.light[k] <= 1);
                 }
             }
-            assert_true(50 * wrong <= sheet.count);
+            assert_true(10 * wrong <= sheet.count);
             gm_picture_close(picture);
         }
         gm_complex_close(complex);
