@@ -8,7 +8,7 @@
    On other meshes vertices lie on circles of equal numbers, odd ones turned by half an edge; between two circles
    there are two triangles for each edge. A disc has 6 k vertices on its ring k:
        ring k, vertex j:  R k/n (cos 2 pi j/(6k), sin 2 pi j/(6k)).
-   A sphere is the icosahedron (0, +-1, +-g), (+-1, +-g, 0), (+-g, 0, +-1), g = (1 + sqrt(5))/2, each triangle
+   A strip is a row of equilateral triangles. A sphere is the icosahedron (0, +-1, +-g), (+-1, +-g, 0), (+-g, 0, +-1), g = (1 + sqrt(5))/2, each triangle
    of which is cut in four by the middles of its sides, again and again, all put on the sphere. */
 #include "core/form/generators.h"
 
@@ -327,6 +327,23 @@ static void lay_disc(struct laying *laying)
     }
 }
 
+/* Equilateral triangles of one side in a row, every other one on its top; the lower points first. */
+static void lay_strip(struct laying *laying)
+{
+    const long n = laying->rows, lower = (n + 3) / 2;
+    const double side = laying->number[0];
+    reserve(laying, (size_t)n + 2, (size_t)n);
+    for (long v = 0; v < n + 2; v++) {
+        const bool above = v >= lower;
+        add_point(laying, side * (above ? (double)(v - lower) + 0.5 : (double)v),
+                  above ? side * sqrt(3) / 2 : 0, 0);
+    }
+    for (long k = 0; k < n; k++) {
+        const long j = k / 2;
+        add_triangle(laying, j + k % 2, k % 2 ? lower + j + 1 : j + 1, lower + j);
+    }
+}
+
 /* A side of a triangle that waits for its middle. */
 struct side {
     int low, high, place;
@@ -417,7 +434,7 @@ static void lay_sphere(struct laying *laying)
     }
 }
 
-enum which { RECTANGLE, FLAT_TORUS, DISC, ANNULUS, SPHERE, TORUS, GENERATORS };
+enum which { RECTANGLE, FLAT_TORUS, DISC, ANNULUS, SPHERE, TORUS, STRIP, GENERATORS };
 
 static const struct {
     const char *word, *numbers;
@@ -428,6 +445,7 @@ static const struct {
     {"rectangle", "W H N [M]", 3, 4, 2, NULL},  {"flat-torus", "W H N [M]", 3, 4, 2, NULL},
     {"disc", "R n", 2, 2, 1, lay_disc},         {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
     {"sphere", "R level", 2, 2, 1, lay_sphere}, {"torus", "R r N [M]", 3, 4, 2, lay_torus},
+    {"strip", "L n", 2, 2, 1, lay_strip},
 };
 
 static enum which which_of(const char *word)
@@ -459,7 +477,7 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
     if (which == GENERATORS) {
         return gm_fail(fault, place,
                        "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
-                       "annulus R1 R2 N, sphere R level and torus R r N are made",
+                       "annulus R1 R2 N, sphere R level, torus R r N and strip L n are made",
                        word);
     }
     if (count < generators[which].least || count > generators[which].most) {
@@ -487,7 +505,7 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
                        number[0], number[1]);
     }
     const bool even = which == RECTANGLE || which == FLAT_TORUS || which == TORUS;
-    const bool few = which != SPHERE && which != DISC &&
+    const bool few = which != SPHERE && which != DISC && which != STRIP &&
                      (rows < (which == ANNULUS     ? 1
                               : which == RECTANGLE ? 2
                                                    : 4) ||
@@ -566,7 +584,7 @@ struct gm_complex *gm_generator_open(const char *word, const double *number, siz
                                                         .star = star},
                                  fault);
     }
-    const bool single = which == DISC || which == SPHERE;
+    const bool single = which == DISC || which == SPHERE || which == STRIP;
     struct making making = {
         .laying = {.number = number, .rows = single ? (long)number[1] : rows_of(which, number, count)},
         .lay = generators[which].lay,

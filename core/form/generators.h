@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Meshes of triangles by a word and its numbers: rectangle flat-torus disc annulus sphere torus. */
+/* Meshes of triangles by a word and its numbers: rectangle flat-torus disc annulus sphere torus strip. */
 #ifndef GM_CORE_FORM_GENERATORS_H
 #define GM_CORE_FORM_GENERATORS_H
 
@@ -33,7 +33,7 @@ long gm_rectangle_edges(const struct gm_rectangle *rectangle);
 struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle,
                                      struct gm_triangulation_fault *fault);
 
-/* rectangle W H N [M], flat-torus W H N [M], disc R n, annulus R1 R2 N [m], sphere R level, torus R r N [M]. A
+/* rectangle W H N [M], flat-torus W H N [M], disc R n, annulus R1 R2 N [m], sphere R level, torus R r N [M], strip L n. A
    generator checks its numbers: false with a fault at that place of a text. */
 bool gm_generator_check(const char *word, const double *numbers, size_t count, size_t place,
                         struct gm_fault *fault);

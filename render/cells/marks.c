@@ -435,11 +435,11 @@ static void set_field(struct gm_raster *raster, int x, int y, struct gm_rgb colo
         (struct gm_subpixel){colour, GM_LEVEL_FIELD, GM_INK};
 }
 
-static void put_value(void *self, const struct gm_mark *mark, int x, int y, double value)
+static void put_value(void *self, const struct gm_mark *mark, int x, int y, double value, double light)
 {
     struct gm_raster *raster = self;
     const double place = mark->high > mark->low ? (value - mark->low) / (mark->high - mark->low) : 0.5;
-    set_field(raster, x, y, gm_colour_map_at(mark->map, raster->theme, place));
+    set_field(raster, x, y, gm_rgb_lit(gm_colour_map_at(mark->map, raster->theme, place), light));
 }
 
 static void draw_mesh(struct gm_raster *raster, const struct gm_axes *axes, const struct gm_mark *mark)
@@ -473,7 +473,7 @@ static void draw_image(struct gm_raster *raster, const struct gm_axes *axes, con
             size_t column = (size_t)gm_clamp(u * (double)mark->columns, 0, (int)mark->columns - 1);
             double value = mark->values[row * mark->columns + column];
             if (isfinite(value)) {
-                put_value(raster, mark, x, y, value);
+                put_value(raster, mark, x, y, value, 1);
             }
         }
     }

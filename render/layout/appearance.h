@@ -28,6 +28,13 @@ struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role);
 /* Returns the colour of a map at 0 <= x <= 1; x is clamped. */
 struct gm_rgb gm_colour_map_at(enum gm_colour_map map, enum gm_theme theme, double x);
 
+/* Returns a colour in a light from 0 to 1. */
+static inline struct gm_rgb gm_rgb_lit(struct gm_rgb rgb, double light)
+{
+    return (struct gm_rgb){(uint8_t)(rgb.r * light + 0.5), (uint8_t)(rgb.g * light + 0.5),
+                           (uint8_t)(rgb.b * light + 0.5)};
+}
+
 /* Bounds of a side in pixels, of the scale, and of pixels per inch, if the user gives them. */
 enum { GM_LEAST_SIDE = 64, GM_MOST_SIDE = 16384 };
 #define GM_LEAST_SCALE 0.25

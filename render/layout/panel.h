@@ -92,10 +92,10 @@ struct gm_pixel_grid {
     double left, top, across, down;
     int clip[4]; /* {left, top, right, bottom}: the pixels that are wanted */
 };
-typedef void gm_pixel_put(void *self, const struct gm_mark *mark, int x, int y, double value);
+typedef void gm_pixel_put(void *self, const struct gm_mark *mark, int x, int y, double value, double light);
 
-/* Calls `put` for every pixel whose middle is in a triangle of a mesh, or on an edge of it, with the value
-   there, which is linear in the triangle. */
+/* Calls `put` for every pixel whose middle is in a triangle of a mesh, or on an edge of it, with the value and
+   the light there, which are linear in the triangle. */
 void gm_mesh_walk(const struct gm_axes *axes, const struct gm_mark *mark, const struct gm_pixel_grid *pixels,
                   gm_pixel_put *put, void *self);
 

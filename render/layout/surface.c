@@ -56,7 +56,7 @@ double gm_image_value(const struct gm_mark *mark, double u, double v)
 }
 
 struct corner {
-    double x, y, value; /* x and y in pixels */
+    double x, y, value, light; /* x and y in pixels */
 };
 
 /* The pixels of gm_mesh_walk, and its call at each of them. */
@@ -86,8 +86,9 @@ static void walk_triangle(const struct walk *walk, const struct corner c[3])
             const double third = ((c[1].x - c[0].x) * py - px * (c[1].y - c[0].y)) / area;
             if (second >= -rounding && third >= -rounding && second + third <= 1.0 + rounding) {
                 walk->put(walk->self, walk->mark, x, y,
-                          c[0].value + second * (c[1].value - c[0].value) +
-                              third * (c[2].value - c[0].value));
+                          c[0].value + second * (c[1].value - c[0].value) + third * (c[2].value - c[0].value),
+                          c[0].light + second * (c[1].light - c[0].light) +
+                              third * (c[2].light - c[0].light));
             }
         }
     }
@@ -105,7 +106,7 @@ void gm_mesh_walk(const struct gm_axes *axes, const struct gm_mark *mark, const 
             const double *point = &mark->points[2 * vertex];
             corners[k] = (struct corner){pixels->across * (gm_axes_x(axes, point[0]) - pixels->left),
                                          pixels->down * (gm_axes_y(axes, point[1]) - pixels->top),
-                                         mark->values[vertex]};
+                                         mark->values[vertex], mark->light ? mark->light[vertex] : 1};
             known = known && isfinite(corners[k].value);
         }
         if (known) {

@@ -71,6 +71,7 @@ struct gm_mark {
     const int *triangles; /* mesh: triangle_count triples of vertex numbers */
     size_t triangle_count;
     const double *values; /* mesh: count; image: rows * columns, row by row from the bottom */
+    const double *light;  /* mesh: count, by which colours are multiplied, from 0 to 1; NULL: 1 */
     size_t rows, columns;
     enum gm_colour_map map;
     double low, high;  /* the values at the ends of the colour map */

@@ -59,7 +59,7 @@ struct plane {
 };
 
 struct planes {
-    struct plane across, along, half;
+    struct plane across, along, half, light; /* the light of 255 */
 };
 
 struct triangle {
@@ -96,6 +96,7 @@ static struct planes planes_of(const struct triangle *triangle, int x, int y)
         plane_of(triangle, a->across, b->across, c->across, x, y),
         plane_of(triangle, a->along, b->along, c->along, x, y),
         plane_of(triangle, a->half, b->half, c->half, x, y),
+        plane_of(triangle, a->colour[1], b->colour[1], c->colour[1], x, y),
     };
 }
 
@@ -176,7 +177,12 @@ static void put_field(const struct target *target, const struct planes *planes,
                                          (image->high - image->low)
                                    : (double)(across + along);
         const int shade = value > 0.0 ? (value < 1.0 ? (int)(value * (SHADES - 1) + 0.5) : SHADES - 1) : 0;
-        const uint32_t pixel = mixed(pixel_of(rgba + 4 * i), colours[shade], alpha);
+        const float light = planes->light.start + (float)i * planes->light.right;
+        const uint32_t black = pixel_of((const uint8_t[4]){0, 0, 0, 255});
+        const uint32_t colour = light < 254.5f
+                                    ? mixed(black, colours[shade], light > 0 ? (uint32_t)(light + 0.5f) : 0)
+                                    : colours[shade];
+        const uint32_t pixel = mixed(pixel_of(rgba + 4 * i), colour, alpha);
         memcpy(rgba + 4 * i, &pixel, sizeof pixel);
     }
 }

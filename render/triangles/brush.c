@@ -466,6 +466,9 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_axes *axes, const
         vertices[i] =
             field_vertex(gm_axes_x(axes, mark->points[2 * i]), gm_axes_y(axes, mark->points[2 * i + 1]),
                          factor * (mark->values[i] - mark->low), 0.0, mark->style.alpha, mark->map);
+        if (mark->light) {
+            memset(vertices[i].colour + 1, (int)(255 * mark->light[i] + 0.5), 3);
+        }
     }
     for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
         indices[i] = (uint32_t)(first + (size_t)mark->triangles[i]);

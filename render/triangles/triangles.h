@@ -30,7 +30,8 @@ enum gm_program {
 struct gm_vertex {
     float x, y; /* place in pixels, y downwards */
     float across, along, half;
-    /* a strip's colour; in fields and images the row of the colour map, 0 or 255, and three times 255 */
+    /* a strip's colour; in fields and images the row of the colour map, 0 or 255, and three times the light,
+       255 without one */
     uint8_t colour[4];
 };
 

@@ -7,9 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct gm_rgb gm_field_image_colour(enum gm_colour_map map, enum gm_theme theme, int index)
+void gm_field_image_palette(const struct gm_field_image *field, enum gm_colour_map map, enum gm_theme theme,
+                            uint8_t palette[GM_PALETTE][4])
 {
-    return gm_colour_map_at(map, theme, (double)index / (GM_FIELD_COLOURS - 1));
+    memset(palette, 0, GM_PALETTE * sizeof *palette);
+    for (int i = 0; i < GM_FIELD_COLOURS; i++) {
+        const double place = (double)i / (GM_FIELD_COLOURS - 1);
+        const struct gm_rgb rgb = gm_colour_map_at(map, theme, place);
+        if (field->shade) {
+            palette[i][3] = (uint8_t)(255 * (1 - place) + 0.5);
+        } else {
+            memcpy(palette[i], (const uint8_t[]){rgb.r, rgb.g, rgb.b, 255}, 4);
+        }
+    }
 }
 
 void gm_field_image_close(struct gm_field_image *field)
@@ -18,10 +28,10 @@ void gm_field_image_close(struct gm_field_image *field)
     field->pixels = NULL;
 }
 
-static void put(void *self, const struct gm_mark *mark, int x, int y, double value)
+static void put(void *self, const struct gm_mark *mark, int x, int y, double value, double light)
 {
     const struct gm_field_image *field = self;
-    const double place = (value - mark->low) / (mark->high - mark->low);
+    const double place = field->shade ? light : (value - mark->low) / (mark->high - mark->low);
     field->pixels[(size_t)y * (size_t)field->columns + (size_t)x] =
         (uint8_t)gm_clamp(place * (GM_FIELD_COLOURS - 1) + 0.5, 0, GM_FIELD_COLOURS - 1);
 }
@@ -38,7 +48,7 @@ static void paint_image(struct gm_field_image *field, const struct gm_axes *axes
             const double value =
                 u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 ? gm_image_value(mark, u, v) : (double)NAN;
             if (isfinite(value)) {
-                put(field, mark, x, y, value);
+                put(field, mark, x, y, value, 1);
             }
         }
     }
@@ -98,7 +108,7 @@ bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *ax
     const int right = gm_clamp(ceil(high_x), clip[0], clip[0] + clip[2]);
     const int top = gm_clamp(floor(low_y), clip[1], clip[1] + clip[3]);
     const int bottom = gm_clamp(ceil(high_y), clip[1], clip[1] + clip[3]);
-    *field = (struct gm_field_image){.left = left, .top = top};
+    *field = (struct gm_field_image){.left = left, .top = top, .shade = field->shade};
     if (right <= left || bottom <= top || !(mark->high > mark->low)) {
         return true;
     }

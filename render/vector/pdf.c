@@ -160,10 +160,12 @@ static void box(void *self, float left, float top, float right, float bottom, st
 static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_colour_map map,
                                  enum gm_theme theme)
 {
-    uint32_t colours[GM_FIELD_COLOURS + 1] = {0};
-    for (int i = 0; i < GM_FIELD_COLOURS; i++) {
-        const struct gm_rgb rgb = gm_field_image_colour(map, theme, i);
-        colours[i] = 0xff000000u | (uint32_t)rgb.r << 16 | (uint32_t)rgb.g << 8 | rgb.b;
+    uint8_t palette[GM_PALETTE][4];
+    uint32_t colours[GM_PALETTE];
+    gm_field_image_palette(image, map, theme, palette);
+    for (int i = 0; i < GM_PALETTE; i++) { /* opaque, or black: the same multiplied by the opacity */
+        const uint8_t *c = palette[i];
+        colours[i] = (uint32_t)c[3] << 24 | (uint32_t)c[0] << 16 | (uint32_t)c[1] << 8 | c[2];
     }
     cairo_surface_t *surface = cairo.image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
     unsigned char *data = cairo.image_surface_get_data(surface);
@@ -181,23 +183,25 @@ static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_col
 static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_pdf *pdf = self;
-    struct gm_field_image image;
-    if (!gm_field_image_paint(&image, axes, mark, pdf->clip)) {
-        pdf->short_of_memory = true;
-        return;
+    for (int layer = 0; layer < (mark->light ? 2 : 1); layer++) {
+        struct gm_field_image image = {.shade = layer > 0};
+        if (!gm_field_image_paint(&image, axes, mark, pdf->clip)) {
+            pdf->short_of_memory = true;
+            return;
+        }
+        if (image.width > 0) {
+            cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
+            cairo.save(pdf->cairo);
+            cairo.translate(pdf->cairo, image.left, image.top);
+            cairo.scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
+            cairo.set_source_surface(pdf->cairo, surface, 0.0, 0.0);
+            cairo.paint_with_alpha(pdf->cairo, mark->style.alpha);
+            cairo.restore(pdf->cairo);
+            cairo.surface_destroy(surface);
+            pdf->fields++;
+        }
+        gm_field_image_close(&image);
     }
-    if (image.width > 0) {
-        cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
-        cairo.save(pdf->cairo);
-        cairo.translate(pdf->cairo, image.left, image.top);
-        cairo.scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
-        cairo.set_source_surface(pdf->cairo, surface, 0.0, 0.0);
-        cairo.paint_with_alpha(pdf->cairo, mark->style.alpha);
-        cairo.restore(pdf->cairo);
-        cairo.surface_destroy(surface);
-        pdf->fields++;
-    }
-    gm_field_image_close(&image);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)

@@ -281,11 +281,8 @@ static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t si
 static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_colour_map map,
                       double alpha)
 {
-    uint8_t palette[GM_PALETTE][4] = {{0}};
-    for (int i = 0; i < GM_FIELD_COLOURS; i++) {
-        const struct gm_rgb rgb = gm_field_image_colour(map, svg->painter.look.theme, i);
-        memcpy(palette[i], (const uint8_t[]){rgb.r, rgb.g, rgb.b, 255}, 4);
-    }
+    uint8_t palette[GM_PALETTE][4];
+    gm_field_image_palette(image, map, svg->painter.look.theme, palette);
     size_t size = 0;
     char reason[GM_PNG_REASON];
     const struct gm_png file = {.width = image->columns,
@@ -311,17 +308,19 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
 static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_svg *svg = self;
-    struct gm_field_image image;
     end_shapes(svg);
-    if (!gm_field_image_paint(&image, axes, mark, svg->clip)) {
-        svg->short_of_memory = true;
-        return;
+    for (int layer = 0; layer < (mark->light ? 2 : 1); layer++) {
+        struct gm_field_image image = {.shade = layer > 0};
+        if (!gm_field_image_paint(&image, axes, mark, svg->clip)) {
+            svg->short_of_memory = true;
+            return;
+        }
+        if (image.width > 0) {
+            put_image(svg, &image, mark->map, mark->style.alpha);
+            svg->fields++;
+        }
+        gm_field_image_close(&image);
     }
-    if (image.width > 0) {
-        put_image(svg, &image, mark->map, mark->style.alpha);
-        svg->fields++;
-    }
-    gm_field_image_close(&image);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)

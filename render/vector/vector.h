@@ -57,6 +57,7 @@ struct gm_field_image {
     int left, top, width, height; /* place on the surface, in its pixels */
     int columns, rows;            /* size of the field, a multiple of width and height */
     uint8_t *pixels;              /* numbers of colours, top row first, malloc'ed */
+    bool shade;                   /* set before: it is the shade over a field with light, in black */
 };
 
 /* Paints the part of a mesh or an image in a rectangle {left, top, width, height} of the surface. A pixel of
@@ -66,7 +67,8 @@ bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *ax
                           const struct gm_mark *mark, const int clip[4]);
 void gm_field_image_close(struct gm_field_image *field);
 
-/* Returns colour `index` of a map. */
-struct gm_rgb gm_field_image_colour(enum gm_colour_map map, enum gm_theme theme, int index);
+/* Sets the colours of the image's numbers: red, green, blue and opacity. */
+void gm_field_image_palette(const struct gm_field_image *field, enum gm_colour_map map, enum gm_theme theme,
+                            uint8_t palette[GM_PALETTE][4]);
 
 #endif

@@ -155,6 +155,17 @@ void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm
     }
 }
 
+void gm_arrow(double x, double y, const double along[2], double points[14])
+{
+    const double dx = along[0], dy = along[1], tip[2] = {x + dx / 2, y + dy / 2},
+                 back[2] = {tip[0] - 0.3 * dx, tip[1] - 0.3 * dy};
+    memcpy(points,
+           (const double[14]){x - dx / 2, y - dy / 2, tip[0], tip[1], NAN, NAN, back[0] + 0.15 * dy,
+                              back[1] - 0.15 * dx, tip[0], tip[1], back[0] - 0.15 * dy, back[1] + 0.15 * dx,
+                              NAN, NAN},
+           sizeof(double[14]));
+}
+
 const char *gm_power_text(struct gm_picture *picture, double value)
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};

@@ -31,6 +31,9 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
 void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                    const double *points, size_t count);
 
+/* Writes the points of an arrow around a place, with a NaN after its shaft and after its head. */
+void gm_arrow(double x, double y, const double along[2], double points[14]);
+
 /* A number as 2.4·10⁻⁴. */
 const char *gm_power_text(struct gm_picture *picture, double value);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Marks over the field of a flow: streamlines, walls, the mesh, tracers, arrows, names. */
+#include "scenes/common/graph.h"
 #include "scenes/flow/look.h"
 
 #include <math.h>
@@ -173,24 +174,9 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
             continue;
         }
         taken[place] = true;
-        const double dx = velocities[2 * v] / speed * cell * 0.9,
-                     dz = velocities[2 * v + 1] / speed * cell * 0.9;
-        const double tip[2] = {x + dx / 2, z + dz / 2}, back[2] = {tip[0] - 0.3 * dx, tip[1] - 0.3 * dz},
-                     arrow[14] = {x - dx / 2,
-                                  z - dz / 2,
-                                  tip[0],
-                                  tip[1],
-                                  NAN,
-                                  NAN,
-                                  back[0] + 0.15 * dz,
-                                  back[1] - 0.15 * dx,
-                                  tip[0],
-                                  tip[1],
-                                  back[0] - 0.15 * dz,
-                                  back[1] + 0.15 * dx,
-                                  NAN,
-                                  NAN};
-        memcpy(lines + 2 * count, arrow, sizeof arrow);
+        const double arrow[2] = {velocities[2 * v] / speed * cell * 0.9,
+                                 velocities[2 * v + 1] / speed * cell * 0.9};
+        gm_arrow(x, z, arrow, lines + 2 * count);
         count += 7;
     }
     gm_mark_line(picture, panel, (struct gm_style){over ? GM_OVER : GM_INK, 0.9, 1.3, GM_SOLID}, lines, count,

@@ -18,9 +18,9 @@ struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
     struct gm_form_subject subjects[GM_MOST_FORM_OBSERVABLES];
-    const char *shows[GM_MOST_SHOWN_FORMS + 1];        /* words of show= */
+    const char *shows[GM_MOST_SHOWN_FORMS + 3];        /* words of show=: forms, then "numbers" and "mesh" */
     struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */
-    size_t show_count;
+    size_t show_count;                                 /* forms */
 };
 
 static inline const struct gm_form_scene *gm_form_scene_of(const void *parameters)
@@ -28,6 +28,59 @@ static inline const struct gm_form_scene *gm_form_scene_of(const void *parameter
     return (const struct gm_form_scene *)((const struct gm_system_lane *)parameters)->owner;
 }
 
+/* True if a lane shows the numbers of a form, or the names of simplices, instead of colours. */
+bool gm_form_shows_numbers(const struct gm_system_lane *lane);
+bool gm_form_shows_names(const struct gm_system_lane *lane);
+/* True if a mesh has more simplices than such a picture has room for, GM_MOST_NUMBERS. */
+enum { GM_MOST_NUMBERS = 200 };
+static inline bool gm_form_is_fine(const struct gm_complex *complex)
+{
+    return complex->vertices + complex->edges + complex->triangles > GM_MOST_NUMBERS;
+}
+
 void gm_form_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+
+/* The triangles of a mesh as they are seen, on a panel: of a surface in space those that face the eye, the farthest
+   first; of a flat torus with images where they reach over a side. */
+struct gm_form_sheet {
+    const struct gm_complex *complex;
+    bool flat;             /* in the plane */
+    struct gm_space sight; /* the box of the mesh, and of a surface in space the directions */
+    size_t count;
+    size_t *triangle; /* numbers of triangles */
+    double *corners;  /* 9 a triangle, in space */
+    double *places;   /* 6 a triangle: its corners on the panel */
+    double *light;    /* 3 a triangle, from 0 to 1; NULL in the plane */
+    bool *hidden;     /* another triangle is before its middle */
+};
+/* Sets the panel's axes. False when out of memory. */
+bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
+                        const struct gm_camera *camera, double t, struct gm_form_sheet *sheet);
+/* Draws edges; with `outline` those with a triangle of the sheet on one side alone. */
+void gm_form_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                       struct gm_style style, bool outline);
+/* Draws dual edges, and dots at dual vertices. */
+void gm_form_draw_dual(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                       struct gm_style style);
+/* The place of the dual vertex of triangle i of the sheet. */
+void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double place[2]);
+
+/* Draws the numbers of a form with orientations on a small mesh; the names of simplices; or one simplex of
+   each kind with its dual. */
+void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
+                          const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form);
+void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
+                        const struct gm_form_sheet *sheet);
+void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel,
+                        const struct gm_form_sheet *sheet);
+
+/* The normal of a triangle, p the corners in space, as long as twice its area. */
+static inline void gm_form_normal(const double p[9], double normal[3])
+{
+    for (size_t c = 0; c < 3; c++) {
+        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
+        normal[c] = (p[3 + a] - p[a]) * (p[6 + b] - p[b]) - (p[6 + a] - p[a]) * (p[3 + b] - p[b]);
+    }
+}
 
 #endif

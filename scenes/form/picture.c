@@ -1,24 +1,40 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forms as colours on their triangles: 0-forms at vertices linearly, at triangles and 2-forms by density, 1-forms
-   by the size of Whitney's vector at the centre of mass. A surface in space is seen by parallel light, from its
-   back to its front, which is right where no triangle crosses another. */
+/* Forms as colours on their triangles: 0-forms and dual 2-forms at vertices, linear between; at triangles by
+   value or density, constant on each; 1-forms by the size of their vectors, the mean at vertices, under arrows in
+   the middle of triangles. With a (g_j - g_i)/3 for each edge i -> j, g the gradients of barycentric
+   coordinates, Whitney's form has that vector there; a dual 1-form u is n x the vector of u over the star. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/cholesky.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/field/field.h"
 #include "scenes/form/form.h"
 
-enum { MOST_GRAPHS = 3 };
+enum { MOST_GRAPHS = 3, LEVELS = 12 };
 
-/* The form that a lane shows. */
+bool gm_form_shows_numbers(const struct gm_system_lane *lane)
+{
+    return lane->numbers || (size_t)lane->grid.show == gm_form_scene_of(lane)->show_count;
+}
+
+bool gm_form_shows_names(const struct gm_system_lane *lane)
+{
+    return (size_t)lane->grid.show == gm_form_scene_of(lane)->show_count + 1;
+}
+
+/* The number of the form that a lane shows. */
+static size_t shown_number(const struct gm_system_lane *lane)
+{
+    return (size_t)lane->grid.show < gm_form_scene_of(lane)->show_count ? (size_t)lane->grid.show : 0;
+}
+
 static const double *shown(const struct gm_view *view, struct gm_form_type *type)
 {
     const struct gm_form_scene *scene = gm_form_scene_of(view->parameters);
-    const struct gm_system_lane *lane = view->parameters;
-    const struct gm_form_subject subject = scene->shown[lane->grid.show];
+    const struct gm_form_subject subject = scene->shown[shown_number(view->parameters)];
     if (subject.what == GM_FORM_ERROR) {
         const struct gm_form_declared *form = &scene->of_file.system.forms[subject.index];
         *type = (struct gm_form_type){form->degree, form->dual};
@@ -29,176 +45,355 @@ static const double *shown(const struct gm_view *view, struct gm_form_type *type
     return gm_form_observed(view->problem, view->state, view->t, subject.index);
 }
 
-/* The size of Whitney's form at the centre of mass, the sum over edges i -> j of a (g_j - g_i)/3; of a
-   dual 1-form, that of its numbers over the lengths of dual edges. */
-static double size_at(const struct gm_form_space *space, size_t t, const double *form, bool dual)
-{
-    const struct gm_complex *complex = space->complex;
-    double p[9], g[3][3], v[3] = {0, 0, 0}, normal[3];
-    gm_complex_corners_in_space(complex, t, p);
-    for (size_t c = 0; c < 3; c++) {
-        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
-        normal[c] = ((p[3 + a] - p[a]) * (p[6 + b] - p[b]) - (p[6 + a] - p[a]) * (p[3 + b] - p[b])) /
-                    (2 * complex->area[t]);
-    }
-    for (size_t corner = 0; corner < 3; corner++) {
-        double e[3];
-        for (size_t c = 0; c < 3; c++) {
-            e[c] = p[3 * ((corner + 2) % 3) + c] - p[3 * ((corner + 1) % 3) + c];
-        }
-        for (size_t c = 0; c < 3; c++) {
-            g[corner][c] = (normal[(c + 1) % 3] * e[(c + 2) % 3] - normal[(c + 2) % 3] * e[(c + 1) % 3]) /
-                           (2 * complex->area[t]);
-        }
-    }
-    for (size_t k = 0; k < 3; k++) {
-        const size_t e = (size_t)complex->triangle_edge[3 * t + k];
-        const double star = complex->star1[e],
-                     value = complex->triangle_sign[3 * t + k] * form[e] / (dual && star > 0 ? star : 1);
-        for (size_t c = 0; c < 3; c++) {
-            v[c] += value * (g[(k + 1) % 3][c] - g[k][c]) / 3;
-        }
-    }
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-/* The density of a form at a corner of a triangle. */
-static double density(const struct gm_form_space *space, struct gm_form_type type, const double *form,
-                      size_t corner)
-{
-    const struct gm_complex *complex = space->complex;
-    const size_t t = corner / 3, v = (size_t)complex->triangle[corner];
-    if (type.degree == 1) {
-        return size_at(space, t, form, type.dual);
-    }
-    const bool at_vertex = (type.degree == 0) != type.dual;
-    const double cell = at_vertex ? complex->star0[v] : complex->area[t];
-    return form[at_vertex ? v : t] / (type.degree == 2 ? cell : 1);
-}
-
-struct placed {
-    double depth;
-    size_t triangle;
+/* A form as it is painted. */
+struct painted {
+    struct gm_form_type type;
+    const double *form;
+    double *value;  /* 3 a triangle: of its corners */
+    double *vector; /* of 1-forms: 3 a triangle, in its middle */
 };
 
-static int by_depth(const void *a, const void *b)
+/* Finds the vector of a primal 1-form in the middle of a triangle; `turned`: n x that. */
+static void find_vector(const struct gm_complex *complex, size_t t, const double *form, bool turned,
+                        double v[3])
 {
-    const struct placed *p = a, *q = b;
-    const int depth = (p->depth > q->depth) - (p->depth < q->depth);
-    return depth ? depth : (p->triangle > q->triangle) - (p->triangle < q->triangle);
+    double p[9], n[3], w[3] = {0, 0, 0};
+    gm_complex_corners_in_space(complex, t, p);
+    gm_form_normal(p, n);
+    const double twice = 2 * complex->area[t];
+    for (size_t k = 0; k < 3; k++) {
+        const double value =
+            complex->triangle_sign[3 * t + k] * form[complex->triangle_edge[3 * t + k]] / (3 * twice);
+        /* n x (g_j - g_i) times twice the area is the edge from the middle of ij to the third corner, thrice */
+        for (size_t c = 0; c < 3; c++) {
+            w[c] += value * (p[3 * k + c] + p[3 * ((k + 1) % 3) + c] - 2 * p[3 * ((k + 2) % 3) + c]);
+        }
+    }
+    for (size_t c = 0; c < 3; c++) {
+        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
+        v[c] = turned ? -w[c] : (n[a] * w[b] - n[b] * w[a]) / twice;
+    }
 }
 
-/* Draws one lane's form; each triangle has its own corners. */
-static void draw_form(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                      const double ends[2])
+/* Sizes at vertices of the mean vectors around them, at the corners of triangles. */
+static bool paint_sizes(struct gm_picture *picture, const struct gm_form_space *space,
+                        struct painted *painted)
 {
-    const struct gm_view view = gm_lane_view(lane);
-    const struct gm_form_space *space = gm_form_space_of(view.problem);
     const struct gm_complex *complex = space->complex;
-    const struct gm_system_lane *self = lane->parameters;
-    const size_t count = complex->triangles;
-    struct gm_form_type type;
-    const double *form = shown(&view, &type);
-    struct placed *order = gm_picture_memory(picture, count * sizeof *order);
-    double *corners = gm_picture_memory(picture, 9 * count * sizeof *corners);
-    double *points = gm_picture_memory(picture, 6 * count * sizeof *points);
-    double *values = gm_picture_memory(picture, 3 * count * sizeof *values);
-    int *triangles = gm_picture_memory(picture, 3 * count * sizeof *triangles);
-    if (!order || !corners || !points || !values || !triangles) {
+    const double *form = painted->form;
+    double *sum = gm_picture_memory(picture, 4 * complex->vertices * sizeof *sum);
+    double *primal = gm_picture_memory(picture, complex->edges * sizeof *primal);
+    painted->vector = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->vector);
+    if (!sum || !primal || !painted->vector) {
+        return false;
+    }
+    memcpy(primal, form, complex->edges * sizeof *primal);
+    if (painted->type.dual && space->mass) {
+        gm_cholesky_solve(space->mass, form, primal);
+    }
+    for (size_t e = 0; e < complex->edges && painted->type.dual && !space->mass; e++) {
+        primal[e] /= complex->star1[e];
+    }
+    memset(sum, 0, 4 * complex->vertices * sizeof *sum);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double *v = painted->vector + 3 * t;
+        find_vector(complex, t, primal, painted->type.dual, v);
+        for (size_t i = 0; i < 12; i++) {
+            sum[4 * (size_t)complex->triangle[3 * t + i / 4] + i % 4] +=
+                complex->area[t] * (i % 4 < 3 ? v[i % 4] : 1);
+        }
+    }
+    for (size_t i = 0; i < 3 * complex->triangles; i++) {
+        const double *s = sum + 4 * (size_t)complex->triangle[i];
+        painted->value[i] = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / s[3];
+    }
+    return true;
+}
+
+/* Finds the values of the form that a view shows. False when out of memory. */
+static bool paint(struct gm_picture *picture, const struct gm_view *view, struct painted *painted)
+{
+    const struct gm_form_space *space = gm_form_space_of(view->problem);
+    const struct gm_complex *complex = space->complex;
+    *painted = (struct painted){
+        .value = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->value)};
+    painted->form = shown(view, &painted->type);
+    const struct gm_form_type type = painted->type;
+    if (!painted->value || type.degree == 1) {
+        return painted->value && paint_sizes(picture, space, painted);
+    }
+    const bool at_vertex = (type.degree == 0) != type.dual;
+    for (size_t i = 0; i < 3 * complex->triangles; i++) {
+        const size_t at = at_vertex ? (size_t)complex->triangle[i] : i / 3;
+        const double cell = type.degree == 0 ? 1 : at_vertex ? complex->star0[at] : complex->area[at];
+        painted->value[i] = painted->form[at] / cell;
+    }
+    return true;
+}
+
+/* ---- marks over the colours ---- */
+
+/* Draws arrows, not more than fit: in each cell of a grid that of the triangle nearest to its middle. */
+static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                        const double *vectors, double largest)
+{
+    enum { ACROSS = 26 };
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    const double cell = fmax(fmax(width, height) / ACROSS, 0.8 * sheet->complex->mean_edge);
+    const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
+    double *nearest = gm_picture_memory(picture, columns * rows * sizeof *nearest);
+    double *lines = gm_picture_memory(picture, 14 * columns * rows * sizeof *lines);
+    if (!nearest || !lines) {
         return;
     }
-    struct gm_space sight = {.low = {INFINITY, INFINITY, INFINITY},
-                             .high = {-INFINITY, -INFINITY, -INFINITY}};
-    for (size_t t = 0; t < count; t++) {
-        gm_complex_corners_in_space(complex, t, corners + 9 * t);
-        for (size_t i = 0; i < 9; i++) {
-            sight.low[i % 3] = fmin(sight.low[i % 3], corners[9 * t + i]);
-            sight.high[i % 3] = fmax(sight.high[i % 3], corners[9 * t + i]);
+    for (size_t i = 0; i < columns * rows; i++) {
+        nearest[i] = INFINITY;
+    }
+    for (size_t i = 0; i < sheet->count; i++) {
+        const double *p = sheet->places + 6 * i, *v = vectors + 3 * sheet->triangle[i];
+        const double x = (p[0] + p[2] + p[4]) / 3, y = (p[1] + p[3] + p[5]) / 3;
+        const double column = floor((x - panel->x.low) / cell), row = floor((y - panel->y.low) / cell);
+        if (sheet->hidden[i] ||
+            !(column >= 0 && row >= 0 && column < (double)columns && row < (double)rows)) {
+            continue;
+        }
+        const size_t place = (size_t)row * columns + (size_t)column;
+        const double away =
+            hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
+        if (away < nearest[place]) {
+            double d[2] = {v[0], v[1]};
+            if (!sheet->flat) {
+                gm_space_place(&sheet->sight, v, d);
+            }
+            const double arrow[2] = {0.9 * cell * d[0] / largest, 0.9 * cell * d[1] / largest};
+            gm_arrow(x, y, arrow, lines + 14 * place);
+            nearest[place] = away;
         }
     }
-    const bool flat = sight.low[2] == 0 && sight.high[2] == 0;
-    if (flat) {
-        panel->x = (struct gm_axis){.label = "x", .low = sight.low[0], .high = sight.high[0]};
-        panel->y = (struct gm_axis){.label = "y", .low = sight.low[1], .high = sight.high[1]};
-        panel->equal = panel->axes = true;
-    } else {
-        gm_space_turn(&sight, &self->camera, lane->run->t - lane->t0);
-        gm_space_fit(&sight, &self->camera, 0, panel);
+    for (size_t i = 0; i < 14 * columns * rows; i++) {
+        lines[i] = isfinite(nearest[i / 14]) ? lines[i] : NAN;
     }
-    for (size_t t = 0; t < count; t++) {
-        double place[2];
-        order[t] = (struct placed){0, t};
-        for (size_t k = 0; k < 3 && !flat; k++) {
-            order[t].depth += gm_space_place(&sight, corners + 9 * t + 3 * k, place);
-        }
-    }
-    qsort(order, count, sizeof *order, by_depth);
-    for (size_t i = 0; i < 3 * count; i++) {
-        const size_t corner = 3 * order[i / 3].triangle + i % 3;
-        if (flat) {
-            memcpy(points + 2 * i, corners + 3 * corner, 2 * sizeof *points);
-        } else {
-            gm_space_place(&sight, corners + 3 * corner, points + 2 * i);
-        }
-        values[i] = density(space, type, form, corner);
-        triangles[i] = (int)i;
-    }
-    const bool signs = ends[0] < 0 && ends[1] > 0;
-    const double most = fmax(fabs(ends[0]), fabs(ends[1]));
-    gm_mark_mesh(picture, panel, signs ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, signs ? -most : ends[0],
-                 signs ? most : ends[1], points, values, 3 * count, triangles, count);
-    panel->colour_bar = true;
-    panel->colour_bar_label = gm_form_scene_of(self)->shows[self->grid.show];
+    gm_mark_line(picture, panel, (struct gm_style){GM_OVER, 0.95, 1.3, GM_SOLID}, lines, 7 * columns * rows,
+                 false);
 }
 
-/* The values of a lane's form, now and, so that colours stay, at the start. */
-static void widen(const struct gm_lane *lane, double ends[2])
+/* Draws level lines of what is linear between vertices. */
+static void draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                        const double *values, const double range[2], struct gm_style style)
 {
-    for (int begin = 0; begin < 2; begin++) {
-        struct gm_view view = gm_lane_view(lane);
-        view.state = begin ? view.start : view.state;
-        view.t = begin ? view.t0 : view.t;
-        struct gm_form_type type;
-        const double *form = shown(&view, &type);
-        const struct gm_form_space *space = gm_form_space_of(view.problem);
-        for (size_t i = 0; i < 3 * space->complex->triangles; i++) {
-            gm_range_add(&ends[0], &ends[1], density(space, type, form, i));
+    const struct gm_complex *complex = sheet->complex;
+    const bool joined = !(complex->period[0] > 0); /* across the sides of a torus there is a jump of place */
+    const size_t count = joined ? complex->vertices : 3 * sheet->count;
+    double *points = gm_picture_memory(picture, 2 * count * sizeof *points), levels[LEVELS];
+    double *heights = gm_picture_memory(picture, count * sizeof *heights);
+    int *triangles = gm_picture_memory(picture, 3 * sheet->count * sizeof *triangles);
+    size_t kept = 0;
+    if (!points || !heights || !triangles) {
+        return;
+    }
+    for (size_t i = 0; i < 3 * sheet->count; i++) {
+        const size_t corner = 3 * sheet->triangle[i / 3] + i % 3,
+                     at = joined ? (size_t)complex->triangle[corner] : i;
+        if (!sheet->hidden[i / 3]) {
+            memcpy(points + 2 * at, sheet->places + 2 * i, 2 * sizeof *points);
+            heights[at] = values[corner];
+            triangles[kept++] = (int)at;
         }
     }
+    for (size_t i = 0; i < LEVELS; i++) {
+        levels[i] = range[0] + ((double)i + 0.5) / LEVELS * (range[1] - range[0]);
+    }
+    gm_mark_level_lines(picture, panel, style, points, heights, count, triangles, kept / 3, levels, LEVELS);
+}
+
+/* Draws the colours of a form. */
+static void draw_colours(struct gm_picture *picture, struct gm_panel *panel,
+                         const struct gm_form_sheet *sheet, const double *corners, const double range[2])
+{
+    const size_t count = sheet->count;
+    double *values = gm_picture_memory(picture, 3 * count * sizeof *values);
+    int *triangles = gm_picture_memory(picture, 3 * count * sizeof *triangles);
+    for (size_t i = 0; i < 3 * count && values && triangles; i++) {
+        values[i] = corners[3 * sheet->triangle[i / 3] + i % 3];
+        triangles[i] = (int)i;
+    }
+    if (values && triangles) {
+        gm_mark_mesh(picture, panel, range[0] < 0 && range[1] > 0 ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
+                     range[0], range[1], sheet->places, values, 3 * count, triangles, count)
+            ->light = sheet->light;
+    }
+}
+
+/* Draws the numbers of a lane's form; of the only lane's 0-form also those of d and d d, each in its panel. */
+static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                         const struct painted *painted, bool alone)
+{
+    const struct gm_system_lane *self = lane->parameters;
+    const struct gm_form_space *space = gm_form_space_of(&lane->problem);
+    const char *name = gm_form_scene_of(self)->shows[shown_number(self)];
+    struct gm_form_type type = painted->type;
+    const double *form = painted->form;
+    for (bool first = true; form; first = false) {
+        struct gm_form_sheet sheet;
+        if (!first) {
+            panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+        }
+        if (!gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t - lane->t0,
+                                &sheet)) {
+            return;
+        }
+        gm_form_draw_numbers(picture, panel, &sheet, type, form);
+        if (!alone) {
+            return;
+        }
+        panel->title = name;
+        panel->title_role = GM_INK;
+        const bool more = !painted->type.dual && painted->type.degree == 0 && type.degree < 2;
+        const struct gm_matrix *d = &space->matrix[type.degree == 0 ? GM_MATRIX_D0 : GM_MATRIX_D1];
+        double *next = more ? gm_picture_memory(picture, space->complex->edges * sizeof *next) : NULL;
+        if (next) { /* there are fewer triangles than edges */
+            gm_matrix_apply(d, form, next);
+        }
+        form = next;
+        type.degree++;
+        name = gm_picture_text(picture, "d(%s)", name);
+    }
+}
+
+static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                      const double range[2], bool alone)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_system_lane *self = lane->parameters;
+    const struct gm_complex *complex = gm_form_space_of(view.problem)->complex;
+    const bool fine = gm_form_is_fine(complex);
+    struct gm_form_sheet sheet;
+    struct painted painted;
+    if (!paint(picture, &view, &painted)) {
+        return;
+    }
+    if (gm_form_shows_numbers(self) && !fine) {
+        draw_numbers(picture, panel, lane, &painted, alone);
+        return;
+    }
+    if (!gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t - lane->t0, &sheet)) {
+        return;
+    }
+    if (gm_form_shows_names(self) && !fine) {
+        (self->dual ? gm_form_draw_duals : gm_form_draw_names)(picture, panel, &sheet);
+        return;
+    }
+    const bool over = !(range[0] < 0 && range[1] > 0);
+    const struct gm_style style = {over ? GM_OVER : GM_INK, 0.5, 1.1, GM_SOLID};
+    draw_colours(picture, panel, &sheet, painted.value, range);
+    gm_form_draw_grid(picture, panel, &sheet, (struct gm_style){GM_SECONDARY, 0.8, 1, GM_SOLID}, true);
+    if (self->mesh_grid) {
+        gm_form_draw_grid(picture, panel, &sheet, (struct gm_style){style.role, 0.3, 0.8, GM_SOLID}, false);
+    }
+    if (self->dual) {
+        gm_form_draw_dual(picture, panel, &sheet, (struct gm_style){GM_INITIAL, 0.9, 1.2, GM_SOLID});
+    }
+    if (self->streamlines && (painted.type.degree == 0) != painted.type.dual) {
+        draw_levels(picture, panel, &sheet, painted.value, range, style);
+    }
+    if (painted.vector) {
+        draw_arrows(picture, panel, &sheet, painted.vector, range[1]);
+    }
+    const char *name = gm_form_scene_of(self)->shows[shown_number(self)];
+    panel->colour_bar = true;
+    panel->colour_bar_label = painted.vector ? gm_picture_text(picture, "|%s|", name) : name;
+}
+
+/* The range of the colours of all lanes, now and, so that colours stay, at the start: round, and symmetric
+   with both signs. */
+static void find_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (size_t i = 0; i < 2 * count; i++) {
+        struct gm_view view = gm_lane_view(lanes[i / 2]);
+        struct painted painted;
+        view.state = i % 2 ? view.state : view.start;
+        view.t = i % 2 ? view.t : view.t0;
+        const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
+        const bool good = paint(picture, &view, &painted);
+        for (size_t k = 0; k < corners && good; k++) {
+            gm_range_add(&range[0], &range[1], painted.value[k]);
+        }
+        if (good && painted.vector) {
+            range[0] = 0;
+        }
+    }
+    const double most = fmax(fabs(range[0]), fabs(range[1]));
+    if (range[1] - range[0] <= 1e-12 * most || !isfinite(most)) { /* a constant */
+        range[0] = isfinite(most) ? range[0] - 1 : 0;
+        range[1] = range[0] + 2;
+    } else if (range[0] < -0.02 * most && range[1] > 0.02 * most) {
+        range[0] = -most;
+        range[1] = most;
+    }
+    const double unit = pow(10, floor(log10(fmin(fmax(most, 1e-300), range[1] - range[0])))) / 5,
+                 slack = 0.05;
+    range[0] = unit * floor(range[0] / unit + slack);
+    range[1] = unit * ceil(range[1] / unit - slack);
+}
+
+/* "162 vertices, 480 edges, 320 triangles, dual to circumcentres, Δt = 0.01" */
+static const char *subtitle_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                               bool steady)
+{
+    static const char *const stars[] = {[GM_STAR_CIRCUMCENTRIC] = "circumcentres",
+                                        [GM_STAR_BARYCENTRIC] = "centres of mass",
+                                        [GM_STAR_INCENTRIC] = "centres of inscribed circles"};
+    const struct gm_complex *complex = gm_form_space_of(&lanes[0]->problem)->complex;
+    const struct gm_system_lane *self = lanes[0]->parameters;
+    bool one_mesh = true, one_star = true;
+    for (size_t i = 1; i < count; i++) {
+        const struct gm_complex *other = gm_form_space_of(&lanes[i]->problem)->complex;
+        one_mesh &= other->vertices == complex->vertices && other->triangles == complex->triangles;
+        one_star &= other->star == complex->star;
+    }
+    const char *mesh = one_mesh ? gm_picture_text(picture, "%zu vertices, %zu edges, %zu triangles",
+                                                  complex->vertices, complex->edges, complex->triangles)
+                                : "Meshes of triangles";
+    const char *dual =
+        one_star ? gm_picture_text(picture, ", dual vertices at %s", stars[complex->star]) : "";
+    const char *asked = (gm_form_shows_numbers(self) || gm_form_shows_names(self)) && gm_form_is_fine(complex)
+                            ? ", too many for numbers"
+                            : "";
+    return gm_picture_text(picture, "%s%s%s%s", mesh, dual, asked,
+                           steady ? "" : gm_shared_step(picture, lanes, count));
 }
 
 void gm_form_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_form_scene *scene = gm_form_scene_of(lanes[0]->parameters);
+    const bool steady = scene->model.rates.root_count == 0;
     struct gm_graph graphs[MOST_GRAPHS];
     size_t graph_count = 0;
-    double ends[2] = {INFINITY, -INFINITY};
-    for (size_t i = 0; i < count; i++) {
-        widen(lanes[i], ends);
-    }
-    if (!(ends[1] > ends[0])) {
-        ends[0] = isfinite(ends[0]) ? ends[0] - 1 : 0;
-        ends[1] = ends[0] + 2;
-    }
+    double range[2];
+    find_range(picture, lanes, count, range);
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, scene->of_file.scene.title);
-    const struct gm_complex *complex = gm_form_space_of(&lanes[0]->problem)->complex;
-    static const char *const stars[] = {[GM_STAR_CIRCUMCENTRIC] = "circumcentres",
-                                        [GM_STAR_BARYCENTRIC] = "centres of mass",
-                                        [GM_STAR_INCENTRIC] = "centres inside"};
-    picture->subtitle =
-        gm_picture_text(picture, "%zu vertices, %zu edges, %zu triangles, dual to %s%s", complex->vertices,
-                        complex->edges, complex->triangles, stars[complex->star],
-                        scene->model.rates.root_count > 0 ? gm_shared_step(picture, lanes, count) : "");
+    picture->subtitle = subtitle_of(picture, lanes, count, steady);
+    picture->graphs_below = true;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
-            draw_form(picture, gm_walk_panel(picture, &walk, ""), walk.lane, ends);
+            struct gm_panel *panel = gm_walk_panel(picture, &walk, "");
+            if (steady && count == 1) { /* no scheme made it */
+                panel->title = "";
+            }
+            draw_lane(picture, panel, walk.lane, range, count == 1);
         }
+    }
+    if (steady) {
+        return;
     }
     for (size_t i = 0; i < scene->of_file.observable_count && graph_count < MOST_GRAPHS; i++) {
         const struct gm_form_subject *subject = &scene->subjects[i];
         const struct gm_observable *row = &scene->of_file.observables[i];
-        if (scene->model.rates.root_count > 0 && subject->what != GM_FORM_FACT &&
-            subject->what != GM_FORM_CONTRADICTION && strcmp(row->key, "solution_error") != 0) {
+        if (subject->what != GM_FORM_FACT && subject->what != GM_FORM_CONTRADICTION &&
+            strcmp(row->key, "solution_error") != 0) {
             graphs[graph_count++] = (struct gm_graph){
                 .observable = row->key, .highest = true, .scale = row->logarithmic ? GM_LOG : GM_LINEAR};
         }

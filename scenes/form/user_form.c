@@ -18,7 +18,7 @@
 #include "scenes/form/form.h"
 
 enum { DT, UNTIL };
-enum { SHOW, STAR, COMMON_ROWS = STAR + 1 + GM_CAMERA_KEYS };
+enum { SHOW, STAR, LINES, GRID, DUAL, NUMBERS, COMMON_ROWS = NUMBERS + 1 + GM_CAMERA_KEYS };
 
 /* ---- observables ---- */
 
@@ -168,6 +168,8 @@ static void make_shows(struct gm_form_scene *scene)
             scene->shows[scene->show_count++] = item->name;
         }
     }
+    scene->shows[scene->show_count] = "numbers";
+    scene->shows[scene->show_count + 1] = "mesh";
 }
 
 static void make_rows(struct gm_form_scene *scene)
@@ -181,9 +183,18 @@ static void make_rows(struct gm_form_scene *scene)
     const char *written = system->texts[GM_WORD_STAR];
     const struct gm_parameter common[COMMON_ROWS] = {
         GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
-                      "the form that is drawn", .live = true, .looks = true),
+                      "the form that is drawn; numbers of the first form, or names of a mesh, on a small one",
+                      .live = true, .looks = true),
         GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
                       "dual vertices: circumcentres, centres of mass or of the circles inside"),
+        GM_BOOLEAN_ROW(struct gm_system_lane, streamlines, "streamlines", "no",
+                       "level lines of what has a value at vertices", .live = true, .looks = true),
+        GM_BOOLEAN_ROW(struct gm_system_lane, mesh_grid, "grid", "no", "edges of the mesh", .live = true,
+                       .looks = true),
+        GM_BOOLEAN_ROW(struct gm_system_lane, dual, "dual", "no", "dual vertices and edges", .live = true,
+                       .looks = true),
+        GM_BOOLEAN_ROW(struct gm_system_lane, numbers, "numbers", "no",
+                       "the numbers of the form that is shown, on a small mesh", .live = true, .looks = true),
         GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     double numbers[GM_SYSTEM_TIMES];
     gm_system_make_rows(of_file, timing, common, COMMON_ROWS, false);
@@ -215,7 +226,31 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
         return gm_refuse(sentence, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
     }
     problem->name = lane->owner->scene.name;
+    const struct gm_complex *complex = gm_form_space_of(problem)->complex;
+    if ((gm_form_shows_numbers(lane) || gm_form_shows_names(lane)) && gm_form_is_fine(complex)) {
+        gm_refuse(
+            sentence,
+            "numbers and names are drawn on at most %d vertices, edges and triangles, and this mesh has "
+            "%zu: take a coarser one",
+            GM_MOST_NUMBERS, complex->vertices + complex->edges + complex->triangles);
+        gm_form_problem_close(problem);
+        return false;
+    }
     return true;
+}
+
+/* A mesh in the plane is not seen from a direction. */
+static const char *idle(const void *parameters, const char *key)
+{
+    static const char *const flat[] = {"rectangle", "flat-torus", "disc", "annulus", "strip"};
+    const struct gm_user_system *system = &gm_form_scene_of(parameters)->of_file.system;
+    const char *mesh = gm_system_item_of(system, GM_WORD_MESH, 0)->name;
+    for (size_t i = 0; i < GM_COUNT(flat) && gm_camera_has(key); i++) {
+        if (strcmp(mesh, flat[i]) == 0) {
+            return "the mesh is in the plane";
+        }
+    }
+    return gm_system_idle(parameters, key);
 }
 
 static void start(const void *parameters, const struct gm_problem *problem, double *y)
@@ -291,7 +326,7 @@ static void make(struct gm_arena *arena, void *data)
         .parameters = of_file->rows,
         .parameter_count = of_file->row_count + of_file->common_count,
         .variant = gm_system_variant,
-        .idle = gm_system_idle,
+        .idle = idle,
         .settle = settle,
         .setup = setup,
         .close = gm_form_problem_close,

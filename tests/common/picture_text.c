@@ -69,6 +69,9 @@ static void write_mesh(FILE *stream, const struct gm_mark *mark)
     for (size_t i = 0; i < mark->count; i++) {
         write_numbers(stream, mark->points + 2 * i, 2);
         write_number(stream, mark->values[i]);
+        if (mark->light) {
+            write_number(stream, mark->light[i]);
+        }
     }
     for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
         fprintf(stream, " %d", mark->triangles[i]);

@@ -98,6 +98,7 @@ def test_likeness():
     alike("kepler", "render kepler --theme dark")
     alike("couette", "render couette until=0.1")  # a mesh
     alike("wave", "render wave --theme dark")  # an image
+    alike("sphere", "render form-poisson level=3 grid=yes")  # a surface in a light
     if FEW:
         return
     alike("disc", "render disc")
@@ -119,7 +120,8 @@ def test_likeness():
 def test_painters():
     """What paints is not seen: OSMesa's pixels are those of the program's own rasteriser, but for single steps."""
     cases = ["render disc --theme dark", "render kepler", "render couette until=0.1", "render wave", "stability --region rk4"]
-    for words in cases[:3] if FEW else cases + ["render cavity columns=32 rows=0", "render rigid-body --size 900x700",
+    for words in cases[:3] if FEW else cases + ["render cavity columns=32 rows=0", "render form-poisson level=3 streamlines=yes",
+                                                "render rigid-body --size 900x700",
                                                 "render kepler scheme=verlet until=30 --size 80x60mm"]:
         for painter in ("own", "osmesa"):
             geomint(f"{words} --painter {painter} -o {painter}.png")

@@ -184,7 +184,9 @@ static void default_pictures_can_be_read_at_any_size(void **state)
             if (!has_whole_title(layout, drawn.picture->title)) {
                 fail_msg("%s at %gx%g: the title is cut", scene->name, sizes[k][0], sizes[k][1]);
             }
-            if (has_empty_third(layout, &metrics)) {
+            /* one panel of equal axes has its own shape */
+            const bool shaped = layout->frame_count == 1 && layout->frames[0].panel->equal;
+            if (!shaped && has_empty_third(layout, &metrics)) {
                 fail_msg("%s at %gx%g: a third is empty", scene->name, sizes[k][0], sizes[k][1]);
             }
         }

@@ -8,7 +8,10 @@
 
 #include <cmocka.h>
 
+#include "core/basics.h"
+#include "core/form/generators.h"
 #include "scenes/common/space.h"
+#include "scenes/form/form.h"
 
 static void assert_near(double have, double want)
 {
@@ -152,11 +155,86 @@ static void test_fit(void **state)
     assert_true(panel.equal && panel.y.high > 3);
 }
 
+/* The depth of a triangle of a sheet over a place; -infinity beside it. */
+static double depth_at(const struct gm_form_sheet *sheet, size_t i, const double at[2])
+{
+    const double *p = sheet->places + 6 * i;
+    const double area = (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
+    const double b = ((at[0] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (at[1] - p[1])) / area,
+                 c = ((p[2] - p[0]) * (at[1] - p[1]) - (at[0] - p[0]) * (p[3] - p[1])) / area;
+    double z[3], place[2];
+    for (size_t k = 0; k < 3; k++) {
+        z[k] = gm_space_place(&sheet->sight, sheet->corners + 9 * i + 3 * k, place);
+    }
+    return b >= 0 && c >= 0 && b + c <= 1 ? z[0] + b * (z[1] - z[0]) + c * (z[2] - z[0]) : -INFINITY;
+}
+
+/* The triangle that is painted last at a place is the nearest there, and what is far behind another is hidden. */
+static void test_surfaces(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *word;
+        double numbers[3];
+        size_t count;
+    } meshes[] = {
+        {"torus", {2, 0.8, 24}, 3}, {"torus", {1, 0.3, 40}, 3}, {"sphere", {1, 2}, 2}, {"sphere", {1, 0}, 2}};
+    for (size_t m = 0; m < GM_COUNT(meshes); m++) {
+        struct gm_triangulation_fault fault;
+        struct gm_complex *complex =
+            gm_generator_open(meshes[m].word, meshes[m].numbers, meshes[m].count, GM_STAR_AUTO, &fault);
+        assert_non_null(complex);
+        for (int view = 0; view < 7; view++) {
+            struct gm_picture *picture = gm_picture_open();
+            struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+            struct gm_form_sheet sheet;
+            size_t covered = 0;
+            assert_true(gm_form_sheet_make(
+                picture, panel, complex,
+                &(struct gm_camera){.azimuth = 50 * view, .elevation = 30 * view - 90, .zoom = 1}, 0,
+                &sheet));
+            assert_true(sheet.count > complex->triangles / 3 && sheet.count < complex->triangles);
+            for (size_t n = 0; n < 3000; n++) { /* places that fill the panel evenly */
+                const double at[2] = {
+                    panel->x.low + fmod(0.7548776662466927 * (double)n, 1) * (panel->x.high - panel->x.low),
+                    panel->y.low + fmod(0.5698402909980532 * (double)n, 1) * (panel->y.high - panel->y.low)};
+                double last = -INFINITY, nearest = -INFINITY;
+                for (size_t i = 0; i < sheet.count; i++) {
+                    const double depth = depth_at(&sheet, i, at);
+                    last = isfinite(depth) ? depth : last;
+                    nearest = fmax(nearest, depth);
+                }
+                covered += isfinite(nearest);
+                assert_true(last == nearest || nearest - last < 0.02);
+            }
+            assert_true(covered > 1000);
+            size_t wrong = 0;
+            for (size_t i = 0; i < sheet.count; i++) {
+                const double *p = sheet.places + 6 * i,
+                             middle[2] = {(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3};
+                double nearest = -INFINITY;
+                for (size_t other = 0; other < sheet.count; other++) {
+                    nearest = fmax(nearest, depth_at(&sheet, other, middle));
+                }
+                const double before = nearest - depth_at(&sheet, i, middle);
+                wrong += sheet.hidden[i] ? before < 0.01 : !(before < 0.9); /* thin ones between cells */
+                for (size_t k = 3 * i; k < 3 * i + 3; k++) {
+                    assert_true(sheet.light[k] >= 0.45 && sheet.light[k] <= 1);
+                }
+            }
+            assert_true(10 * wrong <= sheet.count);
+            gm_picture_close(picture);
+        }
+        gm_complex_close(complex);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_projection),  cmocka_unit_test(test_turn),  cmocka_unit_test(test_hidden),
         cmocka_unit_test(test_hidden_line), cmocka_unit_test(test_depth), cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_surfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The triangles of a mesh as they are seen. A surface in space is seen by parallel light: triangles are sorted
+   by the depth of their middles, which is right where no triangle crosses another, and the light on a corner is
+       0.45 + 0.55 (1 + n.l)/2,    n the mean normal of the triangles there, l the direction of the lamp.
+   Of closed surfaces the far side is left out; the back of an open one is darker. What lies on a hidden triangle
+   is found on a raster of depths. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/form/form.h"
+
+struct placed {
+    double depth;
+    size_t triangle;
+};
+
+static int by_depth(const void *a, const void *b)
+{
+    const struct placed *p = a, *q = b;
+    const int depth = (p->depth > q->depth) - (p->depth < q->depth);
+    return depth ? depth : (p->triangle > q->triangle) - (p->triangle < q->triangle);
+}
+
+/* Twice the area of a triangle on the panel: positive of its front. */
+static double facing(const double p[6])
+{
+    return (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
+}
+
+/* The mean normals at vertices. */
+static void find_normals(const struct gm_complex *complex, double *normals)
+{
+    memset(normals, 0, 3 * complex->vertices * sizeof *normals);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double p[9], n[3];
+        gm_complex_corners_in_space(complex, t, p);
+        gm_form_normal(p, n);
+        for (size_t k = 0; k < 9; k++) {
+            normals[3 * (size_t)complex->triangle[3 * t + k / 3] + k % 3] += n[k % 3];
+        }
+    }
+}
+
+static double light_on(const struct gm_space *sight, const double normal[3], bool front)
+{
+    double along = 0, length = 0;
+    for (size_t c = 0; c < 3; c++) {
+        along += normal[c] * (0.75 * sight->towards[c] + 0.5 * sight->up[c] - 0.43 * sight->right[c]);
+        length += normal[c] * normal[c];
+    }
+    const double cosine = length > 0 ? fmin(1, fmax(-1, along / sqrt(length))) : 0;
+    return front ? 0.45 + 0.275 * (1 + cosine) : 0.8 * (0.45 + 0.275 * (1 - cosine));
+}
+
+/* Finds which triangles are before all others at their middles, up to the depth of their own slope. */
+static void find_hidden(struct gm_picture *picture, const struct gm_panel *panel, struct gm_form_sheet *sheet)
+{
+    enum { CELLS = 256 };
+    double *nearest = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *nearest);
+    double *depth = gm_picture_memory(picture, 3 * sheet->count * sizeof *depth), place[2];
+    const double scale[2] = {CELLS / (panel->x.high - panel->x.low), CELLS / (panel->y.high - panel->y.low)};
+    const double origin[2] = {panel->x.low, panel->y.low};
+    if (!nearest || !depth) {
+        return;
+    }
+    for (size_t i = 0; i < (size_t)CELLS * CELLS; i++) {
+        nearest[i] = -INFINITY;
+    }
+    for (size_t i = 0; i < sheet->count; i++) {
+        const double *p = sheet->places + 6 * i, area = facing(p);
+        double low[2] = {CELLS, CELLS}, high[2] = {-1, -1};
+        for (size_t k = 0; k < 6; k++) {
+            const double cell = floor((p[k] - origin[k % 2]) * scale[k % 2]);
+            low[k % 2] = fmax(0, fmin(low[k % 2], cell));
+            high[k % 2] = fmin(CELLS - 1, fmax(high[k % 2], cell));
+        }
+        for (size_t k = 0; k < 3; k++) {
+            depth[3 * i + k] = gm_space_place(&sheet->sight, sheet->corners + 9 * i + 3 * k, place);
+        }
+        for (int row = (int)low[1]; row <= (int)high[1] && area != 0; row++) {
+            for (int column = (int)low[0]; column <= (int)high[0]; column++) {
+                const double x = origin[0] + (column + 0.5) / scale[0] - p[0],
+                             y = origin[1] + (row + 0.5) / scale[1] - p[1];
+                const double b = (x * (p[5] - p[1]) - (p[4] - p[0]) * y) / area,
+                             c = ((p[2] - p[0]) * y - x * (p[3] - p[1])) / area;
+                const double here = depth[3 * i] + b * (depth[3 * i + 1] - depth[3 * i]) +
+                                    c * (depth[3 * i + 2] - depth[3 * i]);
+                double *at = &nearest[row * CELLS + column];
+                *at = b >= 0 && c >= 0 && b + c <= 1 ? fmax(*at, here) : *at;
+            }
+        }
+    }
+    for (size_t i = 0; i < sheet->count; i++) {
+        const double *p = sheet->places + 6 * i, *z = depth + 3 * i, middle = (z[0] + z[1] + z[2]) / 3;
+        const double column = floor(((p[0] + p[2] + p[4]) / 3 - origin[0]) * scale[0]),
+                     row = floor(((p[1] + p[3] + p[5]) / 3 - origin[1]) * scale[1]);
+        const double slope = fmax(z[0], fmax(z[1], z[2])) - fmin(z[0], fmin(z[1], z[2])) + 4 / scale[0];
+        const bool within = column >= 0 && column < CELLS && row >= 0 && row < CELLS;
+        sheet->hidden[i] = within && middle < nearest[(int)row * CELLS + (int)column] - slope;
+    }
+}
+
+/* Adds the images of a triangle that reach into the periods of a torus, or the triangle. */
+static void add_flat(struct gm_form_sheet *sheet, size_t triangle)
+{
+    const double *period = sheet->complex->period;
+    double p[9];
+    gm_complex_corners_in_space(sheet->complex, triangle, p);
+    for (int image = 0; image < 9; image++) {
+        const double shift[2] = {period[0] * (image % 3 - 1), period[1] * (image / 3 - 1)};
+        bool within = image == 4;
+        for (size_t c = 0; c < 2 && period[0] > 0; c++) {
+            const double a = p[c] + shift[c], b = p[3 + c] + shift[c], d = p[6 + c] + shift[c];
+            within = (c == 0 || within) && fmax(a, fmax(b, d)) > 0 && fmin(a, fmin(b, d)) < period[c];
+        }
+        for (size_t k = 0; k < 6 && within; k++) {
+            sheet->places[6 * sheet->count + k] = p[3 * (k / 2) + k % 2] + shift[k % 2];
+        }
+        if (within) {
+            sheet->triangle[sheet->count++] = triangle;
+        }
+    }
+}
+
+static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, const struct gm_camera *camera,
+                           struct gm_form_sheet *sheet)
+{
+    const struct gm_complex *complex = sheet->complex;
+    const struct gm_space *sight = &sheet->sight;
+    struct placed *order = gm_picture_memory(picture, complex->triangles * sizeof *order);
+    double *normals = gm_picture_memory(picture, 3 * complex->vertices * sizeof *normals), place[6], p[9];
+    sheet->light = gm_picture_memory(picture, 3 * complex->triangles * sizeof *sheet->light);
+    if (!order || !normals || !sheet->light) {
+        return;
+    }
+    /* the scale is the same for all azimuths */
+    double across = 0, along = 0, centre[3], middle[2];
+    for (size_t c = 0; c < 3; c++) {
+        centre[c] = (sight->low[c] + sight->high[c]) / 2;
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        gm_form_vertex(complex, v, p);
+        const double away = hypot(p[0] - centre[0], p[1] - centre[1]);
+        across = fmax(across, away);
+        along = fmax(along, fabs(sight->towards[2]) * away + fabs(sight->up[2] * (p[2] - centre[2])));
+    }
+    gm_space_place(sight, centre, middle);
+    const double room = 1.03 / camera->zoom;
+    panel->x =
+        (struct gm_axis){.label = "", .low = middle[0] - room * across, .high = middle[0] + room * across};
+    panel->y =
+        (struct gm_axis){.label = "", .low = middle[1] - room * along, .high = middle[1] + room * along};
+    find_normals(complex, normals);
+    size_t count = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        gm_complex_corners_in_space(complex, t, p);
+        order[count] = (struct placed){0, t};
+        for (size_t k = 0; k < 3; k++) {
+            order[count].depth += gm_space_place(sight, p + 3 * k, place + 2 * k);
+        }
+        count += facing(place) > 0 || complex->closed < complex->pieces;
+    }
+    qsort(order, count, sizeof *order, by_depth);
+    for (size_t i = 0; i < count; i++) {
+        const size_t t = sheet->triangle[i] = order[i].triangle;
+        gm_complex_corners_in_space(complex, t, sheet->corners + 9 * i);
+        for (size_t k = 0; k < 3; k++) {
+            gm_space_place(sight, sheet->corners + 9 * i + 3 * k, sheet->places + 6 * i + 2 * k);
+        }
+        for (size_t k = 0; k < 3; k++) {
+            sheet->light[3 * i + k] = light_on(sight, normals + 3 * (size_t)complex->triangle[3 * t + k],
+                                               facing(sheet->places + 6 * i) > 0);
+        }
+    }
+    sheet->count = count;
+    find_hidden(picture, panel, sheet);
+}
+
+bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
+                        const struct gm_camera *camera, double t, struct gm_form_sheet *sheet)
+{
+    const size_t most = (complex->period[0] > 0 ? 4 : 1) * complex->triangles;
+    *sheet = (struct gm_form_sheet){
+        .complex = complex,
+        .sight = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}},
+        .triangle = gm_picture_memory(picture, most * sizeof *sheet->triangle),
+        .corners = gm_picture_memory(picture, 9 * most * sizeof *sheet->corners),
+        .places = gm_picture_memory(picture, 6 * most * sizeof *sheet->places),
+        .hidden = gm_picture_memory(picture, most * sizeof *sheet->hidden)};
+    if (!sheet->triangle || !sheet->corners || !sheet->places || !sheet->hidden) {
+        return false;
+    }
+    memset(sheet->hidden, 0, most * sizeof *sheet->hidden);
+    struct gm_space *sight = &sheet->sight;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double p[3];
+        gm_form_vertex(complex, v, p);
+        for (size_t c = 0; c < 3; c++) {
+            gm_range_add(&sight->low[c], &sight->high[c], p[c]);
+        }
+    }
+    panel->equal = true;
+    sheet->flat = sight->low[2] == 0 && sight->high[2] == 0;
+    if (!sheet->flat) {
+        gm_space_turn(sight, camera, t);
+        place_in_space(picture, panel, camera, sheet);
+        return sheet->light != NULL;
+    }
+    for (size_t c = 0; c < 2 && complex->period[0] > 0; c++) {
+        sight->low[c] = 0;
+        sight->high[c] = complex->period[c];
+    }
+    panel->x = (struct gm_axis){.label = "x", .low = sight->low[0], .high = sight->high[0]};
+    panel->y = (struct gm_axis){.label = "y", .low = sight->low[1], .high = sight->high[1]};
+    panel->axes = true;
+    for (size_t i = 0; i < complex->triangles; i++) {
+        add_flat(sheet, i);
+    }
+    return true;
+}
+
+/* ---- lines on the sheet ---- */
+
+void gm_form_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                       struct gm_style style, bool outline)
+{
+    const struct gm_complex *complex = sheet->complex;
+    double *lines = gm_picture_memory(picture, 18 * sheet->count * sizeof *lines);
+    unsigned char *sides = gm_picture_memory(picture, complex->edges);
+    size_t count = 0;
+    if (!lines || !sides) {
+        return;
+    }
+    memset(sides, 0, complex->edges);
+    for (size_t i = 0; i < 3 * sheet->count; i++) { /* on a torus its images count */
+        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
+        sides[e] = (unsigned char)(complex->period[0] > 0 ? 2 : sides[e] + 1);
+    }
+    for (size_t i = 0; i < 3 * sheet->count; i++) {
+        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
+        const double *p = sheet->places + 6 * (i / 3), *from = p + 2 * (i % 3), *to = p + 2 * ((i + 1) % 3);
+        if (!sheet->hidden[i / 3] && (outline ? sides[e] == 1 : sides[e] > 0)) {
+            sides[e] = complex->period[0] > 0 || outline ? sides[e] : 0; /* once */
+            memcpy(lines + 2 * count, (const double[]){from[0], from[1], to[0], to[1], NAN, NAN},
+                   6 * sizeof *lines);
+            count += 3;
+        }
+    }
+    gm_mark_line(picture, panel, style, lines, count, false);
+}
+
+void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double place[2])
+{
+    const double *w = sheet->complex->weight + 3 * sheet->triangle[i], *p = sheet->places + 6 * i;
+    for (size_t c = 0; c < 2; c++) {
+        place[c] = w[0] * p[c] + w[1] * p[2 + c] + w[2] * p[4 + c];
+    }
+}
+
+void gm_form_draw_dual(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
+                       struct gm_style style)
+{
+    double *lines = gm_picture_memory(picture, 18 * sheet->count * sizeof *lines);
+    double *dots = gm_picture_memory(picture, 2 * sheet->count * sizeof *dots);
+    size_t count = 0, met = 0;
+    if (!lines || !dots) {
+        return;
+    }
+    for (size_t i = 0; i < sheet->count; i++) {
+        const double *p = sheet->places + 6 * i;
+        double *dot = dots + 2 * met;
+        gm_form_dual_place(sheet, i, dot);
+        for (size_t k = 0; k < 3 && !sheet->hidden[i]; k++) {
+            const double *a = p + 2 * k, *b = p + 2 * ((k + 1) % 3);
+            const double piece[6] = {dot[0], dot[1], (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, NAN, NAN};
+            memcpy(lines + 2 * count, piece, sizeof piece);
+            count += 3;
+        }
+        met += !sheet->hidden[i];
+    }
+    gm_mark_line(picture, panel, style, lines, count, false);
+    style.width *= 2.6;
+    gm_mark_points(picture, panel, style, dots, met);
+}
