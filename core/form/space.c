@@ -210,10 +210,30 @@ static void make_stars(struct gm_form_space *space)
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
     } else {
         matrix[GM_MATRIX_STAR1] = mass_of(space);
-        space->mass = gm_matrix_factor(arena, &matrix[GM_MATRIX_STAR1]);
+        space->inner = matrix[GM_MATRIX_STAR1];
+        space->mass = gm_matrix_factor(arena, &space->inner);
         gm_arena_need(arena, space->mass);
     }
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
+}
+
+void gm_form_space_hold(struct gm_form_space *space, const bool *held)
+{
+    if (!space->mass) {
+        return;
+    }
+    struct gm_matrix inner = gm_matrix_sum(space->arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
+    for (size_t e = 0; e < inner.rows; e++) {
+        for (int k = inner.start[e]; k < inner.start[e + 1]; k++) {
+            const int column = inner.column[k];
+            inner.value[k] = held[e] || held[column] ? column == (int)e : inner.value[k];
+        }
+    }
+    space->inner = inner;
+    space->held = held;
+    gm_arena_drop(space->arena, space->mass);
+    space->mass = gm_matrix_factor(space->arena, &inner);
+    gm_arena_need(space->arena, space->mass);
 }
 
 static void close_complex(void *complex)

@@ -51,7 +51,9 @@ struct gm_form_space {
     struct gm_arena *arena;
     struct gm_complex *complex; /* taken */
     struct gm_matrix matrix[GM_FORM_MATRICES];
-    struct gm_cholesky *mass;            /* the factor of STAR1 if it is not diagonal; else NULL */
+    struct gm_cholesky *mass;            /* the factor of `inner` if STAR1 is not diagonal; else NULL */
+    struct gm_matrix inner;              /* STAR1 among the edges that are not held, and 1 on the others */
+    const bool *held;                    /* each edge; NULL: none is held */
     double *dual_vertex;                 /* 3 a triangle */
     struct gm_form_points *points[2][3]; /* of dual and primal forms; NULL: not needed yet */
 };
@@ -63,6 +65,10 @@ struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_mat
 /* Takes the complex; false when out of memory, and nothing to close. */
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
 void gm_form_space_close(struct gm_form_space *space);
+
+/* Makes the inverse of STAR1 one among 1-forms that are 0 on these edges, of which the space keeps the list: a body
+   of its arena. */
+void gm_form_space_hold(struct gm_form_space *space, const bool *held);
 
 /* The count of numbers of a form. */
 size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);

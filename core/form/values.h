@@ -28,10 +28,19 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
 /* The root's form or number, after a run. */
 const double *gm_form_values_root(const struct gm_form_values *values, size_t root);
 
-/* The matrix of a linear root over the unknowns, whose numbers begin at columns offset[form]: a body of the
-   arena, after a run. Leaves the body if it holds an inverse of the mass matrix. */
+/* The rows and columns of a matrix of derivatives. */
+struct gm_form_layout {
+    unsigned needs;       /* over the forms of GM_NEEDS_FIELDS or GM_NEEDS_UNKNOWNS */
+    const size_t *forms;  /* of each root: the form whose rows it has */
+    const size_t *offset; /* of each form */
+    size_t count;         /* of rows, and of columns */
+};
+
+/* The derivatives of all roots: a body of the arena, after a run. Integrals and the wedge product of 1-forms are left
+   out. Steps that solve with a mass matrix have numbers of their own after `count`, and rows that are 0 with them. The
+   whole diagonal has entries. */
 struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
-                                       size_t root, const size_t *offset, size_t columns);
+                                       const struct gm_form_layout *layout);
 
 /* The sum of a times star a, of one form; scratch: as many numbers. */
 double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,

@@ -15,7 +15,19 @@
 #include "core/form/values.h"
 #include "core/linear/cholesky.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/stages.h"
 #include "core/user/line.h"
+
+enum { MOST_FACTORS = 8 };
+
+/* The factors of stages, 1 - h a (x) J, for one h a. */
+struct stage_factor {
+    struct gm_arena *arena;                                  /* NULL: none */
+    double scaled[2][GM_TABLEAU_STAGES * GM_TABLEAU_STAGES]; /* h a of both halves of the components */
+    size_t count;
+    struct gm_matrix matrix;
+    struct gm_lu *lu;
+};
 
 struct own {
     struct gm_ode facets;
@@ -38,11 +50,18 @@ struct own {
     double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
     bool observes;
     struct gm_matrix matrix;
-    struct gm_cholesky *factor; /* NULL: LU for each solve */
-    double sign;                /* that the matrix was multiplied by, but for pinned rows */
-    double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
-    int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
-    double *defect;             /* of each form */
+    size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
+    struct gm_cholesky *factor; /* NULL: `lu` */
+    struct gm_lu *lu;
+    double sign;    /* that the matrix was multiplied by, but for pinned rows */
+    double *weight; /* areas of the cells of the unknowns, 0 where the degree is not 0 */
+    int *piece;     /* of each number of the unknowns that constants of its piece solve for; -1 */
+    double *defect; /* of each form */
+    struct stage_factor factors[MOST_FACTORS];
+    size_t next_factor;
+    struct gm_arena *derived; /* holds `rows`; NULL: there are none */
+    struct gm_matrix rows;    /* the Jacobian of the rates, with the rows of stars that are solved for */
+    double *derived_at;       /* the state that `rows` are of */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -64,6 +83,11 @@ static size_t size_of(const struct own *own, size_t form)
 static const double *cells_of(const struct own *own, bool dual)
 {
     return dual ? own->space.complex->area : own->space.complex->star0;
+}
+
+static double *doubles(const struct own *own, size_t count)
+{
+    return gm_arena_take(own->arena, count, sizeof(double));
 }
 
 /* ---- the model ---- */
@@ -307,7 +331,7 @@ static void find_constants(struct own *own, size_t form)
     const struct gm_form_type type = type_of(own->model->system, form);
     const size_t first = own->offset[form], n = size_of(own, form);
     bool free_of = type.degree == 0;
-    for (size_t i = 0; i < own->unknowns && free_of; i++) {
+    for (size_t i = 0; i < own->size && free_of; i++) {
         double sum = 0, size = 0;
         for (int k = own->matrix.start[i]; k < own->matrix.start[i + 1]; k++) {
             const size_t column = (size_t)own->matrix.column[k];
@@ -336,7 +360,7 @@ static bool is_pinned(const struct own *own, size_t i)
 static void pin(struct own *own)
 {
     const struct gm_matrix *a = &own->matrix;
-    for (size_t i = 0; i < own->unknowns; i++) {
+    for (size_t i = 0; i < own->size; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
             const int j = a->column[k];
             if (is_pinned(own, i) || is_pinned(own, (size_t)j)) {
@@ -346,11 +370,16 @@ static void pin(struct own *own)
     }
 }
 
-/* Factors the matrix if it is symmetric and, but for its sign, definite. */
+static void close_lu(void *lu)
+{
+    gm_lu_close(lu);
+}
+
+/* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. */
 static void factor(struct own *own)
 {
     struct gm_matrix *a = &own->matrix;
-    const size_t n = own->unknowns;
+    const size_t n = own->size;
     const struct gm_matrix back = gm_matrix_transposed(own->arena, a, -1),
                            skew = gm_matrix_sum(own->arena, 1, a, 1, &back);
     double largest = 0, asymmetry = 0, trace = 0, *signs = gm_arena_take(own->arena, n, sizeof *signs);
@@ -369,44 +398,43 @@ static void factor(struct own *own)
     }
     gm_matrix_scale(a, signs);
     own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
+    own->lu = own->factor ? NULL : gm_lu_open(n, a->start, a->column, a->value);
+    if (own->lu) {
+        gm_arena_keep(own->arena, own->lu, close_lu);
+    } else if (!own->factor) {
+        const struct gm_form_model *model = own->model;
+        gm_arena_refuse(own->arena, "the equations do not determine %s: their matrix is singular",
+                        model->system->variables[model->unknowns[0]].name);
+    }
 }
 
 static void assemble(struct own *own)
 {
     const struct gm_form_model *model = own->model;
     struct gm_arena *arena = own->arena;
-    struct gm_matrix *rows = gm_arena_take(arena, model->unknown_count, sizeof *rows);
-    size_t entries = 0;
+    own->matrix = gm_form_values_matrix(
+        &own->equations, arena,
+        &(struct gm_form_layout){GM_NEEDS_UNKNOWNS, model->unknowns, own->offset, own->unknowns});
+    own->size = own->matrix.rows;
+    own->weight = doubles(own, own->size);
+    own->unknown = doubles(own, own->size);
+    own->residual = doubles(own, own->size);
+    own->piece = gm_arena_take(arena, own->size, sizeof *own->piece);
+    own->held_unknown = gm_arena_resize(arena, own->held_unknown, own->size, sizeof *own->held_unknown);
+    memset(own->held_unknown + own->unknowns, 0, own->size - own->unknowns);
+    for (size_t i = 0; i < own->size; i++) {
+        own->weight[i] = 1;
+        own->piece[i] = -1;
+    }
     for (size_t k = 0; k < model->unknown_count; k++) {
         const struct gm_form_type found = type_of_equation(model, k);
-        const double *cell = cells_of(own, found.dual);
-        double *weight = own->weight + own->offset[model->unknowns[k]];
-        rows[k] = gm_form_values_matrix(&own->equations, arena, k, own->offset, own->unknowns);
-        if (!rows[k].start) {
-            gm_arena_refuse(arena, "the equation of %s holds no unknown",
-                            model->system->variables[model->unknowns[k]].name);
-        }
-        for (size_t i = 0; i < rows[k].rows; i++) {
-            weight[i] = found.degree == 0 ? cell[i] : 1;
-        }
-        gm_matrix_scale(&rows[k], weight);
-        entries += (size_t)rows[k].start[rows[k].rows];
-    }
-    struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + own->unknowns) * sizeof *all), free);
-    for (entries = 0; entries < own->unknowns; entries++) { /* a place for pins */
-        all[entries] = (struct gm_matrix_entry){(int)entries, (int)entries, 0};
-        own->piece[entries] = -1;
-    }
-    for (size_t k = 0; k < model->unknown_count; k++) {
-        for (size_t i = 0; i < rows[k].rows; i++) {
-            const int row = (int)(own->offset[model->unknowns[k]] + i);
-            for (int l = rows[k].start[i]; l < rows[k].start[i + 1]; l++) {
-                all[entries++] = (struct gm_matrix_entry){row, rows[k].column[l], rows[k].value[l]};
-            }
+        if (found.degree == 0) {
+            const size_t form = model->unknowns[k];
+            memcpy(own->weight + own->offset[form], cells_of(own, found.dual),
+                   size_of(own, form) * sizeof(double));
         }
     }
-    own->matrix = gm_matrix_of(arena, own->unknowns, own->unknowns, all, entries);
-    gm_arena_drop(arena, all);
+    gm_matrix_scale(&own->matrix, own->weight);
     pin(own);
     for (size_t k = 0; k < model->unknown_count; k++) {
         find_constants(own, model->unknowns[k]);
@@ -449,13 +477,13 @@ static void remove_means(struct own *own, size_t form, double *numbers, bool res
 static void solve(struct own *own, double t)
 {
     const struct gm_form_model *model = own->model;
-    const struct gm_matrix *a = &own->matrix;
     double *right = own->residual;
     bool good = true;
     if (own->unknowns == 0) {
         return;
     }
     memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
+    memset(right, 0, own->size * sizeof *right);
     gm_form_values_run(&own->equations, t, own->forms);
     for (size_t k = 0; k < model->unknown_count; k++) {
         const size_t form = model->unknowns[k], first = own->offset[form];
@@ -471,7 +499,7 @@ static void solve(struct own *own, double t)
     if (own->factor) {
         gm_cholesky_solve(own->factor, right, own->unknown);
     } else {
-        good = gm_lu_solve(own->unknowns, a->start, a->column, a->value, right, own->unknown);
+        good = gm_lu_apply(own->lu, right, own->unknown);
     }
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
@@ -536,6 +564,179 @@ static void force(const struct gm_problem *problem, const double *y, double *f, 
     (void)m;
     memset(f, 0, own->half * sizeof *f);
     write_rates(problem, y, f, own->model->split, own->model->field_count, own->half);
+}
+
+/* ---- implicit steps ---- */
+
+/* True if an operation's derivative changes with the fields, or in time. */
+static bool bends(const struct gm_form_program *program, const struct gm_form_step *step)
+{
+    const unsigned p = program->steps[step->a].needs, q = program->steps[step->b].needs;
+    switch ((enum gm_operation)step->number) {
+    case GM_OPERATION_ADD:
+    case GM_OPERATION_SUBTRACT:
+    case GM_OPERATION_NEGATE:
+        return false;
+    case GM_OPERATION_MULTIPLY:
+        return p && q;
+    case GM_OPERATION_DIVIDE:
+        return q;
+    default:
+        return true;
+    }
+}
+
+/* True if the rates are linear in the fields: with one Jacobian for all states. */
+static bool is_linear(const struct gm_form_program *rates)
+{
+    bool linear = true;
+    for (size_t i = 0; i < rates->count; i++) {
+        const struct gm_form_step *step = &rates->steps[i];
+        linear &= !(step->needs & GM_NEEDS_FIELDS) || step->kind != GM_STEP_OPERATE || !bends(rates, step);
+    }
+    return linear;
+}
+
+/* The Jacobian of the rates at own->forms, without what they depend on through unknowns. */
+static void derive(struct gm_arena *arena, void *data)
+{
+    struct own *own = data;
+    own->rows = gm_form_values_matrix(
+        &own->rates, arena,
+        &(struct gm_form_layout){GM_NEEDS_FIELDS, own->model->fields, own->offset, own->n});
+    double *moves = gm_arena_take(arena, own->rows.rows, sizeof *moves);
+    for (size_t i = 0; i < own->rows.rows; i++) {
+        moves[i] = i < own->n && own->held[i] ? 0 : 1;
+    }
+    gm_matrix_scale(&own->rows, moves);
+}
+
+static void drop_factors(struct own *own)
+{
+    for (size_t i = 0; i < MOST_FACTORS; i++) {
+        gm_arena_close(own->factors[i].arena);
+        own->factors[i] = (struct stage_factor){0};
+    }
+    gm_arena_close(own->derived);
+    own->derived = NULL;
+}
+
+static void close_factors(void *own)
+{
+    drop_factors(own);
+}
+
+/* Makes `rows` at a state, unless they are those. False when out of memory. */
+static bool derive_at(struct own *own, const double *y, double t)
+{
+    if (own->derived && (own->facets.stiff || memcmp(own->derived_at, y, own->n * sizeof *y) == 0)) {
+        return true;
+    }
+    drop_factors(own);
+    memcpy(own->derived_at, y, own->n * sizeof *y);
+    place_forms(own, own->derived_at);
+    solve(own, t);
+    gm_form_values_run(&own->rates, t, own->forms);
+    own->derived = gm_arena_open();
+    if (!gm_arena_run(own->derived, derive, own)) {
+        gm_arena_close(own->derived);
+        own->derived = NULL;
+    }
+    return own->derived;
+}
+
+/* What a factor is made of. */
+struct factoring {
+    struct own *own;
+    struct stage_factor *factor;
+};
+
+/* Factors 1 - h a (x) J; rows of stars that are solved for are those of each stage. */
+static void factor_stages(struct gm_arena *arena, void *data)
+{
+    const struct factoring *factoring = data;
+    const struct own *own = factoring->own;
+    struct stage_factor *factor = factoring->factor;
+    const struct gm_matrix *rows = &own->rows;
+    const size_t n = own->n, each = rows->rows, count = factor->count;
+    size_t entries = 0;
+    struct gm_matrix_entry *all = gm_arena_keep(
+        arena, malloc((count * count * (size_t)rows->start[each] + count * n) * sizeof *all), free);
+    gm_arena_need(arena, all);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t r = 0; r < each; r++) {
+            const double *scaled = factor->scaled[r >= n / 2] + i * GM_TABLEAU_STAGES;
+            const int row = (int)(i * each + r);
+            if (r < n) {
+                all[entries++] = (struct gm_matrix_entry){row, row, 1};
+            }
+            for (size_t j = r < n ? 0 : i; j < (r < n ? count : i + 1); j++) {
+                const double by = r < n ? -scaled[j] : 1;
+                for (int k = rows->start[r]; k < rows->start[r + 1] && by != 0; k++) {
+                    all[entries++] =
+                        (struct gm_matrix_entry){row, (int)(j * each) + rows->column[k], by * rows->value[k]};
+                }
+            }
+        }
+    }
+    factor->matrix = gm_matrix_of(arena, count * each, count * each, all, entries);
+    gm_arena_drop(arena, all);
+    factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
+    gm_arena_need(arena, factor->lu);
+    gm_arena_keep(arena, factor->lu, close_lu);
+}
+
+/* The factors for these stages, new ones in the place of the oldest. NULL if the matrix is singular, or when out of
+   memory. */
+static const struct stage_factor *factor_of(struct own *own, const struct gm_stages *stages)
+{
+    struct stage_factor wanted = {.count = stages->count};
+    for (size_t i = 0; i < stages->count; i++) {
+        for (size_t j = 0; j < stages->count; j++) {
+            wanted.scaled[0][i * GM_TABLEAU_STAGES + j] = stages->h * stages->a[i][j];
+            wanted.scaled[1][i * GM_TABLEAU_STAGES + j] = stages->h * stages->c[i][j];
+        }
+    }
+    for (size_t i = 0; i < MOST_FACTORS; i++) {
+        const struct stage_factor *factor = &own->factors[i];
+        if (factor->arena && factor->count == wanted.count &&
+            memcmp(factor->scaled, wanted.scaled, sizeof wanted.scaled) == 0) {
+            return factor;
+        }
+    }
+    struct stage_factor *factor = &own->factors[own->next_factor++ % MOST_FACTORS];
+    gm_arena_close(factor->arena);
+    *factor = wanted;
+    factor->arena = gm_arena_open();
+    if (!gm_arena_run(factor->arena, factor_stages, &(struct factoring){own, factor})) {
+        gm_arena_close(factor->arena);
+        factor->arena = NULL;
+        return NULL;
+    }
+    return factor;
+}
+
+/* gm_loops.correct */
+static bool correct(const struct gm_problem *problem, const struct gm_stages *stages, double *residual)
+{
+    struct own *own = own_of(problem);
+    const size_t n = own->n;
+    pthread_mutex_lock(&own->turn);
+    own->seen_time = NAN;
+    const bool derived = derive_at(own, stages->y, own->model->system->timed ? stages->y[n - 1] : 0);
+    const struct stage_factor *factor = derived ? factor_of(own, stages) : NULL;
+    const size_t each = own->rows.rows, size = stages->count * each;
+    double *right = factor ? calloc(2 * size, sizeof *right) : NULL;
+    for (size_t j = 0; j < stages->count && right; j++) {
+        memcpy(right + j * each, residual + j * n, n * sizeof *right);
+    }
+    const bool solved = right && gm_lu_apply(factor->lu, right, right + size);
+    for (size_t j = 0; j < stages->count && solved; j++) {
+        memcpy(residual + j * n, right + size + j * each, n * sizeof *right);
+    }
+    free(right);
+    pthread_mutex_unlock(&own->turn);
+    return solved;
 }
 
 /* ---- the problem ---- */
@@ -610,13 +811,25 @@ static void open_values(struct own *own, struct gm_form_values *values, const st
     gm_form_values_open(values, own->arena, program, &own->space, own->model->system, variables);
 }
 
+/* True if a program takes the star of a dual 1-form. */
+static bool solves_star(const struct gm_form_program *program)
+{
+    bool solves = false;
+    for (size_t i = 0; i < program->count; i++) {
+        solves |=
+            program->steps[i].kind == GM_STEP_MATRIX && program->steps[i].number == GM_MATRIX_DUAL_STAR1;
+    }
+    return solves;
+}
+
 /* Marks the numbers of forms that are held, with their values. */
 static void hold(struct own *own, const double *variables)
 {
     const struct gm_form_model *model = own->model;
     const struct gm_user_system *system = model->system;
     const struct gm_complex *complex = own->space.complex;
-    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges);
+    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges), given = false,
+         *own_edges = gm_arena_take(own->arena, complex->edges, sizeof *own_edges);
     struct gm_form_values values;
     open_values(own, &values, &model->held, variables);
     gm_form_values_run(&values, 0, own->forms);
@@ -626,18 +839,13 @@ static void hold(struct own *own, const double *variables)
         const double *value = gm_form_values_root(&values, i);
         bool *held = (form->unknown ? own->held_unknown : own->held) + own->offset[item->variable];
         double *to = (form->unknown ? own->given : own->start) + own->offset[item->variable];
-        if (form->degree == 1 && own->space.mass) {
-            gm_arena_refuse(own->arena,
-                            "%s is held on edges: this needs star=circumcentric, and here the dual "
-                            "vertices are other ones",
-                            system->variables[item->variable].name);
-        }
         mark_part(own, item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
             if (edges[e] && form->degree == 1) {
-                held[e] = true;
+                held[e] = own_edges[e] = true;
                 to[e] = left ? value[e] : -value[e];
+                given |= value[e] != 0;
             }
             for (size_t k = 0; k < 2 && edges[e] && form->degree != 1; k++) {
                 const int v = complex->edge[2 * e + k];
@@ -646,6 +854,12 @@ static void hold(struct own *own, const double *variables)
             }
         }
     }
+    const bool inverts = own->space.mass && (solves_star(&model->equations) || solves_star(&model->rates));
+    gm_arena_refuse_if(
+        own->arena, given && inverts,
+        "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
+        "not f = -k*star(d(p)), or take star=circumcentric");
+    gm_form_space_hold(&own->space, own_edges);
 }
 
 static void close_space(void *space)
@@ -702,11 +916,6 @@ static void take_start(struct own *own, const double *variables)
     }
 }
 
-static double *doubles(const struct own *own, size_t count)
-{
-    return gm_arena_take(own->arena, count, sizeof(double));
-}
-
 static void make(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -729,13 +938,11 @@ static void make(struct gm_arena *arena, void *data)
     own->defect = doubles(own, system->n + 1);
     lay_out(own);
     own->unknown = doubles(own, own->unknowns + 1);
-    own->residual = doubles(own, own->unknowns + 1);
-    own->weight = doubles(own, own->unknowns + 1);
+    own->derived_at = doubles(own, own->n);
     own->given = doubles(own, own->unknowns + 1);
     own->start = doubles(own, own->n);
     own->seen = doubles(own, own->n);
     own->scratch = doubles(own, 3 * (complex->edges + 1));
-    own->piece = gm_arena_take(arena, own->unknowns + 1, sizeof *own->piece);
     own->held = gm_arena_take(arena, own->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
     make_closings(own);
@@ -752,7 +959,9 @@ static void make(struct gm_arena *arena, void *data)
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own);
     }
-    own->loops = (struct gm_loops){.field = field};
+    gm_arena_keep(arena, own, close_factors);
+    own->loops = (struct gm_loops){.field = field, .correct = correct};
+    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
         own->loops.force = force;
