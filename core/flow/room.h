@@ -5,8 +5,8 @@
 #include "core/arena.h"
 #include "core/expression/choices.h"
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh.h"
 #include "core/form/generators.h"
+#include "core/form/gmsh.h"
 
 #include <stdint.h>
 

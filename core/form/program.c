@@ -365,11 +365,17 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
     return operate(compiling, GM_OPERATION_MULTIPLY, flux, mean);
 }
 
-static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
+/* Refuses a number that is made of forms in an equation. */
+static void refuse_nonlocal(struct compiling *compiling, struct part a)
 {
     if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
-        refuse(compiling, "an equation has no numbers that are made of its unknowns");
+        refuse(compiling, "an equation has no numbers that are made of its unknowns, and no parts of them");
     }
+}
+
+static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
+{
+    refuse_nonlocal(compiling, a);
     return made(compiling,
                 (struct gm_form_step){
                     .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
@@ -385,6 +391,71 @@ static struct part integral(struct compiling *compiling, struct part a)
         refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
     return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
+}
+
+/* integral(PART, a) */
+static struct part around(struct compiling *compiling, gm_node_id part, struct part a)
+{
+    const struct gm_node *node = &compiling->system->graph.nodes[part];
+    if (node->operation != GM_CONSTANT) {
+        refuse(compiling, "integral(PART, a) begins with a part of the boundary");
+    }
+    if (!fit(compiling, &a, (struct gm_form_type){1, false})) {
+        refuse(compiling, "the integral along a part of the boundary is of a 1-form, and this is %s",
+               gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    return made(compiling, (struct gm_form_step){.kind = GM_STEP_AROUND,
+                                                 .type = any_number,
+                                                 .needs = needs_of(compiling, a),
+                                                 .a = a.step,
+                                                 .number = (size_t)node->value});
+}
+
+/* at(a, x, y, z) */
+static struct part at(struct compiling *compiling, const struct gm_form_call *call)
+{
+    const struct part a = decided(compiling, compiling->known[call->operands[0]].part);
+    if (a.type.degree != 0) {
+        refuse(compiling, "at is of a 0-form, and this is %s", gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    struct gm_form_step step = {.kind = GM_STEP_AT,
+                                .type = any_number,
+                                .needs = needs_of(compiling, a),
+                                .a = a.step,
+                                .components = call->count - 1};
+    for (size_t i = 0; i < step.components; i++) {
+        const struct part place = compiling->known[call->operands[i + 1]].part;
+        if (place.type.degree != GM_FORM_NUMBER) {
+            refuse(compiling, "the coordinates of at are numbers, and this is %s",
+                   gm_form_type_text(place.type));
+        }
+        const struct part number = decided(compiling, place);
+        step.needs |= needs_of(compiling, number);
+        step.nodes[i] = (gm_node_id)number.step;
+    }
+    return made(compiling, step);
+}
+
+/* Parts of a 1-form by Hodge. */
+static struct part part_of(struct compiling *compiling, enum gm_form_operator operator, struct part a)
+{
+    const struct gm_form_type type = {1, false};
+    if (!fit(compiling, &a, type)) {
+        refuse(compiling, "exact, coexact and harmonic are of a 1-form, and this is %s",
+               gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    struct gm_form_step step = {
+        .kind = GM_STEP_EXACT, .type = type, .needs = needs_of(compiling, a), .a = a.step};
+    const struct part exact = operator== GM_FORM_COEXACT ? a : made(compiling, step);
+    step.kind = GM_STEP_COEXACT;
+    const struct part coexact = operator== GM_FORM_EXACT ? a : made(compiling, step);
+    return operator== GM_FORM_EXACT   ? exact :
+           operator== GM_FORM_COEXACT ? coexact
+                                      : operate(compiling, GM_OPERATION_SUBTRACT,
+                                                operate(compiling, GM_OPERATION_SUBTRACT, a, exact), coexact);
 }
 
 static struct part inner(struct compiling *compiling, struct part a, struct part b)
@@ -468,8 +539,14 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
             }
         }
         return (struct part){{GM_FORM_COVECTOR, false}, NONE, compiling->now};
+    case GM_FORM_EXACT:
+    case GM_FORM_COEXACT:
+    case GM_FORM_HARMONIC:
+        return part_of(compiling, call->operator, a);
+    case GM_FORM_AT:
+        return at(compiling, call);
     case GM_FORM_INTEGRAL:
-        return integral(compiling, a);
+        return call->count > 1 ? around(compiling, call->operands[0], b) : integral(compiling, a);
     case GM_FORM_INNER:
         return inner(compiling, a, b);
     default: {

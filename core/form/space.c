@@ -30,6 +30,27 @@ long gm_form_betti(const struct gm_complex *complex, int degree)
     return degree == 0 ? pieces : degree == 2 ? closed : pieces + closed - euler;
 }
 
+void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece)
+{
+    const size_t count = triangles ? complex->triangles : complex->vertices;
+    bool changed = true;
+    for (size_t i = 0; i < count; i++) {
+        piece[i] = (int)i;
+    }
+    while (changed) { /* the least number of a piece spreads */
+        changed = false;
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
+            if (pair[0] < 0 || pair[1] < 0) {
+                continue;
+            }
+            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
+            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
+            piece[pair[0]] = piece[pair[1]] = least;
+        }
+    }
+}
+
 void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
 {
     for (size_t c = 0; c < 3; c++) {

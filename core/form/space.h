@@ -75,6 +75,9 @@ size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);
 /* The Betti numbers: pieces, loops that bound nothing, closed pieces. */
 long gm_form_betti(const struct gm_complex *complex, int degree);
 
+/* Labels the vertices, or the triangles, by the first one of their piece. */
+void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece);
+
 /* A point on the mesh. */
 void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);
 

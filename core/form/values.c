@@ -42,6 +42,9 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
         if (step->kind != GM_STEP_FORM) {
             values->slot[i] = gm_arena_take(arena, size_of(values, i), sizeof(double));
         }
+        if ((step->kind == GM_STEP_EXACT || step->kind == GM_STEP_COEXACT) && !values->hodge) {
+            values->hodge = gm_hodge_open(arena, space);
+        }
         if (step->kind == GM_STEP_SAMPLE) {
             const size_t count = step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
             values->sampled[i] = gm_arena_take(arena, 3 * count, sizeof(double));
@@ -163,6 +166,56 @@ static void reduce(const struct gm_form_values *values, size_t i)
     values->slot[i][0] = result;
 }
 
+/* The squared distance of a place from a point of a triangle that is near to it, and barycentric coordinates of that
+   point: its place in the plane of the triangle, with what is negative cut off. */
+static double distance_to(const double corners[9], const double place[3], double weight[3])
+{
+    double u[3], v[3], w[3], uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, off = 0;
+    for (int k = 0; k < 3; k++) {
+        u[k] = corners[3 + k] - corners[k];
+        v[k] = corners[6 + k] - corners[k];
+        w[k] = place[k] - corners[k];
+        uu += u[k] * u[k], uv += u[k] * v[k], vv += v[k] * v[k], uw += u[k] * w[k], vw += v[k] * w[k];
+    }
+    weight[1] = fmax(0, (vv * uw - uv * vw) / (uu * vv - uv * uv));
+    weight[2] = fmax(0, (uu * vw - uv * uw) / (uu * vv - uv * uv));
+    weight[0] = fmax(0, 1 - weight[1] - weight[2]);
+    const double sum = weight[0] + weight[1] + weight[2];
+    for (int k = 0; k < 3; k++) {
+        weight[k] /= sum;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double gap = w[k] - weight[1] * u[k] - weight[2] * v[k];
+        off += gap * gap;
+    }
+    return off;
+}
+
+/* The value of a 0-form at a place: linear in the nearest triangle, or constant there if it is a dual one. */
+static double value_at(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const struct gm_complex *complex = values->space->complex;
+    const double *a = values->slot[step->a];
+    double point[3] = {0}, nearest = INFINITY, value = NAN;
+    for (size_t k = 0; k < step->components; k++) {
+        point[k] = values->slot[step->nodes[k]][0];
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double corners[9], weight[3];
+        gm_complex_corners_in_space(complex, t, corners);
+        const double off = distance_to(corners, point, weight);
+        const int *v = complex->triangle + 3 * t;
+        if (off < nearest) {
+            nearest = off;
+            value = values->program->steps[step->a].type.dual
+                        ? a[t]
+                        : weight[0] * a[v[0]] + weight[1] * a[v[1]] + weight[2] * a[v[2]];
+        }
+    }
+    return value;
+}
+
 void gm_form_values_run(struct gm_form_values *values, double t, double *const *forms)
 {
     const bool first = isnan(values->time), later = values->time != t;
@@ -190,6 +243,18 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
             break;
         case GM_STEP_CLOSING:
             gm_matrix_apply(&values->closings[step->number], values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_EXACT:
+            gm_hodge_exact(values->hodge, values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_COEXACT:
+            gm_hodge_coexact(values->hodge, values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_AROUND:
+            gm_matrix_apply(&values->around[step->number], values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_AT:
+            values->slot[i][0] = value_at(values, i);
             break;
         default:
             reduce(values, i);

@@ -3,6 +3,7 @@
 #ifndef GM_CORE_FORM_VALUES_H
 #define GM_CORE_FORM_VALUES_H
 
+#include "core/form/hodge.h"
 #include "core/form/program.h"
 #include "core/tape.h"
 
@@ -14,6 +15,8 @@ struct gm_form_values {
     double **sampled;                 /* scratch of each of these */
     double *solved;                   /* scratch: a number for each edge */
     const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
+    const struct gm_matrix *around;   /* for each part in integral(PART, a): edges to a number */
+    struct gm_hodge *hodge;           /* NULL: no step needs it */
     double time;                      /* of the samples; NaN: none were made */
 };
 

@@ -860,6 +860,7 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
 /* Moves the formulas of forms to their declarations. Fields have a rate and a start, unknowns an equation. */
 static void complete_forms(struct gm_user_system *system)
 {
+    bool started = false;
     for (size_t i = 0; i < system->n; i++) {
         struct gm_form_declared *form = &system->forms[i];
         struct gm_system_variable *variable = &system->variables[i];
@@ -872,8 +873,13 @@ static void complete_forms(struct gm_user_system *system)
                             !form->unknown   ? "rate"
                             : lacks_equation ? "equation"
                                              : "rate: it is an unknown");
-        gm_system_refuse_if(system, !form->unknown && form->start == GM_NO_NODE, form->place,
-                            "%s has no value at the start", variable->name);
+        started |= form->start != GM_NO_NODE;
+    }
+    for (size_t i = 0; i < system->n; i++) { /* what is not given is 0, if something is given */
+        struct gm_form_declared *form = &system->forms[i];
+        gm_system_refuse_if(system, !form->unknown && !started, form->place, "%s has no value at the start",
+                            system->variables[i].name);
+        form->start = form->start == GM_NO_NODE ? gm_formula_constant(&system->graph, 0) : form->start;
     }
 }
 

@@ -9,7 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include "core/schemes.h"
+#include "render/files/regular_file.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/common/system/rows.h"
 #include "scenes/common/system/studies.h"
@@ -65,6 +68,8 @@ static double observe(const struct gm_view *view)
         return gm_form_error(view->problem, view->state, view->t, subject.index);
     case GM_FORM_CONTRADICTION:
         return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
+    case GM_FORM_RESIDUAL:
+        return gm_form_remainder(view->problem, view->state, view->t, subject.index);
     case GM_FORM_OBSERVED:
         return *gm_form_observed(view->problem, view->state, view->t, subject.index);
     default:
@@ -140,6 +145,16 @@ static void make_observables(struct gm_form_scene *scene)
                     gm_arena_print(arena, "%s_defect", name), observe,
                     gm_arena_print(arena, "what the equation of %s cannot meet", name)),
                 (struct gm_form_subject){GM_FORM_CONTRADICTION, i});
+        }
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        const char *name = system->variables[i].name;
+        if (system->forms[i].unknown) {
+            add(scene,
+                (struct gm_observable)GM_LOG_OBSERVABLE(
+                    gm_arena_print(arena, "%s_residual", name), observe,
+                    gm_arena_print(arena, "residual of the equation of %s", name)),
+                (struct gm_form_subject){GM_FORM_RESIDUAL, i});
         }
     }
     for (size_t i = 0; i < FACTS; i++) {
@@ -248,10 +263,36 @@ struct making {
     struct gm_user_system *system;
     const char *name;
     const char *const *words;
+    const char *path;
     struct gm_fault *fault;
     struct gm_form_scene *scene;
+    bool unread;               /* the file of the mesh */
     struct gm_problem problem; /* of the file's own values */
 };
+
+/* Reads the file of the mesh: its name is relative to the system's file, or else to the folder where the program
+   runs. */
+static void read_mesh(struct making *making)
+{
+    struct gm_form_scene *scene = making->scene;
+    const char *path = making->path;
+    enum { LARGEST = 1 << 29 };
+    struct gm_arena *arena = scene->of_file.arena;
+    const char *name = gm_system_item_of(&scene->of_file.system, GM_WORD_MESH, 0)->name;
+    const char *slash = path && name[0] != '/' ? strrchr(path, '/') : NULL;
+    const char *beside =
+        gm_arena_print(arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path ? path : "", name);
+    char reason[GM_REGULAR_REASON];
+    scene->path = path ? gm_arena_print(arena, "%s", path) : NULL;
+    scene->model.mesh_name = name;
+    char *text =
+        gm_regular_read(access(beside, F_OK) == 0 ? beside : name, LARGEST, &scene->model.mesh_size, reason);
+    making->unread = !text;
+    if (!text) {
+        gm_arena_refuse(arena, "mesh: %.130s could not be read: %s", name, reason);
+    }
+    scene->model.mesh_text = gm_arena_keep(arena, text, free);
+}
 
 static void close_problem(void *problem)
 {
@@ -269,6 +310,9 @@ static void make(struct gm_arena *arena, void *data)
     if (!gm_form_model_open(&scene->model, system, making->fault)) {
         gm_arena_refuse(arena, "%s",
                         making->fault->sentence[0] ? making->fault->sentence : "not enough memory");
+    }
+    if (gm_form_reads_mesh(system)) {
+        read_mesh(making);
     }
     make_shows(scene);
     if (scene->show_count == 0) {
@@ -317,25 +361,31 @@ static void make(struct gm_arena *arena, void *data)
 }
 
 /* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
-                                        const char *const *words, struct gm_fault *fault, char *sentence)
+static struct gm_system_scene *open_one(struct making *making, char *sentence)
 {
-    struct making making = {.system = system, .name = name, .words = words, .fault = fault};
-    return gm_system_scene_make(make, &making, system, sentence) ? &making.scene->of_file : NULL;
+    return gm_system_scene_make(make, making, making->system, sentence) ? &making->scene->of_file : NULL;
 }
 
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
                                           char *sentence)
 {
     struct gm_fault fault = {0};
-    return open_one(system, first->scene.name, first->scene.words, &fault, sentence);
+    return open_one(&(struct making){.system = system,
+                                     .name = first->scene.name,
+                                     .words = first->scene.words,
+                                     .path = ((const struct gm_form_scene *)first)->path,
+                                     .fault = &fault},
+                    sentence);
 }
 
-const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, struct gm_fault *fault, char *sentence)
+const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, struct gm_form_source *source,
+                                          struct gm_fault *fault, char *sentence)
 {
     const bool choices = system->choices.count > 0;
     *fault = (struct gm_fault){0};
-    struct gm_system_scene *first = open_one(system, name, words, fault, sentence);
+    struct making making = {
+        .system = system, .name = source->name, .words = source->words, .path = source->path, .fault = fault};
+    struct gm_system_scene *first = open_one(&making, sentence);
+    source->unread = making.unread;
     return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
 }

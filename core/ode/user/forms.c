@@ -12,6 +12,7 @@
 
 #include "core/basics.h"
 #include "core/form/generators.h"
+#include "core/form/gmsh.h"
 #include "core/form/values.h"
 #include "core/linear/cholesky.h"
 #include "core/ode/kernel/loops.h"
@@ -29,6 +30,15 @@ struct stage_factor {
     struct gm_lu *lu;
 };
 
+/* What a problem is made of. */
+struct opening {
+    struct own *own;
+    const struct gm_form_model *model;
+    struct gm_triangulation file; /* or the complex alone, of a generator */
+    const double *variables;
+    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
+};
+
 struct own {
     struct gm_ode facets;
     struct gm_split split;
@@ -36,9 +46,11 @@ struct own {
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
     double numbers[GM_MOST_OPERANDS]; /* of the mesh */
+    struct gm_triangulation file;     /* the groups of its edges; empty if the mesh is not of a file */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
+    struct gm_matrix *around;   /* for each part of the boundary in integral(PART, a) */
     pthread_mutex_t turn;       /* one call after another */
     size_t n, half;             /* of the state, if it splits: forms of the first group are padded to it */
     size_t *offset;             /* of each form in the state, or among the unknowns */
@@ -56,7 +68,7 @@ struct own {
     double sign;    /* that the matrix was multiplied by, but for pinned rows */
     double *weight; /* areas of the cells of the unknowns, 0 where the degree is not 0 */
     int *piece;     /* of each number of the unknowns that constants of its piece solve for; -1 */
-    double *defect; /* of each form */
+    double *defect, *remainder; /* of each form: what its equation cannot meet, and what is left of it */
     struct stage_factor factors[MOST_FACTORS];
     size_t next_factor;
     struct gm_arena *derived; /* holds `rows`; NULL: there are none */
@@ -277,53 +289,51 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 
 static const char *const stars[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"};
 
-static struct gm_complex *open_mesh(const struct gm_user_system *system, enum gm_star star,
-                                    const double *variables, double numbers[GM_MOST_OPERANDS],
-                                    struct gm_fault *fault)
+bool gm_form_reads_mesh(const struct gm_user_system *system)
 {
+    return strpbrk(gm_system_item_of(system, GM_WORD_MESH, 0)->name, "./") != NULL;
+}
+
+/* Refuses a mesh, with the sentence about its fault. */
+static bool refuse_mesh(const char *name, const struct gm_triangulation_fault *wrong, size_t place,
+                        struct gm_fault *fault)
+{
+    char sentence[GM_TRIANGULATION_SENTENCE];
+    return gm_fail(fault, place, "%s", gm_triangulation_explain(name, wrong, sentence));
+}
+
+/* Makes or reads the mesh. */
+static bool open_mesh(struct opening *opening, enum gm_star star, struct gm_fault *fault)
+{
+    const struct gm_form_model *model = opening->model;
+    const struct gm_user_system *system = model->system;
     const struct gm_system_item *mesh = gm_system_item_of(system, GM_WORD_MESH, 0);
     struct gm_triangulation_fault wrong;
+    if (model->mesh_text) {
+        return gm_triangulation_read_in_space(model->mesh_text, model->mesh_size, star, &opening->file,
+                                              &wrong) ||
+               refuse_mesh(model->mesh_name, &wrong, mesh->place, fault);
+    }
     if (mesh->count > GM_MOST_OPERANDS) {
-        gm_fail(fault, mesh->place, "a mesh has at most four numbers");
-        return NULL;
+        return gm_fail(fault, mesh->place, "a mesh has at most four numbers");
     }
-    if ((mesh->count > 0 && !gm_user_line_numbers(system, mesh->nodes, mesh->count, variables, numbers)) ||
-        !gm_generator_check(mesh->name, numbers, mesh->count, mesh->place, fault)) {
-        return NULL;
+    if ((mesh->count > 0 &&
+         !gm_user_line_numbers(system, mesh->nodes, mesh->count, opening->variables, opening->numbers)) ||
+        !gm_generator_check(mesh->name, opening->numbers, mesh->count, mesh->place, fault)) {
+        return false;
     }
-    struct gm_complex *complex = gm_generator_open(mesh->name, numbers, mesh->count, star, &wrong);
-    if (!complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
-        gm_fail(fault, mesh->place,
-                "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
-                "star=auto or star=barycentric",
-                wrong.value);
+    opening->file.complex = gm_generator_open(mesh->name, opening->numbers, mesh->count, star, &wrong);
+    if (!opening->file.complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+        return gm_fail(
+            fault, mesh->place,
+            "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
+            "star=auto or star=barycentric",
+            wrong.value);
     }
-    return complex;
+    return opening->file.complex != NULL;
 }
 
 /* ---- unknowns ---- */
-
-/* Labels the vertices or triangles by their piece. */
-static void label(const struct gm_complex *complex, bool triangles, int *piece)
-{
-    const size_t count = triangles ? complex->triangles : complex->vertices;
-    bool changed = true;
-    for (size_t i = 0; i < count; i++) {
-        piece[i] = (int)i;
-    }
-    while (changed) { /* the least number of a piece spreads */
-        changed = false;
-        for (size_t e = 0; e < complex->edges; e++) {
-            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
-            if (pair[0] < 0 || pair[1] < 0) {
-                continue;
-            }
-            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
-            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
-            piece[pair[0]] = piece[pair[1]] = least;
-        }
-    }
-}
 
 /* Finds the pieces on which constants of an unknown of degree 0 solve the equations. */
 static void find_constants(struct own *own, size_t form)
@@ -343,7 +353,7 @@ static void find_constants(struct own *own, size_t form)
         free_of = fabs(sum) <= 1e-10 * size;
     }
     if (free_of) {
-        label(own->space.complex, type.dual, own->piece + first);
+        gm_form_pieces(own->space.complex, type.dual, own->piece + first);
         for (size_t i = 0; i < n; i++) {
             own->piece[first + i] += (int)first; /* the number that is pinned */
         }
@@ -473,6 +483,27 @@ static void remove_means(struct own *own, size_t form, double *numbers, bool res
     }
 }
 
+/* Notes the largest residual of each equation, relative to its terms. */
+static void measure_residuals(struct own *own)
+{
+    const struct gm_form_model *model = own->model;
+    const struct gm_matrix *a = &own->matrix;
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        const size_t form = model->unknowns[k], first = own->offset[form];
+        double largest = 0, scale = 0;
+        for (size_t i = first; i < first + size_of(own, form); i++) {
+            double sum = -own->residual[i], terms = fabs(own->residual[i]);
+            for (int l = a->start[i]; l < a->start[i + 1]; l++) {
+                sum += a->value[l] * own->unknown[a->column[l]];
+                terms += fabs(a->value[l] * own->unknown[a->column[l]]);
+            }
+            largest = fmax(largest, fabs(sum));
+            scale = fmax(scale, terms);
+        }
+        own->remainder[form] = scale > 0 ? largest / scale : 0;
+    }
+}
+
 /* Solves for the unknowns at fields that own->forms has. */
 static void solve(struct own *own, double t)
 {
@@ -501,6 +532,7 @@ static void solve(struct own *own, double t)
     } else {
         good = gm_lu_apply(own->lu, right, own->unknown);
     }
+    measure_residuals(own);
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
@@ -741,28 +773,37 @@ static bool correct(const struct gm_problem *problem, const struct gm_stages *st
 
 /* ---- the problem ---- */
 
-struct opening {
-    struct own *own;
-    const struct gm_form_model *model;
-    struct gm_complex *complex;
-    const double *variables;
-    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
-};
+/* Leaves the body: there is no part of this name. */
+_Noreturn static void refuse_part(const struct own *own, const char *part)
+{
+    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
+    char groups[200];
+    if (own->file.arena) {
+        names = gm_triangulation_group_names(&own->file, groups, sizeof groups);
+    } else {
+        const char *const *parts = gm_generator_parts(word);
+        for (size_t i = 0; parts[i]; i++) {
+            names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
+        }
+    }
+    gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %.60s are: %s", part, word,
+                    names);
+}
 
 /* Marks the edges of the boundary that are on a part. */
 static void mark_part(const struct own *own, const char *part, bool *edges)
 {
-    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
+    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name;
     const struct gm_complex *complex = own->space.complex;
-    const char *const *parts = gm_generator_parts(word);
-    bool there = parts[0] && strcmp(part, "all") == 0;
-    for (size_t i = 0; parts[i]; i++) {
+    const bool all = strcmp(part, "all") == 0;
+    const long group = own->file.arena && !all ? gm_triangulation_group(&own->file, part) : 0;
+    bool there = (all && complex->boundary > 0) || group != 0;
+    const char *const *parts = own->file.arena ? NULL : gm_generator_parts(word);
+    for (size_t i = 0; parts && parts[i]; i++) {
         there |= strcmp(parts[i], part) == 0;
-        names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
     }
     if (!there) {
-        gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part, word,
-                        names);
+        refuse_part(own, part);
     }
     memset(edges, 0, complex->edges * sizeof *edges);
     for (size_t b = 0; b < complex->boundary; b++) {
@@ -773,7 +814,8 @@ static void mark_part(const struct own *own, const char *part, bool *edges)
         for (int c = 0; c < 3; c++) {
             middle[c] = (p[c] + q[c]) / 2;
         }
-        edges[e] = gm_generator_on(word, own->numbers, part, middle);
+        edges[e] = all || (group != 0 ? gm_triangulation_has(&own->file, e, group)
+                                      : gm_generator_on(word, own->numbers, part, middle));
     }
 }
 
@@ -802,6 +844,26 @@ static void make_closings(struct own *own)
             taken[e] |= edges[e];
         }
         own->closings[i] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+    }
+}
+
+/* Makes the rows of integrals along parts of the boundary, with the surface on the left. */
+static void make_around(struct own *own)
+{
+    const struct gm_user_system *system = own->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    struct gm_arena *arena = own->arena;
+    bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges);
+    struct gm_matrix_entry *entries = gm_arena_take(arena, complex->edges, sizeof *entries);
+    own->around = gm_arena_take(arena, system->boundary_count + 1, sizeof *own->around);
+    for (size_t i = 0; i < system->boundary_count; i++) {
+        size_t count = 0;
+        mark_part(own, system->boundaries[i], edges);
+        for (size_t e = 0; e < complex->edges; e++) {
+            entries[count] = (struct gm_matrix_entry){0, (int)e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1};
+            count += edges[e];
+        }
+        own->around[i] = gm_matrix_of(arena, 1, complex->edges, entries, count);
     }
 }
 
@@ -867,6 +929,11 @@ static void close_space(void *space)
     gm_form_space_close(space);
 }
 
+static void close_file(void *file)
+{
+    gm_triangulation_close(file);
+}
+
 static void close_turn(void *turn)
 {
     pthread_mutex_destroy(turn);
@@ -923,12 +990,15 @@ static void make(struct gm_arena *arena, void *data)
     const struct gm_user_system *system = model->system;
     const double *variables = opening->variables;
     struct own *own = opening->own = gm_arena_take(arena, 1, sizeof *own);
-    struct gm_complex *complex = opening->complex;
+    struct gm_complex *complex = opening->file.complex;
     own->arena = arena;
     own->model = model;
     own->seen_time = NAN;
     memcpy(own->numbers, opening->numbers, sizeof own->numbers);
-    opening->complex = NULL; /* taken */
+    own->file = opening->file;
+    own->file.complex = NULL; /* the space takes it */
+    opening->file = (struct gm_triangulation){0};
+    gm_arena_keep(arena, &own->file, close_file);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, close_space);
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
@@ -936,6 +1006,7 @@ static void make(struct gm_arena *arena, void *data)
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
     own->forms = gm_arena_take(arena, system->n + 1, sizeof *own->forms);
     own->defect = doubles(own, system->n + 1);
+    own->remainder = doubles(own, system->n + 1);
     lay_out(own);
     own->unknown = doubles(own, own->unknowns + 1);
     own->derived_at = doubles(own, own->n);
@@ -952,6 +1023,8 @@ static void make(struct gm_arena *arena, void *data)
     open_values(own, &own->observed, &model->observed, variables);
     take_start(own, variables);
     hold(own, variables);
+    make_around(own);
+    own->rates.around = own->equations.around = own->observed.around = own->around;
     own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
@@ -973,6 +1046,20 @@ static void make(struct gm_arena *arena, void *data)
     }
 }
 
+/* True if something observed is a part of a 1-form, for which equations are solved. */
+static bool decomposes(const struct gm_form_model *model)
+{
+    bool found = false;
+    const struct gm_form_program *const programs[] = {&model->rates, &model->equations, &model->observed};
+    for (size_t k = 0; k < GM_COUNT(programs); k++) {
+        for (size_t i = 0; i < programs[k]->count; i++) {
+            found |=
+                programs[k]->steps[i].kind == GM_STEP_EXACT || programs[k]->steps[i].kind == GM_STEP_COEXACT;
+        }
+    }
+    return found;
+}
+
 bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
                           const double *variables, struct gm_fault *fault)
 {
@@ -982,19 +1069,19 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
     }
     *fault = (struct gm_fault){0};
     struct opening opening = {.model = model, .variables = variables};
-    opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
-    const bool solves =
-        opening.complex && (model->unknown_count > 0 || opening.complex->star != GM_STAR_CIRCUMCENTRIC);
+    const bool opened = open_mesh(&opening, star, fault);
+    const bool solves = opened && (model->unknown_count > 0 || decomposes(model) ||
+                                   opening.file.complex->star != GM_STAR_CIRCUMCENTRIC);
     if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */
-        gm_complex_close(opening.complex);
+        gm_triangulation_close(&opening.file);
         return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
     }
-    struct gm_arena *arena = opening.complex ? gm_arena_open() : NULL;
+    struct gm_arena *arena = opened ? gm_arena_open() : NULL;
     if (!arena || !gm_arena_run(arena, make, &opening)) {
         if (arena && !fault->sentence[0]) {
             gm_fail(fault, 0, "%s", gm_arena_reason(arena));
         }
-        gm_complex_close(opening.complex);
+        gm_triangulation_close(&opening.file);
         gm_arena_close(arena);
         return false;
     }
@@ -1095,4 +1182,10 @@ double gm_form_contradiction(const struct gm_problem *problem, const double *y, 
 {
     gm_form_of(problem, y, t, form);
     return own_of(problem)->defect[form];
+}
+
+double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form)
+{
+    gm_form_of(problem, y, t, form);
+    return own_of(problem)->remainder[form];
 }
