@@ -42,6 +42,9 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
         if (step->kind != GM_STEP_FORM) {
             values->slot[i] = gm_arena_take(arena, size_of(values, i), sizeof(double));
         }
+        if (step->kind == GM_STEP_MATRIX) {
+            gm_form_space_need(space, arena, (enum gm_form_matrix)step->number);
+        }
         if ((step->kind == GM_STEP_EXACT || step->kind == GM_STEP_COEXACT) && !values->hodge) {
             values->hodge = gm_hodge_open(arena, space);
         }

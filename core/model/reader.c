@@ -551,7 +551,8 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
     static const char *const words[GM_WORDS][MOST] = {
         [GM_WORD_SPACE] = {"differences", "fourier"},
         [GM_WORD_BOUNDARY] = {"ring", "walls"},
-        [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"}};
+        [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"},
+        [GM_WORD_INTERIOR] = {"dual", "whitney", "upwind"}};
     const char *const *among = words[line->word];
     read_text(reading, line);
     size_t k = 0;
@@ -559,8 +560,9 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
         k++;
     }
     const bool wrong = !among[k];
-    gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin,
-                        "star: is auto, circumcentric, barycentric, galerkin or incentric");
+    gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin, "%s: is %s", word_of(line),
+                        line->word == GM_WORD_STAR ? "auto, circumcentric, barycentric, galerkin or incentric"
+                                                   : "dual, whitney or upwind");
     gm_system_refuse_if(reading->system, wrong, line->value.begin, "%s is %s or %s, not %.60s", word_of(line),
                         among[0], among[1], reading->system->texts[line->word]);
 }

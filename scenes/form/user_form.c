@@ -21,7 +21,7 @@
 #include "scenes/form/form.h"
 
 enum { DT, UNTIL };
-enum { SHOW, STAR, COMMON_ROWS = STAR + 1 + GM_CAMERA_KEYS };
+enum { SHOW, STAR, INTERIOR, COMMON_ROWS = INTERIOR + 1 + GM_CAMERA_KEYS };
 
 /* ---- observables ---- */
 
@@ -193,12 +193,16 @@ static void make_rows(struct gm_form_scene *scene)
     const struct gm_user_system *system = &of_file->system;
     const bool steady = scene->model.rates.root_count == 0;
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
-    const char *written = system->texts[GM_WORD_STAR];
+    static const char *const interiors[] = {"dual", "whitney", "upwind", NULL};
+    const char *written = system->texts[GM_WORD_STAR], *product = system->texts[GM_WORD_INTERIOR];
     const struct gm_parameter common[COMMON_ROWS] = {
         GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
                       "the form that is drawn", .live = true, .looks = true),
         GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
                       "dual vertices: circumcentres, centres of mass or of the circles inside"),
+        GM_CHOICE_ROW(
+            struct gm_system_lane, interior, "interior", product ? product : "dual", interiors,
+            "what a flow carries: the mean of both sides, or the value of that where it comes from"),
         GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     double numbers[GM_SYSTEM_TIMES];
     gm_system_make_rows(of_file, timing, common, COMMON_ROWS, false);
@@ -223,8 +227,11 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     const struct gm_system_lane *lane = parameters;
     struct gm_fault fault = {0};
     double *values = gm_system_start_values(lane, NULL);
-    const bool good = values && gm_form_problem_open(problem, &gm_form_scene_of(lane)->model,
-                                                     (enum gm_star)lane->star, values, &fault);
+    const bool good =
+        values && gm_form_problem_open(
+                      problem, &gm_form_scene_of(lane)->model,
+                      (struct gm_form_choice){(enum gm_star)lane->star, (enum gm_interior)lane->interior},
+                      values, &fault);
     free(values);
     if (!good) {
         return gm_refuse(sentence, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");

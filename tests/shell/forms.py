@@ -40,6 +40,10 @@ NUMBERS = [
     *[(["form-heat", f"level={level}"], "u_error", error, 5e-3 * error)
       for level, error in ((2, 1.98e-3), (3, 4.90e-4), (4, 1.18e-4))],
     (["form-shallow"], "h_error", 1.97e-4, 5e-7),
+    (["form-age"], "mean", 1.6635545, 6e-8),
+    (["form-age", "N=48", "M=20"], "mean", 1.6659149, 1e-7),
+    (["form-age", "star=barycentric"], "mean", 1.6459368, 6e-8),
+    (["form-age", "star=barycentric", "N=48", "M=20"], "mean", 1.6591496, 6e-8),
     (["form-stokes", "n=20"], "psi_least", -.0997705, 1e-7),
     (["form-stokes", "n=40"], "psi_least", -.0999905, 1e-7),
     (["form-brusselator"], "total_u", 12.5435839, 1e-7),
@@ -98,6 +102,22 @@ for name, numbers in expected.items():
         check(key == "star" or abs(found.get(key, math.nan) - value) <= near * max(1, abs(value)),
               f"{name}: {key} is {found.get(key)}, not {value}")
 check(cases["sand"]["f_residual"] < 1e-14 and cases["membrane"]["u_residual"] < 1e-14, "residuals of equations")
+
+# what flows out and what the cells at the left take is all that ages
+found = observed("form-age", "interior=upwind")
+check(abs(found["outflow"] + found["taken"] - 3) < 1e-12 and found["outflow"] > 2.9, f"form-age: {found}")
+
+# interior products on a shaken torus: which keeps a constant, squares, what is stationary, and signs. The mesh is not
+# that of the second program, so sizes agree within a third
+for star, product, constant, enstrophy, still in (
+        ("circumcentric", "dual", 0, 0, 6.1e-2), ("barycentric", "dual", 0, 0, 0), ("barycentric", "whitney", .86, 3.2e-3, 3.3e-2),
+        ("barycentric", "upwind", 0, .20, .19)):
+    found = observed("form-transport", f"star={star}", f"interior={product}")
+    for key, value in (("constant", constant), ("enstrophy_error", enstrophy), ("c_error", still)):
+        small = 1e-13 if key != "enstrophy_error" else 1e-7
+        check(abs(found[key] - value) <= (0.34 * value if value else small), f"{star} {product}: {key} is {found[key]}")
+    check((found["least"] > math.exp(-2)) == (product == "upwind"), f"{star} {product}: {found['least']}")
+check(abs(observed("form-transport", "irregular=0", "star=circumcentric")["c_error"] - 1.8e-4) < 5e-6, "a regular torus")
 
 # Hodge's three parts, in squares, and the loops; circulations do not depend on the path
 TORUS = ["mesh=torus 2 0.8 40 20", "let=a = form(y*z - y/r2, x/r2, x)"]
@@ -183,10 +203,16 @@ observe: far = integral(outer, a)
 observe: near = integral(inner, a)
 observe: both = integral(all, a)
 observe: middle = at(3*x - y + 1, 1.2, 0.7)
+let: v = form(2, 3)
+let: u = -star(v)
+observe: across = max(abs(interior(u, v)))
+observe: slow = min(interior(u, u))
+observe: fast = max(interior(u, u))
 observe: centre = at(star(star(wedge(1, x))), 1.5, 0, 0)
 """)
 check(abs(found["far"] - 6 * math.pi) < 1e-10 and abs(found["near"] + 6 * math.pi) < 1e-10
-      and abs(found["both"]) < 1e-10 and abs(found["middle"] - 3.9) < 1e-12 and abs(found["centre"] - 1.5) < 1e-12,
+      and abs(found["both"]) < 1e-10 and abs(found["middle"] - 3.9) < 1e-12 and abs(found["centre"] - 1.5) < 1e-12
+      and found["across"] < 1e-13 and abs(found["slow"] - 13) < 1e-12 and abs(found["fast"] - 13) < 1e-12,
       f"circulations: {found}")
 
 status, out, err = run(["form-wave", "mesh=there/is/none.msh"])

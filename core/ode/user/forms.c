@@ -36,7 +36,8 @@ struct opening {
     const struct gm_form_model *model;
     struct gm_triangulation file; /* or the complex alone, of a generator */
     const double *variables;
-    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
+    enum gm_interior interior;
+    double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
 };
 
 struct own {
@@ -45,8 +46,8 @@ struct own {
     struct gm_loops loops;
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
-    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
-    struct gm_triangulation file;     /* the groups of its edges; empty if the mesh is not of a file */
+    double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
+    struct gm_triangulation file;         /* the groups of its edges; empty if the mesh is not of a file */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
@@ -65,9 +66,9 @@ struct own {
     size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
     struct gm_cholesky *factor; /* NULL: `lu` */
     struct gm_lu *lu;
-    double sign;    /* that the matrix was multiplied by, but for pinned rows */
-    double *weight; /* areas of the cells of the unknowns, 0 where the degree is not 0 */
-    int *piece;     /* of each number of the unknowns that constants of its piece solve for; -1 */
+    double sign;                /* that the matrix was multiplied by, but for pinned rows */
+    double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
+    int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
     double *defect, *remainder; /* of each form: what its equation cannot meet, and what is left of it */
     struct stage_factor factors[MOST_FACTORS];
     size_t next_factor;
@@ -287,8 +288,6 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 
 /* ---- the mesh ---- */
 
-static const char *const stars[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"};
-
 bool gm_form_reads_mesh(const struct gm_user_system *system)
 {
     return strpbrk(gm_system_item_of(system, GM_WORD_MESH, 0)->name, "./") != NULL;
@@ -314,8 +313,8 @@ static bool open_mesh(struct opening *opening, enum gm_star star, struct gm_faul
                                               &wrong) ||
                refuse_mesh(model->mesh_name, &wrong, mesh->place, fault);
     }
-    if (mesh->count > GM_MOST_OPERANDS) {
-        return gm_fail(fault, mesh->place, "a mesh has at most four numbers");
+    if (mesh->count > GM_GENERATOR_NUMBERS) {
+        return gm_fail(fault, mesh->place, "a mesh has at most five numbers");
     }
     if ((mesh->count > 0 &&
          !gm_user_line_numbers(system, mesh->nodes, mesh->count, opening->variables, opening->numbers)) ||
@@ -1001,6 +1000,7 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, &own->file, close_file);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, close_space);
+    own->space.interior = opening->interior;
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
@@ -1060,16 +1060,12 @@ static bool decomposes(const struct gm_form_model *model)
     return found;
 }
 
-bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
-                          const double *variables, struct gm_fault *fault)
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
+                          struct gm_form_choice choice, const double *variables, struct gm_fault *fault)
 {
-    const char *written = model->system->texts[GM_WORD_STAR];
-    for (size_t i = 0; star == GM_STAR_AUTO && written && i < GM_COUNT(stars); i++) {
-        star = strcmp(stars[i], written) == 0 ? (enum gm_star)i : star;
-    }
     *fault = (struct gm_fault){0};
-    struct opening opening = {.model = model, .variables = variables};
-    const bool opened = open_mesh(&opening, star, fault);
+    struct opening opening = {.model = model, .variables = variables, .interior = choice.interior};
+    const bool opened = open_mesh(&opening, choice.star, fault);
     const bool solves = opened && (model->unknown_count > 0 || decomposes(model) ||
                                    opening.file.complex->star != GM_STAR_CIRCUMCENTRIC);
     if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */

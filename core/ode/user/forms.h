@@ -28,10 +28,16 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 /* True if the mesh is a file; its name is that of the line's item. */
 bool gm_form_reads_mesh(const struct gm_user_system *system);
 
+/* What a key chooses beside the file's lines. */
+struct gm_form_choice {
+    enum gm_star star;
+    enum gm_interior interior;
+};
+
 /* Opens the problem with these values of all variables. False with a fault; its offset is 0 if it is not of a
    line. The caller closes with gm_form_problem_close. */
-bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
-                          const double *variables, struct gm_fault *fault);
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
+                          struct gm_form_choice choice, const double *variables, struct gm_fault *fault);
 void gm_form_problem_close(struct gm_problem *problem);
 
 /* Writes the state at the start. */

@@ -127,8 +127,8 @@ struct gm_system_lane {
     char show[GM_TEXT_SIZE], trails[GM_TEXT_SIZE], window[GM_TEXT_SIZE];
     struct gm_camera camera;
     struct gm_line_keys grid;
-    int star;        /* of forms: enum gm_star */
-    double values[]; /* values of the rows after dt and until; then a byte per row, 1 if it was given */
+    int star, interior; /* of forms: enum gm_star, enum gm_interior */
+    double values[];    /* values of the rows after dt and until; then a byte per row, 1 if it was given */
 };
 
 /* Returns true if a row is a parameter of the system. */
