@@ -45,7 +45,7 @@ struct reader {
     bool binary;     /* the file */
     bool entities;   /* they were read */
     bool raw;        /* the reader is in binary data */
-    bool in_space;   /* nodes stay where they are */
+    bool in_space;   /* nodes keep their three coordinates */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;

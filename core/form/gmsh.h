@@ -27,7 +27,7 @@ struct gm_triangulation_member {
    close, if the text is not a valid mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
-/* The same with the nodes where they are, on a surface of any number of pieces. */
+/* The same with three coordinates of the nodes, on a surface of any number of pieces. */
 bool gm_triangulation_read_in_space(const char *text, size_t size, enum gm_star star,
                                     struct gm_triangulation *mesh, struct gm_triangulation_fault *fault);
 /* Returns why a mesh was refused; `name` is "the mesh" or the file's. Returns the sentence, or another one. */

@@ -47,8 +47,8 @@ enum gm_form_matrix {
 /* Interior products: the value that a flux carries through an edge. */
 enum gm_interior {
     GM_INTERIOR_DUAL,    /* the mean of both sides */
-    GM_INTERIOR_WHITNEY, /* that, of the mean of both triangles' Whitney forms: a constant is not kept */
-    GM_INTERIOR_UPWIND,  /* that of the side where it comes from */
+    GM_INTERIOR_WHITNEY, /* the same, of the mean of both triangles' Whitney forms: a constant is not kept */
+    GM_INTERIOR_UPWIND,  /* the value at the side where it comes from */
 };
 
 struct gm_cholesky;

@@ -10,7 +10,7 @@ enum { GM_MOST_FORM_OBSERVABLES = 64, GM_MOST_SHOWN_FORMS = 32 };
 
 /* The subject of an observable. */
 struct gm_form_subject {
-    enum { GM_FORM_ERROR, GM_FORM_CONTRADICTION, GM_FORM_RESIDUAL, GM_FORM_OBSERVED, GM_FORM_FACT } what;
+    enum { GM_FORM_ERROR, GM_FORM_CONTRADICTION, GM_FORM_REMAINDER, GM_FORM_OBSERVED, GM_FORM_FACT } what;
     size_t index; /* of a form, of what is observed, or of a fact */
 };
 

@@ -68,7 +68,7 @@ static double observe(const struct gm_view *view)
         return gm_form_error(view->problem, view->state, view->t, subject.index);
     case GM_FORM_CONTRADICTION:
         return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
-    case GM_FORM_RESIDUAL:
+    case GM_FORM_REMAINDER:
         return gm_form_remainder(view->problem, view->state, view->t, subject.index);
     case GM_FORM_OBSERVED:
         return *gm_form_observed(view->problem, view->state, view->t, subject.index);
@@ -154,7 +154,7 @@ static void make_observables(struct gm_form_scene *scene)
                 (struct gm_observable)GM_LOG_OBSERVABLE(
                     gm_arena_print(arena, "%s_residual", name), observe,
                     gm_arena_print(arena, "residual of the equation of %s", name)),
-                (struct gm_form_subject){GM_FORM_RESIDUAL, i});
+                (struct gm_form_subject){GM_FORM_REMAINDER, i});
         }
     }
     for (size_t i = 0; i < FACTS; i++) {

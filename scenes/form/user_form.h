@@ -5,7 +5,7 @@
 #include "core/model/system.h"
 #include "scenes/common/scene.h"
 
-/* Where a system comes from: its name, its words or NULL, and the path of its file or NULL. */
+/* The source of a system: its name, its words or NULL, and the path of its file or NULL. */
 struct gm_form_source {
     const char *name;
     const char *const *words;

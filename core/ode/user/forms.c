@@ -30,7 +30,7 @@ struct stage_factor {
     struct gm_lu *lu;
 };
 
-/* What a problem is made of. */
+/* The arguments of the body that opens a problem. */
 struct opening {
     struct own *own;
     const struct gm_form_model *model;
@@ -72,7 +72,7 @@ struct own {
     double *defect, *remainder; /* of each form: what its equation cannot meet, and what is left of it */
     struct stage_factor factors[MOST_FACTORS];
     size_t next_factor;
-    struct gm_arena *derived; /* holds `rows`; NULL: there are none */
+    struct gm_arena *derived; /* holds `rows`; NULL: none */
     struct gm_matrix rows;    /* the Jacobian of the rates, with the rows of stars that are solved for */
     double *derived_at;       /* the state that `rows` are of */
 };
@@ -676,7 +676,7 @@ static bool derive_at(struct own *own, const double *y, double t)
     return own->derived;
 }
 
-/* What a factor is made of. */
+/* The arguments of the body that makes a factor. */
 struct factoring {
     struct own *own;
     struct stage_factor *factor;

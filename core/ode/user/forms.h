@@ -28,7 +28,7 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 /* True if the mesh is a file; its name is that of the line's item. */
 bool gm_form_reads_mesh(const struct gm_user_system *system);
 
-/* What a key chooses beside the file's lines. */
+/* The choices of keys. */
 struct gm_form_choice {
     enum gm_star star;
     enum gm_interior interior;
