@@ -40,6 +40,13 @@ struct opening {
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
 };
 
+/* A number that is held: entry `from` of a root of the held values, with a sign. */
+struct held_number {
+    size_t root, from, to; /* to: a number of the state, or of the unknowns */
+    double sign;
+    bool unknown;
+};
+
 struct own {
     struct gm_ode facets;
     struct gm_split split;
@@ -58,7 +65,12 @@ struct own {
     double **forms;             /* where each form is */
     size_t unknowns;
     bool *held, *held_unknown; /* of each number of the state, and of the unknowns */
-    double *given;             /* values of held unknowns, else 0 */
+    struct held_number *held_numbers;
+    size_t held_count;
+    bool held_changes; /* in time */
+    struct gm_form_values held_values;
+    double *current; /* a state with what is held now */
+    double *given;   /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
     double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
     bool observes;
@@ -190,6 +202,15 @@ static void compile_forms(const struct compiling *compiling)
           "exact: holds formulas of x, y, z, t and parameters alone");
 }
 
+static bool is_timed(const struct gm_form_program *program)
+{
+    bool timed = false;
+    for (size_t i = 0; i < program->count; i++) {
+        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
+    }
+    return timed;
+}
+
 /* Compiles the values of forms that are held on a part of the boundary. */
 static void compile_held(const struct compiling *compiling)
 {
@@ -213,7 +234,9 @@ static void compile_held(const struct compiling *compiling)
         roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
     }
     compile(compiling, &model->held, roots, count, false);
-    limit(compiling, &model->held, ~0u, roots, "a value that is held does not change in time");
+    limit(compiling, &model->held, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, roots,
+          "a value that is held is a formula of x, y, z, t and parameters");
+    system->timed |= is_timed(&model->held);
 }
 
 /* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
@@ -245,15 +268,6 @@ static void find_split(struct gm_form_model *model)
             return;
         }
     }
-}
-
-static bool is_timed(const struct gm_form_program *program)
-{
-    bool timed = false;
-    for (size_t i = 0; i < program->count; i++) {
-        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
-    }
-    return timed;
 }
 
 static void compile_all(struct gm_arena *arena, void *data)
@@ -542,11 +556,28 @@ static void solve(struct own *own, double t)
 
 /* ---- the equations of motion ---- */
 
-static void place_forms(struct own *own, const double *y)
+/* Writes the values that are held at a time, of unknowns, and in a state. */
+static void set_held(struct own *own, double t, double *y)
 {
+    gm_form_values_run(&own->held_values, t, own->forms);
+    for (size_t k = 0; k < own->held_count; k++) {
+        const struct held_number *held = &own->held_numbers[k];
+        (held->unknown ? own->given : y)[held->to] =
+            held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+    }
+}
+
+/* Lets forms be those of a state; if values that are held change, of a copy with their values now. */
+static void place_forms(struct own *own, const double *y, double t)
+{
+    double *state = (double *)(uintptr_t)y;
+    if (own->held_changes) {
+        state = memcpy(own->current, y, own->n * sizeof *y);
+        set_held(own, t, state);
+    }
     for (size_t i = 0; i < own->model->system->n; i++) {
-        own->forms[i] = own->model->system->forms[i].unknown ? own->unknown + own->offset[i]
-                                                             : (double *)(uintptr_t)y + own->offset[i];
+        own->forms[i] =
+            own->model->system->forms[i].unknown ? own->unknown + own->offset[i] : state + own->offset[i];
     }
 }
 
@@ -559,7 +590,7 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
     const double t = model->system->timed ? y[problem->n - 1] : 0;
     pthread_mutex_lock(&own->turn);
     own->seen_time = NAN;
-    place_forms(own, y);
+    place_forms(own, y, t);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
     for (size_t k = first; k < last; k++) {
@@ -665,7 +696,7 @@ static bool derive_at(struct own *own, const double *y, double t)
     }
     drop_factors(own);
     memcpy(own->derived_at, y, own->n * sizeof *y);
-    place_forms(own, own->derived_at);
+    place_forms(own, own->derived_at, t);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
     own->derived = gm_arena_open();
@@ -883,7 +914,20 @@ static bool solves_star(const struct gm_form_program *program)
     return solves;
 }
 
-/* Marks the numbers of forms that are held, with their values. */
+static void hold_number(struct own *own, size_t root, size_t from, double sign)
+{
+    const size_t variable = own->model->system->items[own->model->held_item[root]].variable;
+    const bool unknown = own->model->system->forms[variable].unknown;
+    const size_t to = own->offset[variable] + from, count = own->held_count++;
+    if ((count & (count - 1)) == 0) {
+        own->held_numbers =
+            gm_arena_resize(own->arena, own->held_numbers, 2 * count + 1, sizeof *own->held_numbers);
+    }
+    own->held_numbers[count] = (struct held_number){root, from, to, sign, unknown};
+    (unknown ? own->held_unknown : own->held)[to] = true;
+}
+
+/* Finds the numbers of forms that are held, and their values at the start. */
 static void hold(struct own *own, const double *variables)
 {
     const struct gm_form_model *model = own->model;
@@ -891,33 +935,32 @@ static void hold(struct own *own, const double *variables)
     const struct gm_complex *complex = own->space.complex;
     bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges), given = false,
          *own_edges = gm_arena_take(own->arena, complex->edges, sizeof *own_edges);
-    struct gm_form_values values;
-    open_values(own, &values, &model->held, variables);
-    gm_form_values_run(&values, 0, own->forms);
+    open_values(own, &own->held_values, &model->held, variables);
     for (size_t i = 0; i < model->held.root_count; i++) {
         const struct gm_system_item *item = &system->items[model->held_item[i]];
-        const struct gm_form_declared *form = &system->forms[item->variable];
-        const double *value = gm_form_values_root(&values, i);
-        bool *held = (form->unknown ? own->held_unknown : own->held) + own->offset[item->variable];
-        double *to = (form->unknown ? own->given : own->start) + own->offset[item->variable];
+        const int degree = system->forms[item->variable].degree;
         mark_part(own, item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
-            const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
-            if (edges[e] && form->degree == 1) {
-                held[e] = own_edges[e] = true;
-                to[e] = left ? value[e] : -value[e];
-                given |= value[e] != 0;
+            if (edges[e] && degree == 1) {
+                own_edges[e] = true;
+                hold_number(own, i, e,
+                            complex->edge_triangle[2 * e] >= 0 ? 1 : -1); /* the surface is on its left */
             }
-            for (size_t k = 0; k < 2 && edges[e] && form->degree != 1; k++) {
-                const int v = complex->edge[2 * e + k];
-                held[v] = true;
-                to[v] = value[v];
+            for (size_t k = 0; k < 2 && edges[e] && degree != 1; k++) {
+                hold_number(own, i, (size_t)complex->edge[2 * e + k], 1);
             }
         }
     }
+    own->held_changes = is_timed(&model->held);
+    set_held(own, 0, own->start);
+    for (size_t k = 0; k < own->held_count; k++) {
+        const struct held_number *held = &own->held_numbers[k];
+        given |= system->forms[system->items[model->held_item[held->root]].variable].degree == 1 &&
+                 (held->unknown ? own->given : own->start)[held->to] != 0;
+    }
     const bool inverts = own->space.mass && (solves_star(&model->equations) || solves_star(&model->rates));
     gm_arena_refuse_if(
-        own->arena, given && inverts,
+        own->arena, (given || own->held_changes) && inverts,
         "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
         "not f = -k*star(d(p)), or take star=circumcentric");
     gm_form_space_hold(&own->space, own_edges);
@@ -1013,6 +1056,7 @@ static void make(struct gm_arena *arena, void *data)
     own->given = doubles(own, own->unknowns + 1);
     own->start = doubles(own, own->n);
     own->seen = doubles(own, own->n);
+    own->current = doubles(own, own->n);
     own->scratch = doubles(own, 3 * (complex->edges + 1));
     own->held = gm_arena_take(arena, own->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
@@ -1028,7 +1072,7 @@ static void make(struct gm_arena *arena, void *data)
     own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
-        place_forms(own, own->start);
+        place_forms(own, own->start, 0);
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own);
     }
@@ -1115,7 +1159,7 @@ static void look(const struct gm_problem *problem, const double *y, double t)
     if (own->seen_time != t || memcmp(own->seen, y, problem->n * sizeof *y) != 0) {
         memcpy(own->seen, y, problem->n * sizeof *y);
         own->seen_time = t;
-        place_forms(own, own->seen);
+        place_forms(own, own->seen, t);
         solve(own, t);
         own->observes = false;
     }
