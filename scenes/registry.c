@@ -59,7 +59,7 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
         return NULL;
     }
     if (gm_system_is_form(&system)) {
-        return gm_form_scene_open(&system, file->name, NULL, fault, sentence);
+        return gm_form_scene_open(&system, &(struct gm_form_source){.name = file->name}, fault, sentence);
     }
     size_t others;
     const bool elsewhere = gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;

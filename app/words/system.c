@@ -256,8 +256,9 @@ static bool open_system(struct making *making)
     const char *const *words = (const char *const *)made->words.words;
     const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
     made->close = gm_system_scene_close;
+    struct gm_form_source source = {.name = made->name, .words = words, .path = written->path};
     if (form) {
-        made->scene = gm_form_scene_open(&making->system, made->name, words, &fault, making->message);
+        made->scene = gm_form_scene_open(&making->system, &source, &fault, making->message);
     } else {
         made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere,
                                                  &fault, making->message)
@@ -273,6 +274,7 @@ static bool open_system(struct making *making)
         snprintf(fault.sentence, sizeof fault.sentence, "%s", making->message);
         refuse_text(making, &fault);
     }
+    making->trial->status = source.unread ? GM_EXIT_FILE : making->trial->status;
     return made->scene != NULL;
 }
 

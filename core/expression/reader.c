@@ -617,6 +617,24 @@ static gm_node_id read_called(struct reader *reader, size_t begin, const struct 
     return node;
 }
 
+/* Reads a first operand, NAME before a comma, that the scope takes as a word. Returns the number of operands read. */
+static size_t read_word(struct reader *reader, const struct gm_name *called, gm_node_id *operands)
+{
+    const struct gm_scope *scope = &reader->scope;
+    const size_t length =
+        gm_is_letter(peek(reader)) ? gm_name_length(reader->text + reader->at, reader->end - reader->at) : 0;
+    const struct gm_name word = {.text = reader->text + reader->at, .length = length};
+    const size_t begin = reader->at;
+    reader->at += length;
+    if (length > 0 && peek(reader) == ',' && scope->word &&
+        scope->word(scope->data, called, &word, operands)) {
+        take(reader, ',');
+        return 1;
+    }
+    reader->at = begin;
+    return 0;
+}
+
 static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operation operation)
 {
     if (operation == GM_OPERATION_CHOSEN) {
@@ -820,7 +838,7 @@ static gm_node_id read_name(struct reader *reader, bool exact)
     if (called && scope->calls && scope->calls(scope->data, &name) &&
         function_of(name.text, length) == GM_CONSTANT) {
         take(reader, '(');
-        return read_called(reader, begin, &name, operands, 0);
+        return read_called(reader, begin, &name, operands, read_word(reader, &name, operands));
     }
     const enum gm_operation function = function_of(name.text, length);
     const bool sum = is_word("sum", name.text, length), product = is_word("prod", name.text, length);

@@ -77,6 +77,8 @@ struct gm_scope {
     struct gm_definition *(*definition)(void *data, const char *name, size_t length);
     /* Names that are called with formulas, NAME(a, b): false for others; `call` makes the node. NULL: none. */
     bool (*calls)(const void *data, const struct gm_name *name);
+    /* makes the node of a word that is the first operand of what is called; false: it is a formula; NULL: always */
+    bool (*word)(void *data, const struct gm_name *called, const struct gm_name *word, gm_node_id *node);
     enum gm_meaning (*call)(void *data, const struct gm_name *name, const gm_node_id *operands, size_t count,
                             gm_node_id *node, char *sentence);
     void *data;

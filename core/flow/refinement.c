@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A finer mesh of the same polygon. Vertices keep their numbers, followed by the middles of the edges in
    their order. Each triangle becomes four similar ones, so that angles are preserved. */
-#include "core/flow/gmsh.h"
+#include "core/form/gmsh.h"
 
 #include <string.h>
 

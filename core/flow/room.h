@@ -4,8 +4,8 @@
 
 #include "core/arena.h"
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh.h"
 #include "core/form/generators.h"
+#include "core/form/gmsh.h"
 #include "core/model/system.h"
 
 #include <stdint.h>

@@ -595,7 +595,7 @@ static void build(struct gm_arena *arena, void *data)
     memcpy(complex->period, from->period, sizeof complex->period);
     bool in_plane = true;
     for (size_t v = 0; v < from->vertices && from->in_space; v++) {
-        in_plane &= from->points[3 * v + 2] == 0;
+        in_plane &= from->points[3 * v + 2] == from->points[2];
     }
     orient(building, in_plane);
     building->sides = sort_sides(building);

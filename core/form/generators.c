@@ -442,9 +442,12 @@ static const struct {
     size_t lengths;     /* the first of them are lengths; the others are whole numbers */
     void (*lay)(struct laying *laying);
 } generators[GENERATORS] = {
-    {"rectangle", "W H N [M]", 3, 4, 2, NULL},  {"flat-torus", "W H N [M]", 3, 4, 2, NULL},
-    {"disc", "R n", 2, 2, 1, lay_disc},         {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
-    {"sphere", "R level", 2, 2, 1, lay_sphere}, {"torus", "R r N [M]", 3, 4, 2, lay_torus},
+    {"rectangle", "W H N [M [irregular]]", 3, 5, 2, NULL},
+    {"flat-torus", "W H N [M [irregular]]", 3, 5, 2, NULL},
+    {"disc", "R n", 2, 2, 1, lay_disc},
+    {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
+    {"sphere", "R level", 2, 2, 1, lay_sphere},
+    {"torus", "R r N [M]", 3, 4, 2, lay_torus},
     {"strip", "L n", 2, 2, 1, lay_strip},
 };
 
@@ -461,8 +464,8 @@ static enum which which_of(const char *word)
 static long rows_of(enum which which, const double *number, size_t count)
 {
     const double n = count > 2 ? number[2] : 0;
-    if (count == generators[which].most) {
-        return (long)number[count - 1];
+    if (count > 3) {
+        return (long)number[3];
     }
     return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
            : which == ANNULUS ? lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2))
@@ -485,6 +488,14 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
     }
     for (size_t i = 0; i < count; i++) {
         const bool whole = i >= generators[which].lengths;
+        if (i == 4 && !(number[i] >= 0 && number[i] < 0.5)) {
+            return gm_fail(fault, place,
+                           "mesh: %s: vertices are moved by %g of an edge: it has to be below 1/2", word,
+                           number[i]);
+        }
+        if (i == 4) {
+            break;
+        }
         const double least = which == SPHERE && whole ? 0 : 1, most = which == SPHERE ? 9 : MOST;
         if (!whole && !(number[i] > 0 && isfinite(number[i]))) {
             return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
@@ -581,6 +592,7 @@ struct gm_complex *gm_generator_open(const char *word, const double *number, siz
                                                         .edges = (long)number[2],
                                                         .strips = rows_of(which, number, count),
                                                         .torus = which == FLAT_TORUS,
+                                                        .irregular = count > 4 ? number[4] : 0,
                                                         .star = star},
                                  fault);
     }

@@ -33,7 +33,10 @@ long gm_rectangle_edges(const struct gm_rectangle *rectangle);
 struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle,
                                      struct gm_triangulation_fault *fault);
 
-/* rectangle W H N [M], flat-torus W H N [M], disc R n, annulus R1 R2 N [m], sphere R level, torus R r N [M], strip L n. A
+enum { GM_GENERATOR_NUMBERS = 5 }; /* the most */
+
+/* rectangle W H N [M [irregular]], flat-torus the same, disc R n, annulus R1 R2 N [m], sphere R level, torus R r N [M],
+   strip L n. A
    generator checks its numbers: false with a fault at that place of a text. */
 bool gm_generator_check(const char *word, const double *numbers, size_t count, size_t place,
                         struct gm_fault *fault);

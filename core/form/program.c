@@ -242,7 +242,9 @@ static struct part negative(struct compiling *compiling, struct part a)
 
 static struct part star(struct compiling *compiling, struct part a)
 {
-    a = decided(compiling, a);
+    a = is_formula(a) && a.type.degree == GM_FORM_NUMBER
+            ? sampled(compiling, a, (struct gm_form_type){0, false})
+            : decided(compiling, a);
     if (a.type.degree == GM_FORM_NUMBER) {
         refuse(compiling, "star is of a form, and this is a number");
     }
@@ -343,33 +345,92 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
     return operate(compiling, GM_OPERATION_MULTIPLY, mean, other);
 }
 
-static struct part interior(struct compiling *compiling, struct part u, struct part a)
+/* The velocity's flux; refuses what is not a velocity. */
+static struct part flux_of(struct compiling *compiling, struct part u)
 {
-    const struct gm_form_type velocity = {1, true};
-    a = decided(compiling, a);
-    if (!fit(compiling, &u, velocity)) {
+    if (!fit(compiling, &u, (struct gm_form_type){1, true})) {
         refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
                gm_form_type_text(u.type));
     }
+    return star(compiling, u);
+}
+
+/* The speed along a 1-form at centres of mass: a(v) area = a ^ star(u); of a dual a, the product of both stars, which
+   are turned by 90 degrees. */
+static struct part speed_along(struct compiling *compiling, struct part flux, struct part a)
+{
+    if (!a.type.dual) {
+        return star(compiling, wedge(compiling, a, flux));
+    }
+    const struct gm_form_type type = {0, true};
+    const struct part turned = star(compiling, a);
+    struct part sum = {0};
+    for (int c = 0; c < 3; c++) {
+        const enum gm_form_matrix matrix = (enum gm_form_matrix)(GM_MATRIX_CENTRE_X + c);
+        const struct part product =
+            operate(compiling, GM_OPERATION_MULTIPLY, times(compiling, matrix, flux, type),
+                    times(compiling, matrix, turned, type));
+        sum = c == 0 ? product : operate(compiling, GM_OPERATION_ADD, sum, product);
+    }
+    return sum;
+}
+
+static struct part interior(struct compiling *compiling, struct part u, struct part a)
+{
+    a = decided(compiling, a);
+    struct part flux = flux_of(compiling, u);
+    if (a.type.degree == 1) {
+        return speed_along(compiling, flux, a);
+    }
     if (a.type.degree != 2) {
-        refuse(compiling, "interior is of a 2-form here, and this is %s", gm_form_type_text(a.type));
+        refuse(compiling, "interior is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
-    struct part flux = star(compiling, u);
-    struct part mean = star(compiling, a);
-    const struct gm_form_type type = {1, a.type.dual};
-    if (a.type.dual) {
-        flux = times(compiling, GM_MATRIX_TRANSFER, flux, type);
-    }
-    mean = times(compiling, a.type.dual ? GM_MATRIX_MEAN1 : GM_MATRIX_ACROSS, mean, type);
+    const bool dual = a.type.dual;
+    const struct part density = star(compiling, a);
+    const struct gm_form_type type = {1, dual};
+    flux = dual ? times(compiling, GM_MATRIX_TRANSFER, flux, type) : flux;
     flux.type = type;
-    return operate(compiling, GM_OPERATION_MULTIPLY, flux, mean);
+    const struct part mean = times(compiling, dual ? GM_MATRIX_MEAN1 : GM_MATRIX_ACROSS, density, type),
+                      jump = times(compiling, dual ? GM_MATRIX_JUMP1 : GM_MATRIX_JUMP2, density, type),
+                      size = operate(compiling, GM_OPERATION_ABS, flux, flux);
+    return operate(compiling, GM_OPERATION_SUBTRACT, operate(compiling, GM_OPERATION_MULTIPLY, flux, mean),
+                   operate(compiling, GM_OPERATION_MULTIPLY, size, jump));
+}
+
+/* d interior(u, c). What flows out of a dual cell through the boundary carries its own value; what flows in brings
+   nothing. */
+static struct part lie(struct compiling *compiling, struct part u, struct part c)
+{
+    c = decided(compiling, c);
+    if (c.type.degree != 2) {
+        refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
+    }
+    const struct part inside = d(compiling, interior(compiling, u, c));
+    if (!c.type.dual) {
+        return inside;
+    }
+    const struct gm_form_type edges = {1, false};
+    const struct part out = times(compiling, GM_MATRIX_OUT, flux_of(compiling, u), edges),
+                      twice = operate(compiling, GM_OPERATION_ADD, out,
+                                      operate(compiling, GM_OPERATION_ABS, out, out)),
+                      through = times(compiling, GM_MATRIX_HALVES, twice, c.type);
+    struct part density = star(compiling, c);
+    density.type = c.type;
+    return operate(compiling, GM_OPERATION_ADD, inside,
+                   operate(compiling, GM_OPERATION_MULTIPLY, through, density));
+}
+
+/* Refuses a number that is made of forms in an equation. */
+static void refuse_nonlocal(struct compiling *compiling, struct part a)
+{
+    if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
+        refuse(compiling, "an equation has no numbers that are made of its unknowns, and no parts of them");
+    }
 }
 
 static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
 {
-    if (compiling->linear && (needs_of(compiling, a) & GM_NEEDS_UNKNOWNS)) {
-        refuse(compiling, "an equation has no numbers that are made of its unknowns");
-    }
+    refuse_nonlocal(compiling, a);
     return made(compiling,
                 (struct gm_form_step){
                     .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
@@ -385,6 +446,71 @@ static struct part integral(struct compiling *compiling, struct part a)
         refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
     return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
+}
+
+/* integral(PART, a) */
+static struct part around(struct compiling *compiling, gm_node_id part, struct part a)
+{
+    const struct gm_node *node = &compiling->system->graph.nodes[part];
+    if (node->operation != GM_CONSTANT) {
+        refuse(compiling, "integral(PART, a) begins with a part of the boundary");
+    }
+    if (!fit(compiling, &a, (struct gm_form_type){1, false})) {
+        refuse(compiling, "the integral along a part of the boundary is of a 1-form, and this is %s",
+               gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    return made(compiling, (struct gm_form_step){.kind = GM_STEP_AROUND,
+                                                 .type = any_number,
+                                                 .needs = needs_of(compiling, a),
+                                                 .a = a.step,
+                                                 .number = (size_t)node->value});
+}
+
+/* at(a, x, y, z) */
+static struct part at(struct compiling *compiling, const struct gm_form_call *call)
+{
+    const struct part a = decided(compiling, compiling->known[call->operands[0]].part);
+    if (a.type.degree != 0) {
+        refuse(compiling, "at is of a 0-form, and this is %s", gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    struct gm_form_step step = {.kind = GM_STEP_AT,
+                                .type = any_number,
+                                .needs = needs_of(compiling, a),
+                                .a = a.step,
+                                .components = call->count - 1};
+    for (size_t i = 0; i < step.components; i++) {
+        const struct part place = compiling->known[call->operands[i + 1]].part;
+        if (place.type.degree != GM_FORM_NUMBER) {
+            refuse(compiling, "the coordinates of at are numbers, and this is %s",
+                   gm_form_type_text(place.type));
+        }
+        const struct part number = decided(compiling, place);
+        step.needs |= needs_of(compiling, number);
+        step.nodes[i] = (gm_node_id)number.step;
+    }
+    return made(compiling, step);
+}
+
+/* Parts of a 1-form by Hodge. */
+static struct part part_of(struct compiling *compiling, enum gm_form_operator operator, struct part a)
+{
+    const struct gm_form_type type = {1, false};
+    if (!fit(compiling, &a, type)) {
+        refuse(compiling, "exact, coexact and harmonic are of a 1-form, and this is %s",
+               gm_form_type_text(a.type));
+    }
+    refuse_nonlocal(compiling, a);
+    struct gm_form_step step = {
+        .kind = GM_STEP_EXACT, .type = type, .needs = needs_of(compiling, a), .a = a.step};
+    const struct part exact = operator== GM_FORM_COEXACT ? a : made(compiling, step);
+    step.kind = GM_STEP_COEXACT;
+    const struct part coexact = operator== GM_FORM_EXACT ? a : made(compiling, step);
+    return operator== GM_FORM_EXACT   ? exact :
+           operator== GM_FORM_COEXACT ? coexact
+                                      : operate(compiling, GM_OPERATION_SUBTRACT,
+                                                operate(compiling, GM_OPERATION_SUBTRACT, a, exact), coexact);
 }
 
 static struct part inner(struct compiling *compiling, struct part a, struct part b)
@@ -454,13 +580,8 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
         return wedge(compiling, a, b);
     case GM_FORM_INTERIOR:
         return interior(compiling, a, b);
-    case GM_FORM_LIE: {
-        const struct part c = decided(compiling, b);
-        if (c.type.degree != 2) {
-            refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
-        }
-        return d(compiling, interior(compiling, a, c));
-    }
+    case GM_FORM_LIE:
+        return lie(compiling, a, b);
     case GM_FORM_FORM:
         for (size_t i = 0; i < call->count; i++) {
             if (compiling->known[call->operands[i]].of_forms) {
@@ -468,8 +589,14 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
             }
         }
         return (struct part){{GM_FORM_COVECTOR, false}, NONE, compiling->now};
+    case GM_FORM_EXACT:
+    case GM_FORM_COEXACT:
+    case GM_FORM_HARMONIC:
+        return part_of(compiling, call->operator, a);
+    case GM_FORM_AT:
+        return at(compiling, call);
     case GM_FORM_INTEGRAL:
-        return integral(compiling, a);
+        return call->count > 1 ? around(compiling, call->operands[0], b) : integral(compiling, a);
     case GM_FORM_INNER:
         return inner(compiling, a, b);
     default: {

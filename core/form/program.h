@@ -18,6 +18,10 @@ struct gm_form_step {
         GM_STEP_OPERATE, /* operation `number` on the entries of a and b, of which one may be a number */
         GM_STEP_WEDGE,   /* of two primal 1-forms: the integral of the product of Whitney's forms */
         GM_STEP_CLOSING, /* boundary line `number`: the part of dual cells along it, of the integrals a */
+        GM_STEP_EXACT,   /* parts of a 1-form by Hodge */
+        GM_STEP_COEXACT,
+        GM_STEP_AROUND, /* the integral of a along boundary part `number` */
+        GM_STEP_AT,     /* the value of a at the place whose coordinates are the steps `nodes` */
         GM_STEP_SUM,
         GM_STEP_LARGEST,
         GM_STEP_LEAST,

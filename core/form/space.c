@@ -30,6 +30,27 @@ long gm_form_betti(const struct gm_complex *complex, int degree)
     return degree == 0 ? pieces : degree == 2 ? closed : pieces + closed - euler;
 }
 
+void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece)
+{
+    const size_t count = triangles ? complex->triangles : complex->vertices;
+    bool changed = true;
+    for (size_t i = 0; i < count; i++) {
+        piece[i] = (int)i;
+    }
+    while (changed) { /* the least number of a piece spreads */
+        changed = false;
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
+            if (pair[0] < 0 || pair[1] < 0) {
+                continue;
+            }
+            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
+            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
+            piece[pair[0]] = piece[pair[1]] = least;
+        }
+    }
+}
+
 void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
 {
     for (size_t c = 0; c < 3; c++) {
@@ -56,12 +77,17 @@ static void add(struct entries *entries, size_t row, size_t column, double value
 }
 
 /* Makes the matrix, and frees its entries. */
+static struct gm_matrix made_of(struct gm_arena *arena, struct entries *entries, size_t rows, size_t columns)
+{
+    struct gm_matrix matrix = gm_matrix_of(arena, rows, columns, entries->list, entries->count);
+    gm_arena_drop(arena, entries->list);
+    return matrix;
+}
+
 static struct gm_matrix made(struct gm_form_space *space, struct entries *entries, size_t rows,
                              size_t columns)
 {
-    struct gm_matrix matrix = gm_matrix_of(space->arena, rows, columns, entries->list, entries->count);
-    gm_arena_drop(space->arena, entries->list);
-    return matrix;
+    return made_of(space->arena, entries, rows, columns);
 }
 
 static double dot(const double *a, const double *b)
@@ -69,20 +95,22 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The inner products of the gradients of barycentric coordinates, g_a.g_b = e_a.e_b / (4 area^2) with the edges
-   e_a opposite to corner a, one after another. */
-static void gradients(const struct gm_complex *complex, size_t t, double products[3][3])
+/* The gradients of barycentric coordinates: e_a turned by 90 degrees over 2 area, e_a opposite to corner a. */
+static void gradients(const struct gm_complex *complex, size_t t, double g[3][3])
 {
-    double p[9], e[3][3];
+    double p[9], n[3];
     gm_complex_corners_in_space(complex, t, p);
-    for (size_t a = 0; a < 3; a++) {
-        for (size_t c = 0; c < 3; c++) {
-            e[a][c] = p[(a + 2) % 3 * 3 + c] - p[(a + 1) % 3 * 3 + c];
-        }
+    for (int c = 0; c < 3; c++) {
+        const int next = (c + 1) % 3, last = (c + 2) % 3;
+        n[c] = (p[3 + next] - p[next]) * (p[6 + last] - p[last]) -
+               (p[3 + last] - p[last]) * (p[6 + next] - p[next]);
     }
     for (int a = 0; a < 3; a++) {
-        for (int b = 0; b < 3; b++) {
-            products[a][b] = dot(e[a], e[b]) / (4 * complex->area[t] * complex->area[t]);
+        const double *from = p + (a + 1) % 3 * 3, *to = p + (a + 2) % 3 * 3;
+        for (int c = 0; c < 3; c++) {
+            const int next = (c + 1) % 3, last = (c + 2) % 3;
+            g[a][c] = (n[next] * (to[last] - from[last]) - n[last] * (to[next] - from[next])) /
+                      (4 * complex->area[t] * complex->area[t]);
         }
     }
 }
@@ -99,8 +127,9 @@ static struct gm_matrix mass_of(struct gm_form_space *space)
                 const size_t i = a, j = (a + 1) % 3, k = b, l = (b + 1) % 3;
                 const double sign = complex->triangle_sign[3 * t + a] * complex->triangle_sign[3 * t + b];
                 const double unit = complex->area[t] / 12;
-                const double value = unit * ((1 + (i == k)) * g[j][l] - (1 + (i == l)) * g[j][k] -
-                                             (1 + (j == k)) * g[i][l] + (1 + (j == l)) * g[i][k]);
+                const double value =
+                    unit * ((1 + (i == k)) * dot(g[j], g[l]) - (1 + (i == l)) * dot(g[j], g[k]) -
+                            (1 + (j == k)) * dot(g[i], g[l]) + (1 + (j == l)) * dot(g[i], g[k]));
                 add(&entries, (size_t)complex->triangle_edge[3 * t + a],
                     (size_t)complex->triangle_edge[3 * t + b], sign * value);
             }
@@ -134,6 +163,113 @@ static struct gm_matrix transfer_of(struct gm_form_space *space)
         }
     }
     return made(space, &entries, complex->edges, complex->edges);
+}
+
+/* The mean of the Whitney forms of both triangles along a dual edge, each of them continued beyond its triangle. */
+static struct gm_matrix averaged_transfer_of(const struct gm_form_space *space, struct gm_arena *arena)
+{
+    const struct gm_complex *complex = space->complex;
+    struct entries entries = entries_for(arena, 18 * complex->triangles);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double g[3][3];
+        gradients(complex, t, g);
+        for (size_t side = 0; side < 3; side++) {
+            const size_t e = (size_t)complex->triangle_edge[3 * t + side];
+            const int *pair = complex->edge_triangle + 2 * e, other = pair[0] == (int)t ? pair[1] : pair[0];
+            double p[9];
+            gm_complex_corners_in_space(complex, other >= 0 ? (size_t)other : t, p);
+            for (int half = 0; half < (other >= 0 ? 2 : 1);
+                 half++) { /* from here to the middle, and beyond */
+                double from[3], to[3];
+                for (size_t c = 0; c < 3; c++) {
+                    const double m = c == (side + 2) % 3 ? 0 : 0.5;
+                    from[c] = half ? m : complex->weight[3 * t + c];
+                    to[c] = m;
+                }
+                if (half) {
+                    size_t edge = 0;
+                    while ((size_t)complex->triangle_edge[3 * other + (int)edge] != e) {
+                        edge++;
+                    }
+                    for (size_t c = 0; c < 3; c++) {
+                        for (int k = 0; k < 3; k++) {
+                            const double middle = (p[3 * edge + k] + p[(edge + 1) % 3 * 3 + k]) / 2;
+                            double centre = 0;
+                            for (int corner = 0; corner < 3; corner++) {
+                                centre += complex->weight[3 * other + corner] * p[3 * corner + k];
+                            }
+                            to[c] += g[c][k] * (centre - middle);
+                        }
+                    }
+                }
+                for (size_t a = 0; a < 3; a++) {
+                    const size_t i = a, j = (a + 1) % 3;
+                    const double along =
+                        (from[i] + to[i]) / 2 * (to[j] - from[j]) - (from[j] + to[j]) / 2 * (to[i] - from[i]);
+                    add(&entries, e, (size_t)complex->triangle_edge[3 * t + a],
+                        -complex->triangle_sign[3 * t + side] * complex->triangle_sign[3 * t + a] * along *
+                            (other >= 0 ? 0.5 : 1));
+                }
+            }
+        }
+    }
+    return made_of(arena, &entries, complex->edges, complex->edges);
+}
+
+/* The components of Whitney's forms at centres of mass, (g_j - g_i)/3 of an edge i -> j. */
+static void make_centres(struct gm_form_space *space, struct gm_arena *arena)
+{
+    const struct gm_complex *complex = space->complex;
+    for (int c = 0; c < 3; c++) {
+        struct entries entries = entries_for(arena, 3 * complex->triangles);
+        for (size_t t = 0; t < complex->triangles; t++) {
+            double g[3][3];
+            gradients(complex, t, g);
+            for (size_t a = 0; a < 3; a++) {
+                add(&entries, t, (size_t)complex->triangle_edge[3 * t + a],
+                    complex->triangle_sign[3 * t + a] * (g[(a + 1) % 3][c] - g[a][c]) / 3);
+            }
+        }
+        space->matrix[GM_MATRIX_CENTRE_X + c] = made_of(arena, &entries, complex->triangles, complex->edges);
+    }
+}
+
+void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enum gm_form_matrix number)
+{
+    const struct gm_complex *complex = space->complex;
+    const bool upwind = space->interior == GM_INTERIOR_UPWIND;
+    if (number == GM_MATRIX_TRANSFER && space->interior == GM_INTERIOR_WHITNEY && !space->averaged) {
+        space->averaged = true;
+        space->matrix[number] = averaged_transfer_of(space, arena);
+    }
+    if (space->matrix[number].start) {
+        return;
+    }
+    if (number >= GM_MATRIX_CENTRE_X) {
+        make_centres(space, arena);
+        return;
+    }
+    struct entries entries = entries_for(arena, 2 * complex->edges);
+    for (size_t e = 0; e < complex->edges; e++) {
+        const int *pair = complex->edge_triangle + 2 * e, *ends = complex->edge + 2 * e;
+        const bool inside = pair[0] >= 0 && pair[1] >= 0;
+        for (size_t k = 0; k < 2; k++) {
+            if (number == GM_MATRIX_JUMP1 && upwind) {
+                add(&entries, e, (size_t)ends[k], k ? 0.5 : -0.5);
+            } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
+                add(&entries, e, (size_t)pair[k], k ? 0.5 : -0.5);
+            } else if (number == GM_MATRIX_HALVES && !inside) {
+                add(&entries, (size_t)ends[k], e, 0.25);
+            } else if (number == GM_MATRIX_OUT && !inside && k == 0) {
+                add(&entries, e, e, pair[0] >= 0 ? 1 : -1);
+            }
+        }
+    }
+    const size_t cells = number == GM_MATRIX_HALVES ? complex->vertices : complex->edges,
+                 columns = number == GM_MATRIX_JUMP1   ? complex->vertices
+                           : number == GM_MATRIX_JUMP2 ? complex->triangles
+                                                       : complex->edges;
+    space->matrix[number] = made_of(arena, &entries, cells, columns);
 }
 
 static void make_derivatives(struct gm_form_space *space)
@@ -210,10 +346,30 @@ static void make_stars(struct gm_form_space *space)
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
     } else {
         matrix[GM_MATRIX_STAR1] = mass_of(space);
-        space->mass = gm_matrix_factor(arena, &matrix[GM_MATRIX_STAR1]);
+        space->inner = matrix[GM_MATRIX_STAR1];
+        space->mass = gm_matrix_factor(arena, &space->inner);
         gm_arena_need(arena, space->mass);
     }
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
+}
+
+void gm_form_space_hold(struct gm_form_space *space, const bool *held)
+{
+    if (!space->mass) {
+        return;
+    }
+    struct gm_matrix inner = gm_matrix_sum(space->arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
+    for (size_t e = 0; e < inner.rows; e++) {
+        for (int k = inner.start[e]; k < inner.start[e + 1]; k++) {
+            const int column = inner.column[k];
+            inner.value[k] = held[e] || held[column] ? column == (int)e : inner.value[k];
+        }
+    }
+    space->inner = inner;
+    space->held = held;
+    gm_arena_drop(space->arena, space->mass);
+    space->mass = gm_matrix_factor(space->arena, &inner);
+    gm_arena_need(space->arena, space->mass);
 }
 
 static void close_complex(void *complex)

@@ -34,7 +34,21 @@ enum gm_form_matrix {
     GM_MATRIX_MEAN1,    /* vertices to edges: the mean of both ends */
     GM_MATRIX_MEAN2,    /* vertices to triangles */
     GM_MATRIX_ACROSS,   /* triangles to edges: the mean of both sides */
+    GM_MATRIX_JUMP1,    /* made by gm_form_space_need, as are all from here on: half of head - tail */
+    GM_MATRIX_JUMP2,    /* triangles to edges: half of right - left. Both are 0 unless products are upwind */
+    GM_MATRIX_OUT,      /* edges to edges: what flows out through edges of the boundary */
+    GM_MATRIX_HALVES,   /* edges to dual cells: a quarter of edges of the boundary; 0 elsewhere */
+    GM_MATRIX_CENTRE_X, /* edges to triangles: Whitney's form at the centre of mass, and below */
+    GM_MATRIX_CENTRE_Y,
+    GM_MATRIX_CENTRE_Z,
     GM_FORM_MATRICES
+};
+
+/* Interior products: the value that a flux carries through an edge. */
+enum gm_interior {
+    GM_INTERIOR_DUAL,    /* the mean of both sides */
+    GM_INTERIOR_WHITNEY, /* the same, of the mean of both triangles' Whitney forms: a constant is not kept */
+    GM_INTERIOR_UPWIND,  /* the value at the side where it comes from */
 };
 
 struct gm_cholesky;
@@ -51,7 +65,11 @@ struct gm_form_space {
     struct gm_arena *arena;
     struct gm_complex *complex; /* taken */
     struct gm_matrix matrix[GM_FORM_MATRICES];
-    struct gm_cholesky *mass;            /* the factor of STAR1 if it is not diagonal; else NULL */
+    struct gm_cholesky *mass;            /* the factor of `inner` if STAR1 is not diagonal; else NULL */
+    struct gm_matrix inner;              /* STAR1 among the edges that are not held, and 1 on the others */
+    const bool *held;                    /* each edge; NULL: none is held */
+    enum gm_interior interior;           /* set by the caller before matrices are made for it */
+    bool averaged;                       /* TRANSFER is that of GM_INTERIOR_WHITNEY */
     double *dual_vertex;                 /* 3 a triangle */
     struct gm_form_points *points[2][3]; /* of dual and primal forms; NULL: not needed yet */
 };
@@ -64,10 +82,20 @@ struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_mat
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
 void gm_form_space_close(struct gm_form_space *space);
 
+/* Makes a matrix, unless it is there, in a body of an arena that the space does not outlive. */
+void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enum gm_form_matrix number);
+
+/* Makes the inverse of STAR1 one among 1-forms that are 0 on these edges, of which the space keeps the list: a body
+   of its arena. */
+void gm_form_space_hold(struct gm_form_space *space, const bool *held);
+
 /* The count of numbers of a form. */
 size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);
 /* The Betti numbers: pieces, loops that bound nothing, closed pieces. */
 long gm_form_betti(const struct gm_complex *complex, int degree);
+
+/* Labels the vertices, or the triangles, by the first one of their piece. */
+void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece);
 
 /* A point on the mesh. */
 void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);

@@ -42,6 +42,12 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
         if (step->kind != GM_STEP_FORM) {
             values->slot[i] = gm_arena_take(arena, size_of(values, i), sizeof(double));
         }
+        if (step->kind == GM_STEP_MATRIX) {
+            gm_form_space_need(space, arena, (enum gm_form_matrix)step->number);
+        }
+        if ((step->kind == GM_STEP_EXACT || step->kind == GM_STEP_COEXACT) && !values->hodge) {
+            values->hodge = gm_hodge_open(arena, space);
+        }
         if (step->kind == GM_STEP_SAMPLE) {
             const size_t count = step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
             values->sampled[i] = gm_arena_take(arena, 3 * count, sizeof(double));
@@ -141,10 +147,10 @@ static void multiply(const struct gm_form_space *space, enum gm_form_matrix matr
                      double *y)
 {
     if (matrix == GM_MATRIX_DUAL_STAR1 && space->mass) {
-        gm_cholesky_solve(space->mass, x, y);
         for (size_t e = 0; e < space->complex->edges; e++) {
-            y[e] = -y[e];
+            y[e] = space->held && space->held[e] ? 0 : -x[e];
         }
+        gm_cholesky_solve(space->mass, y, y);
     } else {
         gm_matrix_apply(&space->matrix[matrix], x, y);
     }
@@ -161,6 +167,56 @@ static void reduce(const struct gm_form_values *values, size_t i)
                                                  : fmin(result, a[k]);
     }
     values->slot[i][0] = result;
+}
+
+/* The squared distance of a place from a point of a triangle that is near to it, and barycentric coordinates of that
+   point: its place in the plane of the triangle, with what is negative cut off. */
+static double distance_to(const double corners[9], const double place[3], double weight[3])
+{
+    double u[3], v[3], w[3], uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, off = 0;
+    for (int k = 0; k < 3; k++) {
+        u[k] = corners[3 + k] - corners[k];
+        v[k] = corners[6 + k] - corners[k];
+        w[k] = place[k] - corners[k];
+        uu += u[k] * u[k], uv += u[k] * v[k], vv += v[k] * v[k], uw += u[k] * w[k], vw += v[k] * w[k];
+    }
+    weight[1] = fmax(0, (vv * uw - uv * vw) / (uu * vv - uv * uv));
+    weight[2] = fmax(0, (uu * vw - uv * uw) / (uu * vv - uv * uv));
+    weight[0] = fmax(0, 1 - weight[1] - weight[2]);
+    const double sum = weight[0] + weight[1] + weight[2];
+    for (int k = 0; k < 3; k++) {
+        weight[k] /= sum;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double gap = w[k] - weight[1] * u[k] - weight[2] * v[k];
+        off += gap * gap;
+    }
+    return off;
+}
+
+/* The value of a 0-form at a place: linear in the nearest triangle, or constant there if it is a dual one. */
+static double value_at(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const struct gm_complex *complex = values->space->complex;
+    const double *a = values->slot[step->a];
+    double point[3] = {0}, nearest = INFINITY, value = NAN;
+    for (size_t k = 0; k < step->components; k++) {
+        point[k] = values->slot[step->nodes[k]][0];
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double corners[9], weight[3];
+        gm_complex_corners_in_space(complex, t, corners);
+        const double off = distance_to(corners, point, weight);
+        const int *v = complex->triangle + 3 * t;
+        if (off < nearest) {
+            nearest = off;
+            value = values->program->steps[step->a].type.dual
+                        ? a[t]
+                        : weight[0] * a[v[0]] + weight[1] * a[v[1]] + weight[2] * a[v[2]];
+        }
+    }
+    return value;
 }
 
 void gm_form_values_run(struct gm_form_values *values, double t, double *const *forms)
@@ -191,6 +247,18 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
         case GM_STEP_CLOSING:
             gm_matrix_apply(&values->closings[step->number], values->slot[step->a], values->slot[i]);
             break;
+        case GM_STEP_EXACT:
+            gm_hodge_exact(values->hodge, values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_COEXACT:
+            gm_hodge_coexact(values->hodge, values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_AROUND:
+            gm_matrix_apply(&values->around[step->number], values->slot[step->a], values->slot[i]);
+            break;
+        case GM_STEP_AT:
+            values->slot[i][0] = value_at(values, i);
+            break;
         default:
             reduce(values, i);
         }
@@ -203,64 +271,143 @@ const double *gm_form_values_root(const struct gm_form_values *values, size_t ro
     return values->slot[values->program->roots[root]];
 }
 
-/* The derivative of a sum, or of a product with what does not depend on the unknowns. */
+/* The derivative of an operation over one of its operands. */
+static double slope_of(enum gm_operation operation, double a, double b, bool second)
+{
+    switch (operation) {
+    case GM_OPERATION_ADD:
+        return 1;
+    case GM_OPERATION_SUBTRACT:
+        return second ? -1 : 1;
+    case GM_OPERATION_NEGATE:
+        return -1;
+    case GM_OPERATION_MULTIPLY:
+        return second ? a : b;
+    case GM_OPERATION_DIVIDE:
+        return second ? -a / (b * b) : 1 / b;
+    default: { /* by a central difference: near enough for an iteration */
+        const double h = 0x1p-18 * fmax(1, fabs(second ? b : a)), p = second ? 0 : h, q = second ? h : 0;
+        const double slope =
+            (gm_operation_value(operation, a + p, b + q) - gm_operation_value(operation, a - p, b - q)) /
+            (2 * h);
+        return isfinite(slope) ? slope : 0;
+    }
+    }
+}
+
+/* The derivative of an operation on entries, over operands of as many numbers that have one; none: no matrix. */
 static struct gm_matrix derivative(const struct gm_form_values *values, struct gm_arena *arena, size_t i,
                                    const struct gm_matrix *parts)
 {
     const struct gm_form_step *step = &values->program->steps[i];
-    const struct gm_matrix *a = parts[step->a].start ? &parts[step->a] : NULL,
-                           *b = parts[step->b].start ? &parts[step->b] : NULL;
     const enum gm_operation operation = (enum gm_operation)step->number;
-    const double sign = operation == GM_OPERATION_SUBTRACT ? -1 : 1;
-    if (operation == GM_OPERATION_NEGATE) {
-        return gm_matrix_sum(arena, -1, a, 0, NULL);
+    const size_t n = size_of(values, i), operands[2] = {step->a, step->b},
+                 used = gm_operation_rows[operation].arity == 1 ? 1 : 2;
+    const size_t p = size_of(values, step->a) == n, q = size_of(values, step->b) == n;
+    const double *a = values->slot[step->a], *b = values->slot[step->b];
+    struct gm_matrix sum = {0};
+    for (size_t k = 0; k < used; k++) {
+        if (!parts[operands[k]].start || size_of(values, operands[k]) != n) {
+            continue;
+        }
+        struct gm_matrix part = gm_matrix_sum(arena, 1, &parts[operands[k]], 0, NULL);
+        double *slopes = gm_arena_take(arena, n, sizeof *slopes);
+        for (size_t j = 0; j < n; j++) {
+            slopes[j] = slope_of(operation, a[p * j], b[q * j], k == 1);
+        }
+        gm_matrix_scale(&part, slopes);
+        sum = sum.start ? gm_matrix_sum(arena, 1, &sum, 1, &part) : part;
     }
-    if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT) {
-        return a ? gm_matrix_sum(arena, 1, a, sign, b) : gm_matrix_sum(arena, sign, b, 0, NULL);
-    }
-    const size_t factor = a ? step->b : step->a, n = size_of(values, i);
-    const bool number = size_of(values, factor) != n;
-    double *scale = gm_arena_take(arena, n, sizeof *scale);
+    return sum;
+}
+
+static bool is_inverse(const struct gm_form_values *values, const struct gm_form_step *step)
+{
+    return step->kind == GM_STEP_MATRIX && step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass;
+}
+
+static struct gm_matrix unit(struct gm_arena *arena, size_t n, size_t columns, size_t first)
+{
+    struct gm_matrix_rows rows = gm_matrix_begin(arena, n, columns, n);
     for (size_t k = 0; k < n; k++) {
-        const double value = values->slot[factor][number ? 0 : k];
-        scale[k] = operation == GM_OPERATION_DIVIDE ? 1 / value : value;
+        gm_matrix_add(&rows, (int)(first + k), 1);
+        gm_matrix_end_row(&rows, false);
     }
-    struct gm_matrix product = gm_matrix_sum(arena, 1, a ? a : b, 0, NULL);
-    gm_matrix_scale(&product, scale);
-    return product;
+    return gm_matrix_end(&rows);
+}
+
+/* The matrices of the rows m + M^-1 a = 0 of a step that solves with the mass matrix M, written M m + a = 0; numbers
+   that are held are 0. */
+static struct gm_matrix inverse(const struct gm_form_values *values, struct gm_arena *arena,
+                                const struct gm_matrix *a, const struct gm_matrix *m)
+{
+    const struct gm_form_space *space = values->space;
+    const struct gm_matrix whole = gm_matrix_product(arena, &space->inner, m);
+    struct gm_matrix right = gm_matrix_sum(arena, 1, a, 0, NULL);
+    double *free_of = gm_arena_take(arena, right.rows, sizeof *free_of);
+    for (size_t e = 0; e < right.rows; e++) {
+        free_of[e] = space->held && space->held[e] ? 0 : 1;
+    }
+    gm_matrix_scale(&right, free_of);
+    return gm_matrix_sum(arena, 1, &whole, 1, &right);
+}
+
+/* Adds the rows of a part to entries that the arena keeps. */
+static void place(struct gm_arena *arena, struct gm_matrix_entry **all, size_t *count,
+                  const struct gm_matrix *part, size_t first)
+{
+    const size_t more = (size_t)part->start[part->rows];
+    *all = gm_arena_resize(arena, *all, *count + more + 1, sizeof **all);
+    for (size_t i = 0; i < part->rows; i++) {
+        for (int k = part->start[i]; k < part->start[i + 1]; k++) {
+            (*all)[(*count)++] = (struct gm_matrix_entry){(int)(first + i), part->column[k], part->value[k]};
+        }
+    }
 }
 
 struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
-                                       size_t root, const size_t *offset, size_t columns)
+                                       const struct gm_form_layout *layout)
 {
     const struct gm_form_program *program = values->program;
-    const size_t last = program->roots[root];
     struct gm_matrix *parts = gm_arena_take(arena, program->count + 1, sizeof *parts);
-    for (size_t i = 0; i <= last; i++) {
+    struct gm_matrix_entry *all = NULL;
+    size_t count = 0, columns = layout->count, inner = columns;
+    for (size_t i = 0; i < program->count; i++) {
+        const bool inverse_of = is_inverse(values, &program->steps[i]);
+        columns += inverse_of && (program->steps[i].needs & layout->needs) ? size_of(values, i) : 0;
+    }
+    const struct gm_matrix ones = unit(arena, columns, columns, 0),
+                           diagonal = gm_matrix_sum(arena, 0, &ones, 0, NULL);
+    place(arena, &all, &count, &diagonal, 0);
+    for (size_t i = 0; i < program->count; i++) {
         const struct gm_form_step *step = &program->steps[i];
-        if (!(step->needs & GM_NEEDS_UNKNOWNS)) {
+        const size_t n = size_of(values, i);
+        if (!(step->needs & layout->needs)) {
             continue;
         }
-        if (step->kind == GM_STEP_FORM) {
-            const size_t n = size_of(values, i);
-            struct gm_matrix_rows rows = gm_matrix_begin(arena, n, columns, n);
-            for (size_t k = 0; k < n; k++) {
-                gm_matrix_add(&rows, (int)(offset[step->number] + k), 1);
-                gm_matrix_end_row(&rows, false);
-            }
-            parts[i] = gm_matrix_end(&rows);
-        } else if (step->kind == GM_STEP_MATRIX) {
-            if (step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass) {
-                gm_arena_refuse(arena,
-                                "this star has no sparse inverse for 1-forms: write an equation with "
-                                "star(f) on one side, as in star(f) = d(p), or take star=circumcentric");
-            }
-            parts[i] = gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
-        } else {
+        if (step->kind == GM_STEP_FORM && step->needs == layout->needs) {
+            parts[i] = unit(arena, n, columns, layout->offset[step->number]);
+        } else if (step->kind == GM_STEP_OPERATE) {
             parts[i] = derivative(values, arena, i, parts);
+        } else if (step->kind == GM_STEP_MATRIX && parts[step->a].start) {
+            const bool solved = is_inverse(values, step);
+            parts[i] = solved
+                           ? unit(arena, n, columns, inner)
+                           : gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
+            if (solved) {
+                const struct gm_matrix rows = inverse(values, arena, &parts[step->a], &parts[i]);
+                place(arena, &all, &count, &rows, inner);
+                inner += n;
+            }
         }
     }
-    return parts[last];
+    for (size_t k = 0; k < program->root_count; k++) {
+        const struct gm_matrix *part = &parts[program->roots[k]];
+        if (part->start) {
+            place(arena, &all, &count, part, layout->offset[layout->forms[k]]);
+        }
+    }
+    return gm_matrix_of(arena, columns, columns, all, count);
 }
 
 double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,

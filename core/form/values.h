@@ -3,6 +3,7 @@
 #ifndef GM_CORE_FORM_VALUES_H
 #define GM_CORE_FORM_VALUES_H
 
+#include "core/form/hodge.h"
 #include "core/form/program.h"
 #include "core/tape.h"
 
@@ -14,6 +15,8 @@ struct gm_form_values {
     double **sampled;                 /* scratch of each of these */
     double *solved;                   /* scratch: a number for each edge */
     const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
+    const struct gm_matrix *around;   /* for each part in integral(PART, a): edges to a number */
+    struct gm_hodge *hodge;           /* NULL: no step needs it */
     double time;                      /* of the samples; NaN: none were made */
 };
 
@@ -28,10 +31,19 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
 /* The root's form or number, after a run. */
 const double *gm_form_values_root(const struct gm_form_values *values, size_t root);
 
-/* The matrix of a linear root over the unknowns, whose numbers begin at columns offset[form]: a body of the
-   arena, after a run. Leaves the body if it holds an inverse of the mass matrix. */
+/* The rows and columns of a matrix of derivatives. */
+struct gm_form_layout {
+    unsigned needs;       /* over the forms of GM_NEEDS_FIELDS or GM_NEEDS_UNKNOWNS */
+    const size_t *forms;  /* of each root: the form whose rows it has */
+    const size_t *offset; /* of each form */
+    size_t count;         /* of rows, and of columns */
+};
+
+/* The derivatives of all roots: a body of the arena, after a run. Integrals and the wedge product of 1-forms are left
+   out. Steps that solve with a mass matrix have numbers of their own after `count`, and rows that are 0 with them. The
+   whole diagonal has entries. */
 struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
-                                       size_t root, const size_t *offset, size_t columns);
+                                       const struct gm_form_layout *layout);
 
 /* The sum of a times star a, of one form; scratch: as many numbers. */
 double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,

@@ -362,25 +362,58 @@ void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
     }
 }
 
+struct gm_lu {
+    size_t n;
+    const int *start, *column;
+    const double *value;
+    double control[UMFPACK_CONTROL];
+    void *numeric;
+};
+
+struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value)
+{
+    struct gm_lu *lu = gm_cholesky_missing() ? NULL : calloc(1, sizeof *lu);
+    void *symbolic = NULL;
+    if (!lu) {
+        return NULL;
+    }
+    *lu = (struct gm_lu){.n = n, .start = start, .column = column, .value = value};
+    suite.umfpack_di_defaults(lu->control);
+    /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this
+       size on */
+    lu->control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
+    /* the rows are the columns of the transpose */
+    const bool good = suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, lu->control,
+                                                NULL) == UMFPACK_OK &&
+                      suite.umfpack_di_numeric(start, column, value, symbolic, &lu->numeric, lu->control,
+                                               NULL) == UMFPACK_OK;
+    suite.umfpack_di_free_symbolic(&symbolic);
+    if (!good) {
+        gm_lu_close(lu);
+        return NULL;
+    }
+    return lu;
+}
+
+void gm_lu_close(struct gm_lu *lu)
+{
+    if (lu) {
+        suite.umfpack_di_free_numeric(&lu->numeric);
+        free(lu);
+    }
+}
+
+bool gm_lu_apply(const struct gm_lu *lu, const double *b, double *x)
+{
+    return suite.umfpack_di_solve(UMFPACK_At, lu->start, lu->column, lu->value, x, b, lu->numeric,
+                                  lu->control, NULL) == UMFPACK_OK;
+}
+
 bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
                  double *x)
 {
-    double control[UMFPACK_CONTROL];
-    void *symbolic = NULL, *numeric = NULL;
-    if (gm_cholesky_missing()) {
-        return false;
-    }
-    suite.umfpack_di_defaults(control);
-    /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this
-       size on */
-    control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
-    /* the rows are the columns of the transpose */
-    bool good =
-        suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, control, NULL) ==
-            UMFPACK_OK &&
-        suite.umfpack_di_numeric(start, column, value, symbolic, &numeric, control, NULL) == UMFPACK_OK &&
-        suite.umfpack_di_solve(UMFPACK_At, start, column, value, x, b, numeric, control, NULL) == UMFPACK_OK;
-    suite.umfpack_di_free_symbolic(&symbolic);
-    suite.umfpack_di_free_numeric(&numeric);
+    struct gm_lu *lu = gm_lu_open(n, start, column, value);
+    const bool good = lu && gm_lu_apply(lu, b, x);
+    gm_lu_close(lu);
     return good;
 }

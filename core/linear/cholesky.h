@@ -26,8 +26,16 @@ void gm_cholesky_close(struct gm_cholesky *cholesky);
 /* b, x: n; may be the same */
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
 
-/* Solves A x = b once by sparse LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as in
-   gm_cholesky_open, with all columns. Allocates. False when out of memory or if A is singular. */
+/* The factors of a sparse matrix by LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as in
+   gm_cholesky_open, with all columns. */
+struct gm_lu;
+
+/* The matrix outlives the factors. NULL when out of memory or if it is singular. */
+struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value);
+void gm_lu_close(struct gm_lu *lu);
+/* Solves A x = b; allocates. False when out of memory. */
+bool gm_lu_apply(const struct gm_lu *lu, const double *b, double *x);
+/* The same once. False when out of memory or if A is singular. */
 bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
                  double *x);
 

@@ -560,7 +560,8 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
     static const char *const words[GM_WORDS][MOST] = {
         [GM_WORD_SPACE] = {"differences", "fourier"},
         [GM_WORD_BOUNDARY] = {"ring", "walls"},
-        [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"}};
+        [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"},
+        [GM_WORD_INTERIOR] = {"dual", "whitney", "upwind"}};
     const char *const *among = words[line->word];
     read_text(reading, line);
     size_t k = 0;
@@ -568,8 +569,9 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
         k++;
     }
     const bool wrong = !among[k];
-    gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin,
-                        "star: is auto, circumcentric, barycentric, galerkin or incentric");
+    gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin, "%s: is %s", word_of(line),
+                        line->word == GM_WORD_STAR ? "auto, circumcentric, barycentric, galerkin or incentric"
+                                                   : "dual, whitney or upwind");
     gm_system_refuse_if(reading->system, wrong, line->value.begin, "%s is %s or %s, not %.60s", word_of(line),
                         among[0], among[1], reading->system->texts[line->word]);
 }
@@ -872,6 +874,7 @@ static bool is_along(const struct gm_user_system *system, size_t component, size
 static void complete_forms(struct gm_reading *reading)
 {
     struct gm_user_system *system = reading->system;
+    bool started = false;
     for (size_t i = 0; i < system->n; i++) {
         struct gm_form_declared *form = &system->forms[i];
         struct gm_system_variable *variable = &system->variables[i];
@@ -884,8 +887,13 @@ static void complete_forms(struct gm_reading *reading)
                             !form->unknown   ? "rate"
                             : lacks_equation ? "equation"
                                              : "rate: it is an unknown");
-        gm_system_refuse_if(system, !form->unknown && form->start == GM_NO_NODE, form->place,
-                            "%s has no value at the start", variable->name);
+        started |= form->start != GM_NO_NODE;
+    }
+    for (size_t i = 0; i < system->n; i++) { /* what is not given is 0, if something is given */
+        struct gm_form_declared *form = &system->forms[i];
+        gm_system_refuse_if(system, !form->unknown && !started, form->place, "%s has no value at the start",
+                            system->variables[i].name);
+        form->start = form->start == GM_NO_NODE ? gm_formula_constant(&system->graph, 0) : form->start;
     }
 }
 

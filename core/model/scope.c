@@ -384,6 +384,8 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
     if (count < form_operators[operator].least || count > form_operators[operator].most) {
         return refuse(sentence, "%s takes %s", form_operators[operator].name,
                       operator== GM_FORM_FORM               ? "two or three formulas"
+                      : operator== GM_FORM_INTEGRAL        ? "a form, after a part of the boundary if it is a 1-form"
+                      : operator== GM_FORM_AT              ? "a form and two or three coordinates"
                       : form_operators[operator].most == 2 ? "two forms"
                                                             : "one form");
     }
@@ -408,6 +410,28 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
     return GM_KNOWN;
 }
 
+/* The part of the boundary in integral(PART, a), as its number. */
+static bool is_part(void *data, const struct gm_name *called, const struct gm_name *word, gm_node_id *node)
+{
+    struct gm_user_system *system = ((struct gm_reading *)data)->system;
+    const char *name;
+    if (operator_of(called->text, called->length) != GM_FORM_INTEGRAL) {
+        return false;
+    }
+    size_t i = 0;
+    while (i < system->boundary_count && (strlen(system->boundaries[i]) != word->length ||
+                                          memcmp(system->boundaries[i], word->text, word->length) != 0)) {
+        i++;
+    }
+    if (i == system->boundary_count) {
+        name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
+        gm_reading_reserve(data, (void **)&system->boundaries, i, sizeof *system->boundaries);
+        system->boundaries[system->boundary_count++] = name;
+    }
+    *node = gm_formula_constant(&system->graph, (double)i);
+    return true;
+}
+
 static struct gm_scope scope_of(struct gm_reading *reading)
 {
     const bool form = gm_system_is_form(reading->system), calls = form && !reading->fixed;
@@ -416,6 +440,7 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .definition = definition_of,
                              .calls = calls ? is_operator : NULL,
                              .call = calls ? call : NULL,
+                             .word = calls ? is_part : NULL,
                              .data = reading,
                              .lines = true,
                              .initial = !form && !gm_system_is_room(reading->system),

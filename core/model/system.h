@@ -161,7 +161,10 @@ struct gm_user_system {
     struct gm_form_declared *forms; /* [n] */
     struct gm_form_call *calls;
     size_t call_count, first_call; /* the number of the variable of the first call */
-    bool timed;                    /* equations depend on t */
+    const char *
+        *boundaries; /* parts of the boundary in integral(PART, a), whose first operand is the number */
+    size_t boundary_count;
+    bool timed; /* equations depend on t */
     struct gm_system_variable *variables;
     size_t variable_count, parameters, velocities, initial,
         exact;         /* first numbers; parameters end at velocities; `exact` is variable_count for fields */

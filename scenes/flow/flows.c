@@ -14,62 +14,10 @@
 const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
-/* The faults of a mesh, after its name: @ is the line, %s the fault's text, %n a node, %e the nodes of an edge,
-   %t a triangle. */
-static const char *const wrong[] = {
-    [GM_TRIANGULATION_NOT_GMSH] = " is not a Gmsh file: it does not begin with $MeshFormat",
-    [GM_TRIANGULATION_VERSION] =
-        " is of version %s; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
-    [GM_TRIANGULATION_BYTES] =
-        " is binary, in the byte order of another machine; save it as ASCII (Mesh.Binary = 0)",
-    [GM_TRIANGULATION_SYNTAX] = "@: expected %s",
-    [GM_TRIANGULATION_TRUNCATED] = "@: the file ends within its section %s",
-    [GM_TRIANGULATION_HUGE] = "@: %s is more than 5000000",
-    [GM_TRIANGULATION_REPEATED_NODE] = "@: node %n is there twice",
-    [GM_TRIANGULATION_UNKNOWN_NODE] = "@: there is no node %n",
-    [GM_TRIANGULATION_ELEMENT] =
-        "@: elements of type %n; only triangles of three or six nodes (types 2 and 9) and their sides are read",
-    [GM_TRIANGULATION_THREE_D] = "@: node %n lies off the plane of the others; the mesh must be flat",
-    [GM_TRIANGULATION_EMPTY] = " has no triangle",
-    [GM_TRIANGULATION_DEGENERATE] = "@: %t has no area",
-    [GM_TRIANGULATION_OVERLAP] = "@: %t overlaps its neighbour",
-    [GM_TRIANGULATION_EDGE_OF_THREE] = ": the edge between nodes %e belongs to three triangles",
-    [GM_TRIANGULATION_PINCHED] = ": at node %n the mesh hangs together by a point",
-    [GM_TRIANGULATION_PIECES] = "@ is in several pieces: %t is not joined to triangle 1",
-    [GM_TRIANGULATION_ONE_SIDED] = " cannot be oriented: its triangles disagree along the edge of nodes %e",
-    [GM_TRIANGULATION_NOT_DELAUNAY] =
-        "@: %t and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric",
-    [GM_TRIANGULATION_DUAL_CELL] = ": the dual cell of node %n has no positive area",
-};
-
-/* Writes why a mesh was refused; `name` is "the mesh" or the file's. */
 static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
-    const long *n = fault->nodes;
-    char line[48] = "", angle[48] = "", thing[192] = "";
-    if (fault->kind <= GM_TRIANGULATION_MEMORY) {
-        gm_refuse(sentence, "not enough memory");
-        return;
-    }
-    const bool where = wrong[fault->kind][0] == '@';
-    const char *before = wrong[fault->kind] + where, *sign = strchr(before, '%');
-    const char kind = sign ? sign[1] : '\0';
-    if (where && fault->line > 0) {
-        snprintf(line, sizeof line, ", line %ld", fault->line);
-    }
-    if (fault->kind == GM_TRIANGULATION_NOT_DELAUNAY) {
-        snprintf(angle, sizeof angle, " has an angle of %.1f degrees", fault->value);
-    }
-    if (kind == 't') {
-        snprintf(thing, sizeof thing, "triangle %ld (nodes %ld %ld %ld)%s", fault->triangle, n[0], n[1], n[2],
-                 angle);
-    } else if (kind == 'e') {
-        snprintf(thing, sizeof thing, "%ld and %ld", n[0], n[1]);
-    } else if (kind == 'n') {
-        snprintf(thing, sizeof thing, "%ld", n[0]);
-    }
-    gm_refuse(sentence, "%.100s%s%.*s%s%s", name, line, (int)strcspn(before, "%"), before,
-              kind == 's' ? fault->text : thing, sign ? sign + 2 : "");
+    char text[GM_TRIANGULATION_SENTENCE];
+    gm_refuse(sentence, "%s", gm_triangulation_explain(name, fault, text));
 }
 
 /* Returns the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence on failure. */

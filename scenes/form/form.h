@@ -10,13 +10,14 @@ enum { GM_MOST_FORM_OBSERVABLES = 64, GM_MOST_SHOWN_FORMS = 32 };
 
 /* The subject of an observable. */
 struct gm_form_subject {
-    enum { GM_FORM_ERROR, GM_FORM_CONTRADICTION, GM_FORM_OBSERVED, GM_FORM_FACT } what;
+    enum { GM_FORM_ERROR, GM_FORM_CONTRADICTION, GM_FORM_REMAINDER, GM_FORM_OBSERVED, GM_FORM_FACT } what;
     size_t index; /* of a form, of what is observed, or of a fact */
 };
 
 struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
+    const char *path; /* of the file; NULL: none */
     struct gm_form_subject subjects[GM_MOST_FORM_OBSERVABLES];
     const char *shows[GM_MOST_SHOWN_FORMS + 3];        /* words of show=: forms, then "numbers" and "mesh" */
     struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */

@@ -9,7 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include "core/schemes.h"
+#include "render/files/regular_file.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/common/system/rows.h"
 #include "scenes/common/system/studies.h"
@@ -18,7 +21,7 @@
 #include "scenes/form/form.h"
 
 enum { DT, UNTIL };
-enum { SHOW, STAR, LINES, GRID, DUAL, NUMBERS, COMMON_ROWS = NUMBERS + 1 + GM_CAMERA_KEYS };
+enum { SHOW, STAR, INTERIOR, LINES, GRID, DUAL, NUMBERS, COMMON_ROWS = NUMBERS + 1 + GM_CAMERA_KEYS };
 
 /* ---- observables ---- */
 
@@ -65,6 +68,8 @@ static double observe(const struct gm_view *view)
         return gm_form_error(view->problem, view->state, view->t, subject.index);
     case GM_FORM_CONTRADICTION:
         return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
+    case GM_FORM_REMAINDER:
+        return gm_form_remainder(view->problem, view->state, view->t, subject.index);
     case GM_FORM_OBSERVED:
         return *gm_form_observed(view->problem, view->state, view->t, subject.index);
     default:
@@ -142,6 +147,16 @@ static void make_observables(struct gm_form_scene *scene)
                 (struct gm_form_subject){GM_FORM_CONTRADICTION, i});
         }
     }
+    for (size_t i = 0; i < system->n; i++) {
+        const char *name = system->variables[i].name;
+        if (system->forms[i].unknown) {
+            add(scene,
+                (struct gm_observable)GM_LOG_OBSERVABLE(
+                    gm_arena_print(arena, "%s_residual", name), observe,
+                    gm_arena_print(arena, "residual of the equation of %s", name)),
+                (struct gm_form_subject){GM_FORM_REMAINDER, i});
+        }
+    }
     for (size_t i = 0; i < FACTS; i++) {
         add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
             (struct gm_form_subject){GM_FORM_FACT, i});
@@ -180,13 +195,17 @@ static void make_rows(struct gm_form_scene *scene)
     const struct gm_user_system *system = &of_file->system;
     const bool steady = scene->model.rates.root_count == 0;
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
-    const char *written = system->texts[GM_WORD_STAR];
+    static const char *const interiors[] = {"dual", "whitney", "upwind", NULL};
+    const char *written = system->texts[GM_WORD_STAR], *product = system->texts[GM_WORD_INTERIOR];
     const struct gm_parameter common[COMMON_ROWS] = {
         GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
                       "the form that is drawn; numbers of the first form, or names of a mesh, on a small one",
                       .live = true, .looks = true),
         GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
                       "dual vertices: circumcentres, centres of mass or of the circles inside"),
+        GM_CHOICE_ROW(
+            struct gm_system_lane, interior, "interior", product ? product : "dual", interiors,
+            "what a flow carries: the mean of both sides, or the value of that where it comes from"),
         GM_BOOLEAN_ROW(struct gm_system_lane, streamlines, "streamlines", "no",
                        "level lines of what has a value at vertices", .live = true, .looks = true),
         GM_BOOLEAN_ROW(struct gm_system_lane, mesh_grid, "grid", "no", "edges of the mesh", .live = true,
@@ -219,8 +238,11 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     const struct gm_system_lane *lane = parameters;
     struct gm_fault fault = {0};
     double *values = gm_system_start_values(lane, NULL);
-    const bool good = values && gm_form_problem_open(problem, &gm_form_scene_of(lane)->model,
-                                                     (enum gm_star)lane->star, values, &fault);
+    const bool good =
+        values && gm_form_problem_open(
+                      problem, &gm_form_scene_of(lane)->model,
+                      (struct gm_form_choice){(enum gm_star)lane->star, (enum gm_interior)lane->interior},
+                      values, &fault);
     free(values);
     if (!good) {
         return gm_refuse(sentence, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
@@ -283,10 +305,36 @@ struct making {
     struct gm_user_system *system;
     const char *name;
     const char *const *words;
+    const char *path;
     struct gm_fault *fault;
     struct gm_form_scene *scene;
+    bool unread;               /* the file of the mesh */
     struct gm_problem problem; /* of the file's own values */
 };
+
+/* Reads the file of the mesh: its name is relative to the system's file, or else to the folder where the program
+   runs. */
+static void read_mesh(struct making *making)
+{
+    struct gm_form_scene *scene = making->scene;
+    const char *path = making->path;
+    enum { LARGEST = 1 << 29 };
+    struct gm_arena *arena = scene->of_file.arena;
+    const char *name = gm_system_item_of(&scene->of_file.system, GM_WORD_MESH, 0)->name;
+    const char *slash = path && name[0] != '/' ? strrchr(path, '/') : NULL;
+    const char *beside =
+        gm_arena_print(arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path ? path : "", name);
+    char reason[GM_REGULAR_REASON];
+    scene->path = path ? gm_arena_print(arena, "%s", path) : NULL;
+    scene->model.mesh_name = name;
+    char *text =
+        gm_regular_read(access(beside, F_OK) == 0 ? beside : name, LARGEST, &scene->model.mesh_size, reason);
+    making->unread = !text;
+    if (!text) {
+        gm_arena_refuse(arena, "mesh: %.130s could not be read: %s", name, reason);
+    }
+    scene->model.mesh_text = gm_arena_keep(arena, text, free);
+}
 
 static void close_problem(void *problem)
 {
@@ -304,6 +352,9 @@ static void make(struct gm_arena *arena, void *data)
     if (!gm_form_model_open(&scene->model, system, making->fault)) {
         gm_arena_refuse(arena, "%s",
                         making->fault->sentence[0] ? making->fault->sentence : "not enough memory");
+    }
+    if (gm_form_reads_mesh(system)) {
+        read_mesh(making);
     }
     make_shows(scene);
     if (scene->show_count == 0) {
@@ -352,25 +403,31 @@ static void make(struct gm_arena *arena, void *data)
 }
 
 /* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
-                                        const char *const *words, struct gm_fault *fault, char *sentence)
+static struct gm_system_scene *open_one(struct making *making, char *sentence)
 {
-    struct making making = {.system = system, .name = name, .words = words, .fault = fault};
-    return gm_system_scene_make(make, &making, system, sentence) ? &making.scene->of_file : NULL;
+    return gm_system_scene_make(make, making, making->system, sentence) ? &making->scene->of_file : NULL;
 }
 
 static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
                                           char *sentence)
 {
     struct gm_fault fault = {0};
-    return open_one(system, first->scene.name, first->scene.words, &fault, sentence);
+    return open_one(&(struct making){.system = system,
+                                     .name = first->scene.name,
+                                     .words = first->scene.words,
+                                     .path = ((const struct gm_form_scene *)first)->path,
+                                     .fault = &fault},
+                    sentence);
 }
 
-const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, struct gm_fault *fault, char *sentence)
+const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, struct gm_form_source *source,
+                                          struct gm_fault *fault, char *sentence)
 {
     const bool choices = system->choices.count > 0;
     *fault = (struct gm_fault){0};
-    struct gm_system_scene *first = open_one(system, name, words, fault, sentence);
+    struct making making = {
+        .system = system, .name = source->name, .words = source->words, .path = source->path, .fault = fault};
+    struct gm_system_scene *first = open_one(&making, sentence);
+    source->unread = making.unread;
     return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
 }

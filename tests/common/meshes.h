@@ -3,7 +3,7 @@
 #define GM_TESTS_COMMON_MESHES_H
 
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh.h"
+#include "core/form/gmsh.h"
 
 /* Files of tests/reference/meshes. GM_MESHES, that folder, comes from the build. */
 

@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "core/flow/gmsh.h"
+#include "core/form/gmsh.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -14,8 +14,8 @@
 
 #include "core/basics.h"
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh.h"
 #include "core/form/generators.h"
+#include "core/form/gmsh.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"

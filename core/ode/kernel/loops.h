@@ -7,6 +7,8 @@
 
 #include "core/ode/ode.h"
 
+struct gm_stages; /* core/ode/kernel/stages.h */
+
 /* The families that have a loop over kernels: gm_family.over_kernels. A composition may need all of these loops. */
 enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_OVER_COUNT };
 enum { GM_OVER_ALL = GM_OVER_COUNT };
@@ -22,6 +24,10 @@ struct gm_loops {
     void (*force)(const struct gm_problem *problem, const double *y, double *force, size_t m);
     /* the Jacobian of one member, n * n row by row; NULL: not available */
     void (*jacobian)(const struct gm_problem *problem, const double *y, double *jacobian);
+    /* Overwrites a residual of stages, count * n, with the change z that solves (1 - h a (x) J) z = residual,
+       J a Jacobian at stages->y, exact or near enough for an iteration; its factors are kept from call to
+       call. False if the matrix is singular, or when out of memory. NULL: not available */
+    bool (*correct)(const struct gm_problem *problem, const struct gm_stages *stages, double *residual);
     /* The velocities of `count` passive particles at (x, y), carried by the active components `active`; if
        strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
     void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,

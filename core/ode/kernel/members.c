@@ -125,6 +125,11 @@ size_t gm_matrix_size(const struct gm_problem *problem)
     return made ? problem->n * problem->n : 0;
 }
 
+bool gm_newton_fits(const struct gm_problem *problem)
+{
+    return gm_matrix_size(problem) > 0 || gm_ode_of(problem)->loops[GM_ISA_BASELINE]->correct;
+}
+
 bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian)
 {
     if (gm_matrix_size(problem) == 0) {

@@ -12,6 +12,8 @@
 /* Beyond this many components no matrix is made, and an iteration that does not contract has failed. */
 enum { GM_NEWTON_LARGEST = 64 };
 size_t gm_matrix_size(const struct gm_problem *problem); /* n * n, or 0 */
+/* True if gm_stages_by_newton has a matrix, of this kind or a sparse one. */
+bool gm_newton_fits(const struct gm_problem *problem);
 
 /* The workspace: one member's state and memory, and scratch for the step. */
 struct gm_members {

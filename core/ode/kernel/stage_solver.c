@@ -59,9 +59,48 @@ bool gm_stages_by_sweeps(struct gm_stage_solver *solver)
     return gm_sweeps_solve(&solver->equations, solver->scratch, solver->z, solver->stages.progress);
 }
 
+/* Newton's method with factors that the problem keeps. */
+static bool by_kept_factors(struct gm_stage_solver *solver)
+{
+    const struct gm_problem *problem = solver->stages.data;
+    const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
+    struct gm_progress *progress = solver->stages.progress;
+    const size_t size = solver->equations.size;
+    double *change = solver->scratch, *z = solver->z, previous = INFINITY;
+    for (int iteration = 0; iteration < GM_NEWTON_STEPS; iteration++) {
+        double scale = 0, moved = 0;
+        gm_stages_sweep(&solver->stages, z, change, &scale);
+        for (size_t i = 0; i < size; i++) {
+            change[i] -= z[i];
+        }
+        progress->iterations++;
+        progress->solves++;
+        if (!loops->correct(problem, &solver->stages, change)) {
+            progress->unsolved.obstacle = GM_SINGULAR;
+            return false;
+        }
+        for (size_t i = 0; i < size; i++) {
+            moved += fabs(change[i]);
+            z[i] += change[i];
+        }
+        /* the rounding of sums over neighbours is larger than that of one number */
+        if (gm_newton_is_settled(size, moved, scale, 0x1p10 * scale, &previous)) {
+            return true;
+        }
+        progress->unsolved = gm_unsolved_by(moved, scale);
+        if (!isfinite(moved)) {
+            return false;
+        }
+    }
+    return false;
+}
+
 bool gm_stages_by_newton(struct gm_stage_solver *solver)
 {
     begin(solver);
+    if (gm_ode_of(solver->stages.data)->loops[GM_ISA_BASELINE]->correct) {
+        return by_kept_factors(solver);
+    }
     return solver->equations.linear &&
            gm_newton_solve(&solver->equations, solver->scratch, solver->z, solver->stages.progress);
 }

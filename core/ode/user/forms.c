@@ -12,10 +12,40 @@
 
 #include "core/basics.h"
 #include "core/form/generators.h"
+#include "core/form/gmsh.h"
 #include "core/form/values.h"
 #include "core/linear/cholesky.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/stages.h"
 #include "core/user/line.h"
+
+enum { MOST_FACTORS = 8 };
+
+/* The factors of stages, 1 - h a (x) J, for one h a. */
+struct stage_factor {
+    struct gm_arena *arena;                                  /* NULL: none */
+    double scaled[2][GM_TABLEAU_STAGES * GM_TABLEAU_STAGES]; /* h a of both halves of the components */
+    size_t count;
+    struct gm_matrix matrix;
+    struct gm_lu *lu;
+};
+
+/* The arguments of the body that opens a problem. */
+struct opening {
+    struct own *own;
+    const struct gm_form_model *model;
+    struct gm_triangulation file; /* or the complex alone, of a generator */
+    const double *variables;
+    enum gm_interior interior;
+    double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
+};
+
+/* A number that is held: entry `from` of a root of the held values, with a sign. */
+struct held_number {
+    size_t root, from, to; /* to: a number of the state, or of the unknowns */
+    double sign;
+    bool unknown;
+};
 
 struct own {
     struct gm_ode facets;
@@ -23,26 +53,40 @@ struct own {
     struct gm_loops loops;
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
-    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
+    double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
+    struct gm_triangulation file;         /* the groups of its edges; empty if the mesh is not of a file */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
+    struct gm_matrix *around;   /* for each part of the boundary in integral(PART, a) */
     pthread_mutex_t turn;       /* one call after another */
     size_t n, half;             /* of the state, if it splits: forms of the first group are padded to it */
     size_t *offset;             /* of each form in the state, or among the unknowns */
     double **forms;             /* where each form is */
     size_t unknowns;
     bool *held, *held_unknown; /* of each number of the state, and of the unknowns */
-    double *given;             /* values of held unknowns, else 0 */
+    struct held_number *held_numbers;
+    size_t held_count;
+    bool held_changes; /* in time */
+    struct gm_form_values held_values;
+    double *current; /* a state with what is held now */
+    double *given;   /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
     double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
     bool observes;
     struct gm_matrix matrix;
-    struct gm_cholesky *factor; /* NULL: LU for each solve */
+    size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
+    struct gm_cholesky *factor; /* NULL: `lu` */
+    struct gm_lu *lu;
     double sign;                /* that the matrix was multiplied by, but for pinned rows */
     double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
     int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
-    double *defect;             /* of each form */
+    double *defect, *remainder; /* of each form: what its equation cannot meet, and what is left of it */
+    struct stage_factor factors[MOST_FACTORS];
+    size_t next_factor;
+    struct gm_arena *derived; /* holds `rows`; NULL: none */
+    struct gm_matrix rows;    /* the Jacobian of the rates, with the rows of stars that are solved for */
+    double *derived_at;       /* the state that `rows` are of */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -64,6 +108,11 @@ static size_t size_of(const struct own *own, size_t form)
 static const double *cells_of(const struct own *own, bool dual)
 {
     return dual ? own->space.complex->area : own->space.complex->star0;
+}
+
+static double *doubles(const struct own *own, size_t count)
+{
+    return gm_arena_take(own->arena, count, sizeof(double));
 }
 
 /* ---- the model ---- */
@@ -153,6 +202,15 @@ static void compile_forms(const struct compiling *compiling)
           "exact: holds formulas of x, y, z, t and parameters alone");
 }
 
+static bool is_timed(const struct gm_form_program *program)
+{
+    bool timed = false;
+    for (size_t i = 0; i < program->count; i++) {
+        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
+    }
+    return timed;
+}
+
 /* Compiles the values of forms that are held on a part of the boundary. */
 static void compile_held(const struct compiling *compiling)
 {
@@ -176,7 +234,9 @@ static void compile_held(const struct compiling *compiling)
         roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
     }
     compile(compiling, &model->held, roots, count, false);
-    limit(compiling, &model->held, ~0u, roots, "a value that is held does not change in time");
+    limit(compiling, &model->held, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, roots,
+          "a value that is held is a formula of x, y, z, t and parameters");
+    system->timed |= is_timed(&model->held);
 }
 
 /* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
@@ -208,15 +268,6 @@ static void find_split(struct gm_form_model *model)
             return;
         }
     }
-}
-
-static bool is_timed(const struct gm_form_program *program)
-{
-    bool timed = false;
-    for (size_t i = 0; i < program->count; i++) {
-        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
-    }
-    return timed;
 }
 
 static void compile_all(struct gm_arena *arena, void *data)
@@ -251,55 +302,51 @@ bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *syst
 
 /* ---- the mesh ---- */
 
-static const char *const stars[] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"};
-
-static struct gm_complex *open_mesh(const struct gm_user_system *system, enum gm_star star,
-                                    const double *variables, double numbers[GM_MOST_OPERANDS],
-                                    struct gm_fault *fault)
+bool gm_form_reads_mesh(const struct gm_user_system *system)
 {
+    return strpbrk(gm_system_item_of(system, GM_WORD_MESH, 0)->name, "./") != NULL;
+}
+
+/* Refuses a mesh, with the sentence about its fault. */
+static bool refuse_mesh(const char *name, const struct gm_triangulation_fault *wrong, size_t place,
+                        struct gm_fault *fault)
+{
+    char sentence[GM_TRIANGULATION_SENTENCE];
+    return gm_fail(fault, place, "%s", gm_triangulation_explain(name, wrong, sentence));
+}
+
+/* Makes or reads the mesh. */
+static bool open_mesh(struct opening *opening, enum gm_star star, struct gm_fault *fault)
+{
+    const struct gm_form_model *model = opening->model;
+    const struct gm_user_system *system = model->system;
     const struct gm_system_item *mesh = gm_system_item_of(system, GM_WORD_MESH, 0);
     struct gm_triangulation_fault wrong;
-    if (mesh->count > GM_MOST_OPERANDS) {
-        gm_fail(fault, mesh->place, "a mesh has at most four numbers");
-        return NULL;
+    if (model->mesh_text) {
+        return gm_triangulation_read_in_space(model->mesh_text, model->mesh_size, star, &opening->file,
+                                              &wrong) ||
+               refuse_mesh(model->mesh_name, &wrong, mesh->place, fault);
     }
-    if ((mesh->count > 0 && !gm_user_line_numbers(system, mesh->nodes, mesh->count, variables, numbers)) ||
-        !gm_generator_check(mesh->name, numbers, mesh->count, mesh->place, fault)) {
-        return NULL;
+    if (mesh->count > GM_GENERATOR_NUMBERS) {
+        return gm_fail(fault, mesh->place, "a mesh has at most five numbers");
     }
-    struct gm_complex *complex = gm_generator_open(mesh->name, numbers, mesh->count, star, &wrong);
-    if (!complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
-        gm_fail(fault, mesh->place,
-                "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
-                "star=auto or star=barycentric",
-                wrong.value);
+    if ((mesh->count > 0 &&
+         !gm_user_line_numbers(system, mesh->nodes, mesh->count, opening->variables, opening->numbers)) ||
+        !gm_generator_check(mesh->name, opening->numbers, mesh->count, mesh->place, fault)) {
+        return false;
     }
-    return complex;
+    opening->file.complex = gm_generator_open(mesh->name, opening->numbers, mesh->count, star, &wrong);
+    if (!opening->file.complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+        return gm_fail(
+            fault, mesh->place,
+            "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
+            "star=auto or star=barycentric",
+            wrong.value);
+    }
+    return opening->file.complex != NULL;
 }
 
 /* ---- unknowns ---- */
-
-/* Labels the vertices or triangles by their piece. */
-static void label(const struct gm_complex *complex, bool triangles, int *piece)
-{
-    const size_t count = triangles ? complex->triangles : complex->vertices;
-    bool changed = true;
-    for (size_t i = 0; i < count; i++) {
-        piece[i] = (int)i;
-    }
-    while (changed) { /* the least number of a piece spreads */
-        changed = false;
-        for (size_t e = 0; e < complex->edges; e++) {
-            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
-            if (pair[0] < 0 || pair[1] < 0) {
-                continue;
-            }
-            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
-            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
-            piece[pair[0]] = piece[pair[1]] = least;
-        }
-    }
-}
 
 /* Finds the pieces on which constants of an unknown of degree 0 solve the equations. */
 static void find_constants(struct own *own, size_t form)
@@ -307,7 +354,7 @@ static void find_constants(struct own *own, size_t form)
     const struct gm_form_type type = type_of(own->model->system, form);
     const size_t first = own->offset[form], n = size_of(own, form);
     bool free_of = type.degree == 0;
-    for (size_t i = 0; i < own->unknowns && free_of; i++) {
+    for (size_t i = 0; i < own->size && free_of; i++) {
         double sum = 0, size = 0;
         for (int k = own->matrix.start[i]; k < own->matrix.start[i + 1]; k++) {
             const size_t column = (size_t)own->matrix.column[k];
@@ -319,7 +366,7 @@ static void find_constants(struct own *own, size_t form)
         free_of = fabs(sum) <= 1e-10 * size;
     }
     if (free_of) {
-        label(own->space.complex, type.dual, own->piece + first);
+        gm_form_pieces(own->space.complex, type.dual, own->piece + first);
         for (size_t i = 0; i < n; i++) {
             own->piece[first + i] += (int)first; /* the number that is pinned */
         }
@@ -336,7 +383,7 @@ static bool is_pinned(const struct own *own, size_t i)
 static void pin(struct own *own)
 {
     const struct gm_matrix *a = &own->matrix;
-    for (size_t i = 0; i < own->unknowns; i++) {
+    for (size_t i = 0; i < own->size; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
             const int j = a->column[k];
             if (is_pinned(own, i) || is_pinned(own, (size_t)j)) {
@@ -346,11 +393,16 @@ static void pin(struct own *own)
     }
 }
 
-/* Factors the matrix if it is symmetric and, but for its sign, definite. */
+static void close_lu(void *lu)
+{
+    gm_lu_close(lu);
+}
+
+/* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. */
 static void factor(struct own *own)
 {
     struct gm_matrix *a = &own->matrix;
-    const size_t n = own->unknowns;
+    const size_t n = own->size;
     const struct gm_matrix back = gm_matrix_transposed(own->arena, a, -1),
                            skew = gm_matrix_sum(own->arena, 1, a, 1, &back);
     double largest = 0, asymmetry = 0, trace = 0, *signs = gm_arena_take(own->arena, n, sizeof *signs);
@@ -369,44 +421,43 @@ static void factor(struct own *own)
     }
     gm_matrix_scale(a, signs);
     own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
+    own->lu = own->factor ? NULL : gm_lu_open(n, a->start, a->column, a->value);
+    if (own->lu) {
+        gm_arena_keep(own->arena, own->lu, close_lu);
+    } else if (!own->factor) {
+        const struct gm_form_model *model = own->model;
+        gm_arena_refuse(own->arena, "the equations do not determine %s: their matrix is singular",
+                        model->system->variables[model->unknowns[0]].name);
+    }
 }
 
 static void assemble(struct own *own)
 {
     const struct gm_form_model *model = own->model;
     struct gm_arena *arena = own->arena;
-    struct gm_matrix *rows = gm_arena_take(arena, model->unknown_count, sizeof *rows);
-    size_t entries = 0;
+    own->matrix = gm_form_values_matrix(
+        &own->equations, arena,
+        &(struct gm_form_layout){GM_NEEDS_UNKNOWNS, model->unknowns, own->offset, own->unknowns});
+    own->size = own->matrix.rows;
+    own->weight = doubles(own, own->size);
+    own->unknown = doubles(own, own->size);
+    own->residual = doubles(own, own->size);
+    own->piece = gm_arena_take(arena, own->size, sizeof *own->piece);
+    own->held_unknown = gm_arena_resize(arena, own->held_unknown, own->size, sizeof *own->held_unknown);
+    memset(own->held_unknown + own->unknowns, 0, own->size - own->unknowns);
+    for (size_t i = 0; i < own->size; i++) {
+        own->weight[i] = 1;
+        own->piece[i] = -1;
+    }
     for (size_t k = 0; k < model->unknown_count; k++) {
         const struct gm_form_type found = type_of_equation(model, k);
-        const double *cell = cells_of(own, found.dual);
-        double *weight = own->weight + own->offset[model->unknowns[k]];
-        rows[k] = gm_form_values_matrix(&own->equations, arena, k, own->offset, own->unknowns);
-        if (!rows[k].start) {
-            gm_arena_refuse(arena, "the equation of %s holds no unknown",
-                            model->system->variables[model->unknowns[k]].name);
-        }
-        for (size_t i = 0; i < rows[k].rows; i++) {
-            weight[i] = found.degree == 0 ? cell[i] : 1;
-        }
-        gm_matrix_scale(&rows[k], weight);
-        entries += (size_t)rows[k].start[rows[k].rows];
-    }
-    struct gm_matrix_entry *all = gm_arena_keep(arena, malloc((entries + own->unknowns) * sizeof *all), free);
-    for (entries = 0; entries < own->unknowns; entries++) { /* a place for pins */
-        all[entries] = (struct gm_matrix_entry){(int)entries, (int)entries, 0};
-        own->piece[entries] = -1;
-    }
-    for (size_t k = 0; k < model->unknown_count; k++) {
-        for (size_t i = 0; i < rows[k].rows; i++) {
-            const int row = (int)(own->offset[model->unknowns[k]] + i);
-            for (int l = rows[k].start[i]; l < rows[k].start[i + 1]; l++) {
-                all[entries++] = (struct gm_matrix_entry){row, rows[k].column[l], rows[k].value[l]};
-            }
+        if (found.degree == 0) {
+            const size_t form = model->unknowns[k];
+            memcpy(own->weight + own->offset[form], cells_of(own, found.dual),
+                   size_of(own, form) * sizeof(double));
         }
     }
-    own->matrix = gm_matrix_of(arena, own->unknowns, own->unknowns, all, entries);
-    gm_arena_drop(arena, all);
+    gm_matrix_scale(&own->matrix, own->weight);
     pin(own);
     for (size_t k = 0; k < model->unknown_count; k++) {
         find_constants(own, model->unknowns[k]);
@@ -445,17 +496,38 @@ static void remove_means(struct own *own, size_t form, double *numbers, bool res
     }
 }
 
+/* Notes the largest residual of each equation, relative to its terms. */
+static void measure_residuals(struct own *own)
+{
+    const struct gm_form_model *model = own->model;
+    const struct gm_matrix *a = &own->matrix;
+    for (size_t k = 0; k < model->unknown_count; k++) {
+        const size_t form = model->unknowns[k], first = own->offset[form];
+        double largest = 0, scale = 0;
+        for (size_t i = first; i < first + size_of(own, form); i++) {
+            double sum = -own->residual[i], terms = fabs(own->residual[i]);
+            for (int l = a->start[i]; l < a->start[i + 1]; l++) {
+                sum += a->value[l] * own->unknown[a->column[l]];
+                terms += fabs(a->value[l] * own->unknown[a->column[l]]);
+            }
+            largest = fmax(largest, fabs(sum));
+            scale = fmax(scale, terms);
+        }
+        own->remainder[form] = scale > 0 ? largest / scale : 0;
+    }
+}
+
 /* Solves for the unknowns at fields that own->forms has. */
 static void solve(struct own *own, double t)
 {
     const struct gm_form_model *model = own->model;
-    const struct gm_matrix *a = &own->matrix;
     double *right = own->residual;
     bool good = true;
     if (own->unknowns == 0) {
         return;
     }
     memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
+    memset(right, 0, own->size * sizeof *right);
     gm_form_values_run(&own->equations, t, own->forms);
     for (size_t k = 0; k < model->unknown_count; k++) {
         const size_t form = model->unknowns[k], first = own->offset[form];
@@ -471,8 +543,9 @@ static void solve(struct own *own, double t)
     if (own->factor) {
         gm_cholesky_solve(own->factor, right, own->unknown);
     } else {
-        good = gm_lu_solve(own->unknowns, a->start, a->column, a->value, right, own->unknown);
+        good = gm_lu_apply(own->lu, right, own->unknown);
     }
+    measure_residuals(own);
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
@@ -483,11 +556,28 @@ static void solve(struct own *own, double t)
 
 /* ---- the equations of motion ---- */
 
-static void place_forms(struct own *own, const double *y)
+/* Writes the values that are held at a time, of unknowns, and in a state. */
+static void set_held(struct own *own, double t, double *y)
 {
+    gm_form_values_run(&own->held_values, t, own->forms);
+    for (size_t k = 0; k < own->held_count; k++) {
+        const struct held_number *held = &own->held_numbers[k];
+        (held->unknown ? own->given : y)[held->to] =
+            held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+    }
+}
+
+/* Lets forms be those of a state; if values that are held change, of a copy with their values now. */
+static void place_forms(struct own *own, const double *y, double t)
+{
+    double *state = (double *)(uintptr_t)y;
+    if (own->held_changes) {
+        state = memcpy(own->current, y, own->n * sizeof *y);
+        set_held(own, t, state);
+    }
     for (size_t i = 0; i < own->model->system->n; i++) {
-        own->forms[i] = own->model->system->forms[i].unknown ? own->unknown + own->offset[i]
-                                                             : (double *)(uintptr_t)y + own->offset[i];
+        own->forms[i] =
+            own->model->system->forms[i].unknown ? own->unknown + own->offset[i] : state + own->offset[i];
     }
 }
 
@@ -500,7 +590,7 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
     const double t = model->system->timed ? y[problem->n - 1] : 0;
     pthread_mutex_lock(&own->turn);
     own->seen_time = NAN;
-    place_forms(own, y);
+    place_forms(own, y, t);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
     for (size_t k = first; k < last; k++) {
@@ -538,30 +628,212 @@ static void force(const struct gm_problem *problem, const double *y, double *f, 
     write_rates(problem, y, f, own->model->split, own->model->field_count, own->half);
 }
 
+/* ---- implicit steps ---- */
+
+/* True if an operation's derivative changes with the fields, or in time. */
+static bool bends(const struct gm_form_program *program, const struct gm_form_step *step)
+{
+    const unsigned p = program->steps[step->a].needs, q = program->steps[step->b].needs;
+    switch ((enum gm_operation)step->number) {
+    case GM_OPERATION_ADD:
+    case GM_OPERATION_SUBTRACT:
+    case GM_OPERATION_NEGATE:
+        return false;
+    case GM_OPERATION_MULTIPLY:
+        return p && q;
+    case GM_OPERATION_DIVIDE:
+        return q;
+    default:
+        return true;
+    }
+}
+
+/* True if the rates are linear in the fields: with one Jacobian for all states. */
+static bool is_linear(const struct gm_form_program *rates)
+{
+    bool linear = true;
+    for (size_t i = 0; i < rates->count; i++) {
+        const struct gm_form_step *step = &rates->steps[i];
+        linear &= !(step->needs & GM_NEEDS_FIELDS) || step->kind != GM_STEP_OPERATE || !bends(rates, step);
+    }
+    return linear;
+}
+
+/* The Jacobian of the rates at own->forms, without what they depend on through unknowns. */
+static void derive(struct gm_arena *arena, void *data)
+{
+    struct own *own = data;
+    own->rows = gm_form_values_matrix(
+        &own->rates, arena,
+        &(struct gm_form_layout){GM_NEEDS_FIELDS, own->model->fields, own->offset, own->n});
+    double *moves = gm_arena_take(arena, own->rows.rows, sizeof *moves);
+    for (size_t i = 0; i < own->rows.rows; i++) {
+        moves[i] = i < own->n && own->held[i] ? 0 : 1;
+    }
+    gm_matrix_scale(&own->rows, moves);
+}
+
+static void drop_factors(struct own *own)
+{
+    for (size_t i = 0; i < MOST_FACTORS; i++) {
+        gm_arena_close(own->factors[i].arena);
+        own->factors[i] = (struct stage_factor){0};
+    }
+    gm_arena_close(own->derived);
+    own->derived = NULL;
+}
+
+static void close_factors(void *own)
+{
+    drop_factors(own);
+}
+
+/* Makes `rows` at a state, unless they are those. False when out of memory. */
+static bool derive_at(struct own *own, const double *y, double t)
+{
+    if (own->derived && (own->facets.stiff || memcmp(own->derived_at, y, own->n * sizeof *y) == 0)) {
+        return true;
+    }
+    drop_factors(own);
+    memcpy(own->derived_at, y, own->n * sizeof *y);
+    place_forms(own, own->derived_at, t);
+    solve(own, t);
+    gm_form_values_run(&own->rates, t, own->forms);
+    own->derived = gm_arena_open();
+    if (!gm_arena_run(own->derived, derive, own)) {
+        gm_arena_close(own->derived);
+        own->derived = NULL;
+    }
+    return own->derived;
+}
+
+/* The arguments of the body that makes a factor. */
+struct factoring {
+    struct own *own;
+    struct stage_factor *factor;
+};
+
+/* Factors 1 - h a (x) J; rows of stars that are solved for are those of each stage. */
+static void factor_stages(struct gm_arena *arena, void *data)
+{
+    const struct factoring *factoring = data;
+    const struct own *own = factoring->own;
+    struct stage_factor *factor = factoring->factor;
+    const struct gm_matrix *rows = &own->rows;
+    const size_t n = own->n, each = rows->rows, count = factor->count;
+    size_t entries = 0;
+    struct gm_matrix_entry *all = gm_arena_keep(
+        arena, malloc((count * count * (size_t)rows->start[each] + count * n) * sizeof *all), free);
+    gm_arena_need(arena, all);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t r = 0; r < each; r++) {
+            const double *scaled = factor->scaled[r >= n / 2] + i * GM_TABLEAU_STAGES;
+            const int row = (int)(i * each + r);
+            if (r < n) {
+                all[entries++] = (struct gm_matrix_entry){row, row, 1};
+            }
+            for (size_t j = r < n ? 0 : i; j < (r < n ? count : i + 1); j++) {
+                const double by = r < n ? -scaled[j] : 1;
+                for (int k = rows->start[r]; k < rows->start[r + 1] && by != 0; k++) {
+                    all[entries++] =
+                        (struct gm_matrix_entry){row, (int)(j * each) + rows->column[k], by * rows->value[k]};
+                }
+            }
+        }
+    }
+    factor->matrix = gm_matrix_of(arena, count * each, count * each, all, entries);
+    gm_arena_drop(arena, all);
+    factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
+    gm_arena_need(arena, factor->lu);
+    gm_arena_keep(arena, factor->lu, close_lu);
+}
+
+/* The factors for these stages, new ones in the place of the oldest. NULL if the matrix is singular, or when out of
+   memory. */
+static const struct stage_factor *factor_of(struct own *own, const struct gm_stages *stages)
+{
+    struct stage_factor wanted = {.count = stages->count};
+    for (size_t i = 0; i < stages->count; i++) {
+        for (size_t j = 0; j < stages->count; j++) {
+            wanted.scaled[0][i * GM_TABLEAU_STAGES + j] = stages->h * stages->a[i][j];
+            wanted.scaled[1][i * GM_TABLEAU_STAGES + j] = stages->h * stages->c[i][j];
+        }
+    }
+    for (size_t i = 0; i < MOST_FACTORS; i++) {
+        const struct stage_factor *factor = &own->factors[i];
+        if (factor->arena && factor->count == wanted.count &&
+            memcmp(factor->scaled, wanted.scaled, sizeof wanted.scaled) == 0) {
+            return factor;
+        }
+    }
+    struct stage_factor *factor = &own->factors[own->next_factor++ % MOST_FACTORS];
+    gm_arena_close(factor->arena);
+    *factor = wanted;
+    factor->arena = gm_arena_open();
+    if (!gm_arena_run(factor->arena, factor_stages, &(struct factoring){own, factor})) {
+        gm_arena_close(factor->arena);
+        factor->arena = NULL;
+        return NULL;
+    }
+    return factor;
+}
+
+/* gm_loops.correct */
+static bool correct(const struct gm_problem *problem, const struct gm_stages *stages, double *residual)
+{
+    struct own *own = own_of(problem);
+    const size_t n = own->n;
+    pthread_mutex_lock(&own->turn);
+    own->seen_time = NAN;
+    const bool derived = derive_at(own, stages->y, own->model->system->timed ? stages->y[n - 1] : 0);
+    const struct stage_factor *factor = derived ? factor_of(own, stages) : NULL;
+    const size_t each = own->rows.rows, size = stages->count * each;
+    double *right = factor ? calloc(2 * size, sizeof *right) : NULL;
+    for (size_t j = 0; j < stages->count && right; j++) {
+        memcpy(right + j * each, residual + j * n, n * sizeof *right);
+    }
+    const bool solved = right && gm_lu_apply(factor->lu, right, right + size);
+    for (size_t j = 0; j < stages->count && solved; j++) {
+        memcpy(residual + j * n, right + size + j * each, n * sizeof *right);
+    }
+    free(right);
+    pthread_mutex_unlock(&own->turn);
+    return solved;
+}
+
 /* ---- the problem ---- */
 
-struct opening {
-    struct own *own;
-    const struct gm_form_model *model;
-    struct gm_complex *complex;
-    const double *variables;
-    double numbers[GM_MOST_OPERANDS]; /* of the mesh */
-};
+/* Leaves the body: there is no part of this name. */
+_Noreturn static void refuse_part(const struct own *own, const char *part)
+{
+    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
+    char groups[200];
+    if (own->file.arena) {
+        names = gm_triangulation_group_names(&own->file, groups, sizeof groups);
+    } else {
+        const char *const *parts = gm_generator_parts(word);
+        for (size_t i = 0; parts[i]; i++) {
+            names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
+        }
+    }
+    gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %.60s are: %s", part, word,
+                    names);
+}
 
 /* Marks the edges of the boundary that are on a part. */
 static void mark_part(const struct own *own, const char *part, bool *edges)
 {
-    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
+    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name;
     const struct gm_complex *complex = own->space.complex;
-    const char *const *parts = gm_generator_parts(word);
-    bool there = parts[0] && strcmp(part, "all") == 0;
-    for (size_t i = 0; parts[i]; i++) {
+    const bool all = strcmp(part, "all") == 0;
+    const long group = own->file.arena && !all ? gm_triangulation_group(&own->file, part) : 0;
+    bool there = (all && complex->boundary > 0) || group != 0;
+    const char *const *parts = own->file.arena ? NULL : gm_generator_parts(word);
+    for (size_t i = 0; parts && parts[i]; i++) {
         there |= strcmp(parts[i], part) == 0;
-        names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
     }
     if (!there) {
-        gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %s are: %s", part, word,
-                        names);
+        refuse_part(own, part);
     }
     memset(edges, 0, complex->edges * sizeof *edges);
     for (size_t b = 0; b < complex->boundary; b++) {
@@ -572,7 +844,8 @@ static void mark_part(const struct own *own, const char *part, bool *edges)
         for (int c = 0; c < 3; c++) {
             middle[c] = (p[c] + q[c]) / 2;
         }
-        edges[e] = gm_generator_on(word, own->numbers, part, middle);
+        edges[e] = all || (group != 0 ? gm_triangulation_has(&own->file, e, group)
+                                      : gm_generator_on(word, own->numbers, part, middle));
     }
 }
 
@@ -604,53 +877,103 @@ static void make_closings(struct own *own)
     }
 }
 
+/* Makes the rows of integrals along parts of the boundary, with the surface on the left. */
+static void make_around(struct own *own)
+{
+    const struct gm_user_system *system = own->model->system;
+    const struct gm_complex *complex = own->space.complex;
+    struct gm_arena *arena = own->arena;
+    bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges);
+    struct gm_matrix_entry *entries = gm_arena_take(arena, complex->edges, sizeof *entries);
+    own->around = gm_arena_take(arena, system->boundary_count + 1, sizeof *own->around);
+    for (size_t i = 0; i < system->boundary_count; i++) {
+        size_t count = 0;
+        mark_part(own, system->boundaries[i], edges);
+        for (size_t e = 0; e < complex->edges; e++) {
+            entries[count] = (struct gm_matrix_entry){0, (int)e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1};
+            count += edges[e];
+        }
+        own->around[i] = gm_matrix_of(arena, 1, complex->edges, entries, count);
+    }
+}
+
 static void open_values(struct own *own, struct gm_form_values *values, const struct gm_form_program *program,
                         const double *variables)
 {
     gm_form_values_open(values, own->arena, program, &own->space, own->model->system, variables);
 }
 
-/* Marks the numbers of forms that are held, with their values. */
+/* True if a program takes the star of a dual 1-form. */
+static bool solves_star(const struct gm_form_program *program)
+{
+    bool solves = false;
+    for (size_t i = 0; i < program->count; i++) {
+        solves |=
+            program->steps[i].kind == GM_STEP_MATRIX && program->steps[i].number == GM_MATRIX_DUAL_STAR1;
+    }
+    return solves;
+}
+
+static void hold_number(struct own *own, size_t root, size_t from, double sign)
+{
+    const size_t variable = own->model->system->items[own->model->held_item[root]].variable;
+    const bool unknown = own->model->system->forms[variable].unknown;
+    const size_t to = own->offset[variable] + from, count = own->held_count++;
+    if ((count & (count - 1)) == 0) {
+        own->held_numbers =
+            gm_arena_resize(own->arena, own->held_numbers, 2 * count + 1, sizeof *own->held_numbers);
+    }
+    own->held_numbers[count] = (struct held_number){root, from, to, sign, unknown};
+    (unknown ? own->held_unknown : own->held)[to] = true;
+}
+
+/* Finds the numbers of forms that are held, and their values at the start. */
 static void hold(struct own *own, const double *variables)
 {
     const struct gm_form_model *model = own->model;
     const struct gm_user_system *system = model->system;
     const struct gm_complex *complex = own->space.complex;
-    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges);
-    struct gm_form_values values;
-    open_values(own, &values, &model->held, variables);
-    gm_form_values_run(&values, 0, own->forms);
+    bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges), given = false,
+         *own_edges = gm_arena_take(own->arena, complex->edges, sizeof *own_edges);
+    open_values(own, &own->held_values, &model->held, variables);
     for (size_t i = 0; i < model->held.root_count; i++) {
         const struct gm_system_item *item = &system->items[model->held_item[i]];
-        const struct gm_form_declared *form = &system->forms[item->variable];
-        const double *value = gm_form_values_root(&values, i);
-        bool *held = (form->unknown ? own->held_unknown : own->held) + own->offset[item->variable];
-        double *to = (form->unknown ? own->given : own->start) + own->offset[item->variable];
-        if (form->degree == 1 && own->space.mass) {
-            gm_arena_refuse(own->arena,
-                            "%s is held on edges: this needs star=circumcentric, and here the dual "
-                            "vertices are other ones",
-                            system->variables[item->variable].name);
-        }
+        const int degree = system->forms[item->variable].degree;
         mark_part(own, item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
-            const bool left = complex->edge_triangle[2 * e] >= 0; /* the surface */
-            if (edges[e] && form->degree == 1) {
-                held[e] = true;
-                to[e] = left ? value[e] : -value[e];
+            if (edges[e] && degree == 1) {
+                own_edges[e] = true;
+                hold_number(own, i, e,
+                            complex->edge_triangle[2 * e] >= 0 ? 1 : -1); /* the surface is on its left */
             }
-            for (size_t k = 0; k < 2 && edges[e] && form->degree != 1; k++) {
-                const int v = complex->edge[2 * e + k];
-                held[v] = true;
-                to[v] = value[v];
+            for (size_t k = 0; k < 2 && edges[e] && degree != 1; k++) {
+                hold_number(own, i, (size_t)complex->edge[2 * e + k], 1);
             }
         }
     }
+    own->held_changes = is_timed(&model->held);
+    set_held(own, 0, own->start);
+    for (size_t k = 0; k < own->held_count; k++) {
+        const struct held_number *held = &own->held_numbers[k];
+        given |= system->forms[system->items[model->held_item[held->root]].variable].degree == 1 &&
+                 (held->unknown ? own->given : own->start)[held->to] != 0;
+    }
+    const bool inverts = own->space.mass && (solves_star(&model->equations) || solves_star(&model->rates));
+    gm_arena_refuse_if(
+        own->arena, (given || own->held_changes) && inverts,
+        "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
+        "not f = -k*star(d(p)), or take star=circumcentric");
+    gm_form_space_hold(&own->space, own_edges);
 }
 
 static void close_space(void *space)
 {
     gm_form_space_close(space);
+}
+
+static void close_file(void *file)
+{
+    gm_triangulation_close(file);
 }
 
 static void close_turn(void *turn)
@@ -702,11 +1025,6 @@ static void take_start(struct own *own, const double *variables)
     }
 }
 
-static double *doubles(const struct own *own, size_t count)
-{
-    return gm_arena_take(own->arena, count, sizeof(double));
-}
-
 static void make(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -714,28 +1032,32 @@ static void make(struct gm_arena *arena, void *data)
     const struct gm_user_system *system = model->system;
     const double *variables = opening->variables;
     struct own *own = opening->own = gm_arena_take(arena, 1, sizeof *own);
-    struct gm_complex *complex = opening->complex;
+    struct gm_complex *complex = opening->file.complex;
     own->arena = arena;
     own->model = model;
     own->seen_time = NAN;
     memcpy(own->numbers, opening->numbers, sizeof own->numbers);
-    opening->complex = NULL; /* taken */
+    own->file = opening->file;
+    own->file.complex = NULL; /* the space takes it */
+    opening->file = (struct gm_triangulation){0};
+    gm_arena_keep(arena, &own->file, close_file);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, close_space);
+    own->space.interior = opening->interior;
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
     own->forms = gm_arena_take(arena, system->n + 1, sizeof *own->forms);
     own->defect = doubles(own, system->n + 1);
+    own->remainder = doubles(own, system->n + 1);
     lay_out(own);
     own->unknown = doubles(own, own->unknowns + 1);
-    own->residual = doubles(own, own->unknowns + 1);
-    own->weight = doubles(own, own->unknowns + 1);
+    own->derived_at = doubles(own, own->n);
     own->given = doubles(own, own->unknowns + 1);
     own->start = doubles(own, own->n);
     own->seen = doubles(own, own->n);
+    own->current = doubles(own, own->n);
     own->scratch = doubles(own, 3 * (complex->edges + 1));
-    own->piece = gm_arena_take(arena, own->unknowns + 1, sizeof *own->piece);
     own->held = gm_arena_take(arena, own->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
     make_closings(own);
@@ -745,14 +1067,18 @@ static void make(struct gm_arena *arena, void *data)
     open_values(own, &own->observed, &model->observed, variables);
     take_start(own, variables);
     hold(own, variables);
+    make_around(own);
+    own->rates.around = own->equations.around = own->observed.around = own->around;
     own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
-        place_forms(own, own->start);
+        place_forms(own, own->start, 0);
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own);
     }
-    own->loops = (struct gm_loops){.field = field};
+    gm_arena_keep(arena, own, close_factors);
+    own->loops = (struct gm_loops){.field = field, .correct = correct};
+    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
         own->loops.force = force;
@@ -764,28 +1090,38 @@ static void make(struct gm_arena *arena, void *data)
     }
 }
 
-bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
-                          const double *variables, struct gm_fault *fault)
+/* True if something observed is a part of a 1-form, for which equations are solved. */
+static bool decomposes(const struct gm_form_model *model)
 {
-    const char *written = model->system->texts[GM_WORD_STAR];
-    for (size_t i = 0; star == GM_STAR_AUTO && written && i < GM_COUNT(stars); i++) {
-        star = strcmp(stars[i], written) == 0 ? (enum gm_star)i : star;
+    bool found = false;
+    const struct gm_form_program *const programs[] = {&model->rates, &model->equations, &model->observed};
+    for (size_t k = 0; k < GM_COUNT(programs); k++) {
+        for (size_t i = 0; i < programs[k]->count; i++) {
+            found |=
+                programs[k]->steps[i].kind == GM_STEP_EXACT || programs[k]->steps[i].kind == GM_STEP_COEXACT;
+        }
     }
+    return found;
+}
+
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
+                          struct gm_form_choice choice, const double *variables, struct gm_fault *fault)
+{
     *fault = (struct gm_fault){0};
-    struct opening opening = {.model = model, .variables = variables};
-    opening.complex = open_mesh(model->system, star, variables, opening.numbers, fault);
-    const bool solves =
-        opening.complex && (model->unknown_count > 0 || opening.complex->star != GM_STAR_CIRCUMCENTRIC);
+    struct opening opening = {.model = model, .variables = variables, .interior = choice.interior};
+    const bool opened = open_mesh(&opening, choice.star, fault);
+    const bool solves = opened && (model->unknown_count > 0 || decomposes(model) ||
+                                   opening.file.complex->star != GM_STAR_CIRCUMCENTRIC);
     if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */
-        gm_complex_close(opening.complex);
+        gm_triangulation_close(&opening.file);
         return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());
     }
-    struct gm_arena *arena = opening.complex ? gm_arena_open() : NULL;
+    struct gm_arena *arena = opened ? gm_arena_open() : NULL;
     if (!arena || !gm_arena_run(arena, make, &opening)) {
         if (arena && !fault->sentence[0]) {
             gm_fail(fault, 0, "%s", gm_arena_reason(arena));
         }
-        gm_complex_close(opening.complex);
+        gm_triangulation_close(&opening.file);
         gm_arena_close(arena);
         return false;
     }
@@ -823,7 +1159,7 @@ static void look(const struct gm_problem *problem, const double *y, double t)
     if (own->seen_time != t || memcmp(own->seen, y, problem->n * sizeof *y) != 0) {
         memcpy(own->seen, y, problem->n * sizeof *y);
         own->seen_time = t;
-        place_forms(own, own->seen);
+        place_forms(own, own->seen, t);
         solve(own, t);
         own->observes = false;
     }
@@ -886,4 +1222,10 @@ double gm_form_contradiction(const struct gm_problem *problem, const double *y, 
 {
     gm_form_of(problem, y, t, form);
     return own_of(problem)->defect[form];
+}
+
+double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form)
+{
+    gm_form_of(problem, y, t, form);
+    return own_of(problem)->remainder[form];
 }

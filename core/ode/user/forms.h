@@ -16,16 +16,28 @@ struct gm_form_model {
     size_t *held_item;               /* the line of each root of `held` */
     size_t observed_count;           /* invariants, observables and lets, in the order of the items */
     size_t *observed_item;
+    const char *mesh_name,
+        *mesh_text; /* the file of the mesh, and its bytes, which the caller keeps; NULL: generated */
+    size_t mesh_size;
     size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
 };
 
 /* Compiles all lines. False with a fault, whose sentence is empty when out of memory. */
 bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault);
 
+/* True if the mesh is a file; its name is that of the line's item. */
+bool gm_form_reads_mesh(const struct gm_user_system *system);
+
+/* The choices of keys. */
+struct gm_form_choice {
+    enum gm_star star;
+    enum gm_interior interior;
+};
+
 /* Opens the problem with these values of all variables. False with a fault; its offset is 0 if it is not of a
    line. The caller closes with gm_form_problem_close. */
-bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model, enum gm_star star,
-                          const double *variables, struct gm_fault *fault);
+bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
+                          struct gm_form_choice choice, const double *variables, struct gm_fault *fault);
 void gm_form_problem_close(struct gm_problem *problem);
 
 /* Writes the state at the start. */
@@ -41,5 +53,8 @@ const double *gm_form_observed(const struct gm_problem *problem, const double *y
 double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form);
 /* The part of the right side, in the equation of the unknown i, that no unknown can meet: relative. */
 double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form);
+
+/* The largest residual of its equations, relative to the largest sum of their terms' magnitudes. */
+double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form);
 
 #endif

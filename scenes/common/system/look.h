@@ -126,7 +126,7 @@ struct gm_system_lane {
     char show[GM_TEXT_SIZE], trails[GM_TEXT_SIZE], window[GM_TEXT_SIZE];
     struct gm_camera camera;
     struct gm_line_keys grid;
-    int star;                                  /* of forms: enum gm_star */
+    int star, interior;                        /* of forms: enum gm_star, enum gm_interior */
     int mesh_grid, dual, streamlines, numbers; /* what is drawn of forms */
     double values[]; /* values of the rows after dt and until; then a byte per row, 1 if it was given */
 };

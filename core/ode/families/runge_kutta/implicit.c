@@ -86,7 +86,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     } else {
         work->tiles =
             gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
-                          gm_matrix_size(problem) > 0 ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
+                          gm_newton_fits(problem) ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
     }
     if (!work->modes && !work->tiles) {
         workspace_close(work);
@@ -205,7 +205,7 @@ GM_OF_TILE void by_fixed_point(const struct equations *equations, size_t members
     const double *y = equations->y;
     const size_t n = equations->n, stages = (size_t)equations->row->stages;
     const double least = GM_LEAST_CHANGE(stages * n);
-    const bool newton = gm_matrix_size(equations->problem) > 0;
+    const bool newton = gm_newton_fits(equations->problem);
     memset(s->z, 0, stages * n * members * sizeof *s->z);
     memset(s->norm, 0, members * sizeof *s->norm);
     for (size_t l = 0; l < members; l++) {
@@ -380,7 +380,7 @@ GM_OF_TILE bool solve(const struct gm_problem *problem, const struct gm_tile *ti
                    members * sizeof *s->slopes);
     }
     for (size_t l = 0; l < members && all; l++) {
-        if (s->solved[l] == 0 && gm_matrix_size(problem) > 0) {
+        if (s->solved[l] == 0 && gm_newton_fits(problem)) {
             s->solved[l] = by_newton(problem, tile, h, l, s, progress) ? 2 : 0;
         } else if (s->solved[l] == 0) {
             progress->unsolved = gm_unsolved_by(s->previous[l], s->norm[l]);

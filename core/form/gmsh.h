@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FLOW_GMSH_H
-#define GM_CORE_FLOW_GMSH_H
+#ifndef GM_CORE_FORM_GMSH_H
+#define GM_CORE_FORM_GMSH_H
 
 #include "core/arena.h"
 #include "core/form/complex.h"
@@ -27,6 +27,13 @@ struct gm_triangulation_member {
    close, if the text is not a valid mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
+/* The same with three coordinates of the nodes, on a surface of any number of pieces. */
+bool gm_triangulation_read_in_space(const char *text, size_t size, enum gm_star star,
+                                    struct gm_triangulation *mesh, struct gm_triangulation_fault *fault);
+/* Returns why a mesh was refused; `name` is "the mesh" or the file's. Returns the sentence, or another one. */
+enum { GM_TRIANGULATION_SENTENCE = 512 };
+const char *gm_triangulation_explain(const char *name, const struct gm_triangulation_fault *fault,
+                                     char sentence[GM_TRIANGULATION_SENTENCE]);
 /* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their
    edges. Returns false with a fault, and the mesh unchanged, when out of memory or if the star is no
    longer positive. */

@@ -2,7 +2,7 @@
 /* Gmsh's file formats 2.2 and 4.1, ASCII and binary (Geuzaine & Remacle, Int.
    J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's reference manual, "MSH file
    format"): by tables of the sections to a complex with names on its edges. */
-#include "core/flow/gmsh.h"
+#include "core/form/gmsh.h"
 #include "core/arena.h"
 #include "core/basics.h"
 
@@ -45,6 +45,7 @@ struct reader {
     bool binary;     /* the file */
     bool entities;   /* they were read */
     bool raw;        /* the reader is in binary data */
+    bool in_space;   /* nodes keep their three coordinates */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -810,16 +811,22 @@ static void read_mesh(struct gm_arena *arena, void *data)
         reader->nodes[element->nodes[i % 3]].vertex = 0;
     }
     drop_repeated(reader);
-    lay_flat(reader);
-    double *points = gm_arena_take(arena, 2 * reader->node_count, sizeof *points);
+    if (!reader->in_space) {
+        lay_flat(reader);
+    }
+    const size_t coordinates = reader->in_space ? 3 : 2;
+    double *points = gm_arena_take(arena, coordinates * reader->node_count, sizeof *points);
     int *corners = gm_arena_take(arena, 3 * triangles, sizeof *corners);
-    struct gm_triangles from = {
-        .points = points, .corners = corners, .count = reader->triangle_count, .star = reader->star};
+    struct gm_triangles from = {.points = points,
+                                .in_space = reader->in_space,
+                                .corners = corners,
+                                .count = reader->triangle_count,
+                                .star = reader->star};
     mesh->tags = gm_arena_take(arena, reader->node_count, sizeof *mesh->tags);
     for (size_t i = 0; i < reader->node_count; i++) { /* in the order of tags */
         struct node *node = &reader->nodes[i];
         if (node->vertex >= 0) {
-            memcpy(points + 2 * from.vertices, node->at, 2 * sizeof *points);
+            memcpy(points + coordinates * from.vertices, node->at, coordinates * sizeof *points);
             mesh->tags[from.vertices] = node->tag;
             node->vertex = (int)from.vertices++;
         }
@@ -843,18 +850,40 @@ static void read_mesh(struct gm_arena *arena, void *data)
     reader->fault->kind = GM_TRIANGULATION_OK;
 }
 
+static bool read_text(struct reader *reader)
+{
+    *reader->mesh = (struct gm_triangulation){.arena = gm_arena_open()};
+    *reader->fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    const bool good = gm_arena_run(reader->mesh->arena, read_mesh, reader);
+    if (!good) {
+        gm_triangulation_close(reader->mesh);
+    }
+    return good;
+}
+
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault)
 {
-    struct reader reader = {
-        .at = text, .end = text + size, .line = 1, .fault = fault, .section = "", .star = star, .mesh = mesh};
-    *mesh = (struct gm_triangulation){.arena = gm_arena_open()};
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
-    const bool good = gm_arena_run(mesh->arena, read_mesh, &reader);
-    if (!good) {
-        gm_triangulation_close(mesh);
-    }
-    return good;
+    return read_text(&(struct reader){.at = text,
+                                      .end = text + size,
+                                      .line = 1,
+                                      .fault = fault,
+                                      .section = "",
+                                      .star = star,
+                                      .mesh = mesh});
+}
+
+bool gm_triangulation_read_in_space(const char *text, size_t size, enum gm_star star,
+                                    struct gm_triangulation *mesh, struct gm_triangulation_fault *fault)
+{
+    return read_text(&(struct reader){.at = text,
+                                      .end = text + size,
+                                      .line = 1,
+                                      .fault = fault,
+                                      .section = "",
+                                      .star = star,
+                                      .in_space = true,
+                                      .mesh = mesh});
 }
 
 void gm_triangulation_close(struct gm_triangulation *mesh)
@@ -924,4 +953,62 @@ const char *gm_triangulation_group_names(const struct gm_triangulation *mesh, ch
         used += (size_t)snprintf(names + used, size - used, "%s%s", i ? ", " : "", mesh->group[i].name);
     }
     return names;
+}
+
+/* The faults of a mesh, after its name: @ is the line, %s the fault's text, %n a node, %e the nodes of an edge,
+   %t a triangle. */
+static const char *const wrong[] = {
+    [GM_TRIANGULATION_NOT_GMSH] = " is not a Gmsh file: it does not begin with $MeshFormat",
+    [GM_TRIANGULATION_VERSION] =
+        " is of version %s; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
+    [GM_TRIANGULATION_BYTES] =
+        " is binary, in the byte order of another machine; save it as ASCII (Mesh.Binary = 0)",
+    [GM_TRIANGULATION_SYNTAX] = "@: expected %s",
+    [GM_TRIANGULATION_TRUNCATED] = "@: the file ends within its section %s",
+    [GM_TRIANGULATION_HUGE] = "@: %s is more than 5000000",
+    [GM_TRIANGULATION_REPEATED_NODE] = "@: node %n is there twice",
+    [GM_TRIANGULATION_UNKNOWN_NODE] = "@: there is no node %n",
+    [GM_TRIANGULATION_ELEMENT] =
+        "@: elements of type %n; only triangles of three or six nodes (types 2 and 9) and their sides are read",
+    [GM_TRIANGULATION_THREE_D] = "@: node %n lies off the plane of the others; the mesh must be flat",
+    [GM_TRIANGULATION_EMPTY] = " has no triangle",
+    [GM_TRIANGULATION_DEGENERATE] = "@: %t has no area",
+    [GM_TRIANGULATION_OVERLAP] = "@: %t overlaps its neighbour",
+    [GM_TRIANGULATION_EDGE_OF_THREE] = ": the edge between nodes %e belongs to three triangles",
+    [GM_TRIANGULATION_PINCHED] = ": at node %n the mesh hangs together by a point",
+    [GM_TRIANGULATION_PIECES] = "@ is in several pieces: %t is not joined to triangle 1",
+    [GM_TRIANGULATION_ONE_SIDED] = " cannot be oriented: its triangles disagree along the edge of nodes %e",
+    [GM_TRIANGULATION_NOT_DELAUNAY] =
+        "@: %t and a dual edge that is not positive; the mesh must be Delaunay, or star=barycentric",
+    [GM_TRIANGULATION_DUAL_CELL] = ": the dual cell of node %n has no positive area",
+};
+
+const char *gm_triangulation_explain(const char *name, const struct gm_triangulation_fault *fault,
+                                     char sentence[GM_TRIANGULATION_SENTENCE])
+{
+    const long *n = fault->nodes;
+    char line[48] = "", angle[48] = "", thing[192] = "";
+    if (fault->kind <= GM_TRIANGULATION_MEMORY) {
+        return "not enough memory";
+    }
+    const bool where = wrong[fault->kind][0] == '@';
+    const char *before = wrong[fault->kind] + where, *sign = strchr(before, '%');
+    const char kind = sign ? sign[1] : '\0';
+    if (where && fault->line > 0) {
+        snprintf(line, sizeof line, ", line %ld", fault->line);
+    }
+    if (fault->kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+        snprintf(angle, sizeof angle, " has an angle of %.1f degrees", fault->value);
+    }
+    if (kind == 't') {
+        snprintf(thing, sizeof thing, "triangle %ld (nodes %ld %ld %ld)%s", fault->triangle, n[0], n[1], n[2],
+                 angle);
+    } else if (kind == 'e') {
+        snprintf(thing, sizeof thing, "%ld and %ld", n[0], n[1]);
+    } else if (kind == 'n') {
+        snprintf(thing, sizeof thing, "%ld", n[0]);
+    }
+    snprintf(sentence, GM_TRIANGULATION_SENTENCE, "%.100s%s%.*s%s%s", name, line, (int)strcspn(before, "%"),
+             before, kind == 's' ? fault->text : thing, sign ? sign + 2 : "");
+    return sentence;
 }
