@@ -152,7 +152,7 @@ static void kepler_solution(const struct gm_problem *problem, double t, const do
     (void)problem;
     for (size_t i = 0; i < m; i++) {
         double one[4] = {y0[i], y0[m + i], y0[2 * m + i], y0[3 * m + i]};
-        const bool found = gm_kepler_flow(t, one);
+        const bool found = gm_kepler_flow(2, 1, t, one, one + 2);
         for (size_t c = 0; c < 4; c++) {
             y[c * m + i] = found ? one[c] : NAN;
         }
@@ -223,6 +223,62 @@ static void open_mechanical(struct gm_user_data *self, struct gm_problem *proble
         self->one_degree.potential = potential;
         self->ode.lagrangian = &self->one_degree;
     }
+}
+
+/* The body's square distance from another at the start. */
+static double square_distance(const struct gm_user_data *self, const size_t *one, const size_t *other)
+{
+    double square = 0;
+    for (size_t c = 0; c < self->gravity.dimensions; c++) {
+        square +=
+            (self->values[one[c]] - self->values[other[c]]) * (self->values[one[c]] - self->values[other[c]]);
+    }
+    return square;
+}
+
+/* Opens the facet of bodies that attract each other, unless a mass is not positive. The heaviest comes first, then always
+   the nearest to it. */
+static void open_gravity(struct gm_user_data *self)
+{
+    const size_t half = self->model->system->n / 2;
+    const struct gm_formula *graph = &self->model->system->graph;
+    const gm_node_id *nodes = self->model->findings[GM_FACT_GRAVITY].nodes;
+    struct gm_gravity *gravity = &self->gravity;
+    if (!holds(self, GM_FACT_GRAVITY)) {
+        return;
+    }
+    const size_t d = gravity->dimensions = (size_t)graph->nodes[nodes[0]].value, bodies = half / d;
+    gravity->bodies = bodies;
+    gravity->places = gm_arena_take(self->arena, half, sizeof *gravity->places);
+    gravity->masses = gm_arena_take(self->arena, 2 * bodies, sizeof *gravity->masses);
+    gravity->sums = gravity->masses + bodies;
+    find_constants(self, nodes + 1 + half, bodies, gravity->masses);
+    find_constants(self, nodes + 1 + half + bodies, 1, &gravity->G);
+    for (size_t i = 0; i < half; i++) {
+        gravity->places[i] = graph->nodes[nodes[1 + i]].a;
+    }
+    bool real = gravity->G >= 0 && isfinite(gravity->G);
+    for (size_t i = 0; i < bodies; i++) {
+        size_t next = i;
+        for (size_t j = i; j < bodies; j++) { /* of 1/m, the least */
+            const size_t *places = gravity->places;
+            const bool sooner = i == 0 ? gravity->masses[j] < gravity->masses[next]
+                                       : square_distance(self, places, places + j * d) <
+                                             square_distance(self, places, places + next * d);
+            next = sooner ? j : next;
+        }
+        for (size_t c = 0; c < d; c++) {
+            const size_t place = gravity->places[i * d + c];
+            gravity->places[i * d + c] = gravity->places[next * d + c];
+            gravity->places[next * d + c] = place;
+        }
+        const double mass = 1 / gravity->masses[next];
+        gravity->masses[next] = gravity->masses[i];
+        gravity->masses[i] = mass;
+        gravity->sums[i] = mass + (i > 0 ? gravity->sums[i - 1] : 0);
+        real = real && mass > 0 && isfinite(mass);
+    }
+    self->ode.gravity = real ? gravity : NULL;
 }
 
 /* Opens the facet of motions in a magnetic field. */
@@ -416,6 +472,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     self->interpreted = self->loops;
     name_tapes(self);
     open_mechanical(self, problem);
+    open_gravity(self);
     open_magnetic(self);
     open_action(self);
     open_monitor(self);
