@@ -45,9 +45,9 @@ void gm_job_wait(struct gm_job *job);
 
 struct gm_measure {
     char *words; /* the command, as gm_arguments_split reads it; NULL before the first request */
-    pid_t child;                    /* process id; 0 if none runs */
-    int fd;                         /* pipe from the child; -1 if none runs */
-    char *text;                     /* the child's output, `length` bytes */
+    pid_t child; /* process id; 0 if none runs */
+    int fd;      /* pipe from the child; -1 if none runs */
+    char *text;  /* the child's output, `length` bytes */
     size_t length;
 };
 

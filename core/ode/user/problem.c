@@ -225,58 +225,55 @@ static void open_mechanical(struct gm_user_data *self, struct gm_problem *proble
     }
 }
 
-/* The body's square distance from another at the start. */
-static double square_distance(const struct gm_user_data *self, const size_t *one, const size_t *other)
+/* The square of the distance of two bodies at the start. */
+static double square_distance(const struct gm_user_data *self, const gm_node_id *one, const gm_node_id *other)
 {
+    const struct gm_formula *graph = &self->model->system->graph;
     double square = 0;
     for (size_t c = 0; c < self->gravity.dimensions; c++) {
-        square +=
-            (self->values[one[c]] - self->values[other[c]]) * (self->values[one[c]] - self->values[other[c]]);
+        const double apart = self->values[graph->nodes[one[c]].a] - self->values[graph->nodes[other[c]].a];
+        square += apart * apart;
     }
     return square;
 }
 
-/* Opens the facet of bodies that attract each other, unless a mass is not positive. The heaviest comes first, then always
-   the nearest to it. */
+/* Opens the facet of bodies that attract each other, unless a mass is not positive. */
 static void open_gravity(struct gm_user_data *self)
 {
-    const size_t half = self->model->system->n / 2;
-    const struct gm_formula *graph = &self->model->system->graph;
-    const gm_node_id *nodes = self->model->findings[GM_FACT_GRAVITY].nodes;
     struct gm_gravity *gravity = &self->gravity;
     if (!holds(self, GM_FACT_GRAVITY)) {
         return;
     }
-    const size_t d = gravity->dimensions = (size_t)graph->nodes[nodes[0]].value, bodies = half / d;
-    gravity->bodies = bodies;
-    gravity->places = gm_arena_take(self->arena, half, sizeof *gravity->places);
-    gravity->masses = gm_arena_take(self->arena, 2 * bodies, sizeof *gravity->masses);
-    gravity->sums = gravity->masses + bodies;
-    find_constants(self, nodes + 1 + half, bodies, gravity->masses);
-    find_constants(self, nodes + 1 + half + bodies, 1, &gravity->G);
-    for (size_t i = 0; i < half; i++) {
-        gravity->places[i] = graph->nodes[nodes[1 + i]].a;
-    }
+    const struct gm_formula *graph = &self->model->system->graph;
+    const gm_node_id *nodes = self->model->findings[GM_FACT_GRAVITY].nodes, *coordinates = nodes + 1;
+    const size_t half = self->model->system->n / 2, d = (size_t)graph->nodes[nodes[0]].value,
+                 count = half / d;
+    double *inverses = gm_arena_take(self->arena, 3 * count, sizeof *inverses);
+    size_t *order = gm_arena_take(self->arena, count + half, sizeof *order);
+    *gravity = (struct gm_gravity){count, d, order + count, inverses + count, inverses + 2 * count, 0};
+    find_constants(self, coordinates + half, count, inverses);
+    find_constants(self, coordinates + half + count, 1, &gravity->G);
     bool real = gravity->G >= 0 && isfinite(gravity->G);
-    for (size_t i = 0; i < bodies; i++) {
-        size_t next = i;
-        for (size_t j = i; j < bodies; j++) { /* of 1/m, the least */
-            const size_t *places = gravity->places;
-            const bool sooner = i == 0 ? gravity->masses[j] < gravity->masses[next]
-                                       : square_distance(self, places, places + j * d) <
-                                             square_distance(self, places, places + next * d);
-            next = sooner ? j : next;
+    for (size_t i = 0; i < count; i++) {
+        order[i] = i;
+    }
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = i + 1; j < count; j++) {
+            const gm_node_id *first = coordinates + order[0] * d;
+            const size_t one = order[i], other = order[j];
+            if (i == 0 ? inverses[other] < inverses[one]
+                       : square_distance(self, coordinates + other * d, first) <
+                             square_distance(self, coordinates + one * d, first)) {
+                order[i] = other;
+                order[j] = one;
+            }
         }
-        for (size_t c = 0; c < d; c++) {
-            const size_t place = gravity->places[i * d + c];
-            gravity->places[i * d + c] = gravity->places[next * d + c];
-            gravity->places[next * d + c] = place;
-        }
-        const double mass = 1 / gravity->masses[next];
-        gravity->masses[next] = gravity->masses[i];
-        gravity->masses[i] = mass;
+        const double mass = gravity->masses[i] = 1 / inverses[order[i]];
         gravity->sums[i] = mass + (i > 0 ? gravity->sums[i - 1] : 0);
         real = real && mass > 0 && isfinite(mass);
+        for (size_t c = 0; c < d; c++) {
+            gravity->places[i * d + c] = graph->nodes[coordinates[order[i] * d + c]].a;
+        }
     }
     self->ode.gravity = real ? gravity : NULL;
 }
