@@ -144,6 +144,7 @@ bool gm_explorer_open_line(struct gm_explorer *explorer, const char *line, struc
 /* Opens the prompt with the open system, the last line or an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
 void gm_explorer_ask_map(struct gm_explorer *explorer);
+void gm_explorer_ask_invariants(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_press_typed(struct gm_explorer *explorer, int key);
 /* Checks the typed line, and carries it out if it is correct and entered. */

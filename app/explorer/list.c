@@ -323,9 +323,13 @@ bool gm_explorer_compose(struct gm_explorer *explorer)
             face->explained = shot->lanes[shot->selected].scheme;
         }
         if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
-            gm_measure_ask(&explorer->measure, face->explained);
-            face->measured = gm_measure_text(&explorer->measure);
+            struct gm_arguments scheme = {.count = 1,
+                                          .words = (char *[]){(char *)face->explained->name, NULL}};
+            char *words = gm_arguments_join("certify", &scheme);
+            gm_measure_ask(&explorer->measure, words ? words : "");
+            free(words);
         }
+        face->measured = gm_measure_text(&explorer->measure);
         if (face->watched != shot->scene) { /* what to watch in a new scene is shown for some seconds */
             face->watched = shot->scene;
             face->watch_until = gm_clock_milliseconds() + WATCH_MILLISECONDS;

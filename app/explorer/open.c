@@ -15,6 +15,7 @@
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "core/basics.h"
+#include "core/model/equations.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 #include "render/message.h"
@@ -317,6 +318,62 @@ void gm_explorer_ask_map(struct gm_explorer *explorer)
         open_prompt(explorer, GM_TYPED_MAP, same ? last : usual, SIZE_MAX);
     }
     free(usual);
+}
+
+/* ---- invariants ---- */
+
+/* Returns true if a word sets a parameter or a choice of the system. */
+static bool sets_value(const struct gm_user_system *system, const char *word)
+{
+    char key[64];
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    bool found = gm_choice_named(&system->choices, key) != NULL;
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        found = found || strcmp(system->variables[i].name, key) == 0;
+    }
+    return found;
+}
+
+/* Opens the page of the invariants that `geomint list` finds, for the scene's words and its system's values. */
+void gm_explorer_ask_invariants(struct gm_explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    const char *text = shot->scene->text;
+    struct gm_user_system system;
+    struct gm_fault fault;
+    struct gm_arguments present = {0}, words = {0};
+    size_t size = 0;
+    char *said = gm_studies_words(shot), *scene = NULL;
+    FILE *stream = open_memstream(&scene, &size);
+    if (stream) {
+        gm_arguments_put_scene(stream, shot->scene);
+        fclose(stream);
+    }
+    gm_arguments_split(&words, scene ? scene : "");
+    gm_arguments_split(&present, said ? said : "");
+    const bool opened = text && gm_equations_open(&system, text, strlen(text), NULL, 0, &fault);
+    const bool typed =
+        words.count > 0 && strcmp(words.words[0], "system") == 0; /* then all words may be given */
+    const int first = words.count;
+    for (int i = first; i < present.count; i++) {
+        gm_arguments_append(&words, &present.words[i],
+                            typed || (opened && sets_value(&system, present.words[i])));
+    }
+    gm_arguments_add(&words, "--invariants");
+    char *command = gm_arguments_join("list", &words);
+    if (command) {
+        gm_measure_ask(&explorer->measure, command);
+        explorer->face.page = GM_PAGE_INVARIANTS;
+        explorer->face.scroll = 0;
+    }
+    if (opened) {
+        gm_system_close(&system);
+    }
+    free(command);
+    free(said);
+    free(scene);
+    gm_arguments_close(&present);
+    gm_arguments_close(&words);
 }
 
 /* ---- accepted lines ---- */

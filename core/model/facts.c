@@ -34,6 +34,8 @@ static const struct {
     [GM_FACT_FAST_LINEAR] = {"fast-linear", "H = |p|^2/2 + omega^2 q^2/2 + U(q)",
                              "gives no coordinate a frequency of its own"},
     [GM_FACT_KEPLER_SPLIT] = {"kepler-split", "H = |p|^2/2 - 1/|q| + W(q)", "is not -1/|q|"},
+    [GM_FACT_GRAVITY] = {"gravity", "H = sum |p_i|^2/(2 m_i) - sum G m_i m_j/|q_i - q_j|",
+                         "is not the attraction of two bodies"},
     [GM_FACT_LAGRANGIAN] = {"lagrangian", "L = v^2/2 - V(q), one degree of freedom", ""},
     [GM_FACT_CONFORMAL] = {"conformal", "every force is the same multiple of the momentum",
                            "is not the multiple of the momentum that others are"},
@@ -409,6 +411,20 @@ static void find_fast_linear(const struct search *search, struct gm_finding *fin
     finding->nodes = nodes;
 }
 
+/* 1/|q_i - q_j|; `other` NULL: 1/|q_i| */
+static gm_node_id inverse_distance(struct gm_formula *graph, size_t dimensions, const size_t *one,
+                                   const size_t *other)
+{
+    gm_node_id square = gm_formula_constant(graph, 0);
+    for (size_t c = 0; c < dimensions; c++) {
+        const gm_node_id q = gm_formula_variable(graph, one[c]),
+                         x = other ? gm_difference(graph, q, gm_formula_variable(graph, other[c])) : q;
+        square = gm_sum(graph, square, gm_product(graph, x, x));
+    }
+    return gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1),
+                         gm_simplified(graph, GM_OPERATION_SQRT, square, 0));
+}
+
 /* Finds the term -1/|q|; the others are the perturbation. */
 static void find_kepler_split(const struct search *search, struct gm_finding *finding, gm_node_id potential,
                               gm_node_id *nodes)
@@ -417,10 +433,7 @@ static void find_kepler_split(const struct search *search, struct gm_finding *fi
     struct gm_formula *graph = &system->graph;
     size_t count = 0;
     const struct term *terms = terms_of(search, potential, &count);
-    const gm_node_id x = gm_formula_variable(graph, 0), y = gm_formula_variable(graph, 1);
-    const gm_node_id square = gm_sum(graph, gm_product(graph, x, x), gm_product(graph, y, y));
-    const gm_node_id inverse = gm_simplified(graph, GM_OPERATION_DIVIDE, gm_formula_constant(graph, 1),
-                                             gm_simplified(graph, GM_OPERATION_SQRT, square, 0));
+    const gm_node_id inverse = inverse_distance(graph, 2, (const size_t[]){0, 1}, NULL);
     gm_node_id perturbation = gm_formula_constant(graph, 0), other = GM_NO_NODE;
     bool found = false;
     for (size_t k = 0; k < count; k++) {
@@ -592,16 +605,6 @@ static void find_second_order(const struct search *search, struct gm_finding *fi
     }
 }
 
-/* Returns true if H is all that acts. */
-static bool is_alone(const struct gm_user_system *system)
-{
-    bool alone = system->tangents == 0 && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0);
-    for (size_t i = 0; i < system->n; i++) {
-        alone = alone && system->variables[i].force == GM_NO_NODE;
-    }
-    return alone;
-}
-
 /* Concludes that a node vanishes; else the rate of a component is the reason. */
 static void need_zero(struct gm_user_system *system, struct gm_finding *finding, gm_node_id node,
                       size_t component)
@@ -611,6 +614,192 @@ static void need_zero(struct gm_user_system *system, struct gm_finding *finding,
         finding->component = component;
         finding->term = finding->holds ? GM_NO_NODE : system->rates[component];
     }
+}
+
+/* Bodies whose potential is a sum over pairs. */
+struct pairs {
+    const struct term *terms;
+    size_t count, dimensions, bodies;
+    bool *held;     /* [count][n / 2]: the coordinates of each term */
+    size_t *places; /* the coordinates, body by body */
+    size_t *body;   /* of each coordinate */
+};
+
+/* Marks the coordinates that each term holds, those of two bodies. */
+static bool find_pairs(const struct search *search, struct gm_finding *finding, struct pairs *pairs)
+{
+    struct gm_user_system *system = search->system;
+    const size_t half = system->n / 2, mark = gm_arena_mark(system->arena);
+    for (size_t k = 0; k < pairs->count; k++) {
+        size_t size = 0, held = 0;
+        const gm_node_id *parts =
+            gm_arena_keep(system->arena, gm_formula_parts(&system->graph, pairs->terms[k].node, &size), free);
+        for (size_t i = 0; i < size; i++) {
+            const struct gm_node *part = &system->graph.nodes[parts[i]];
+            if (part->operation == GM_VARIABLE && part->a < half) {
+                pairs->held[k * half + part->a] = true;
+                held++;
+            }
+        }
+        gm_arena_release(system->arena, mark);
+        pairs->dimensions = k == 0 ? held / 2 : pairs->dimensions;
+        if ((held != 4 && held != 6) || held != 2 * pairs->dimensions) {
+            deny(finding, pairs->terms[k].node, NULL);
+            return false;
+        }
+    }
+    pairs->bodies = pairs->count > 0 ? half / pairs->dimensions : 0;
+    if (pairs->bodies * pairs->dimensions != half ||
+        2 * pairs->count != pairs->bodies * (pairs->bodies - 1)) {
+        deny(finding, GM_NO_NODE, "not every two bodies attract each other by one term");
+    }
+    return finding->holds;
+}
+
+/* Returns true if a coordinate is one of the first body, which has the coordinate 0: all terms hold both or none of them.
+   The two bodies of a single term differ by their masses. */
+static bool is_of_first(const struct search *search, const struct pairs *pairs, size_t coordinate)
+{
+    struct gm_user_system *system = search->system;
+    const size_t half = system->n / 2;
+    bool same = true;
+    for (size_t k = 0; k < pairs->count; k++) {
+        same = same && pairs->held[k * half] == pairs->held[k * half + coordinate];
+    }
+    return pairs->count > 1
+               ? same
+               : gm_equations_vanishes(
+                     system, gm_difference(&system->graph, slope_of(search, system->rates[0], half),
+                                           slope_of(search, system->rates[coordinate], half + coordinate))) !=
+                     GM_NOT_ZERO;
+}
+
+/* Finds the coordinates of a body by the term that it shares with the first one, which holds the difference of theirs
+   along each axis. */
+static bool find_places(const struct search *search, const struct pairs *pairs, size_t term, size_t body)
+{
+    struct gm_user_system *system = search->system;
+    const gm_node_id node = pairs->terms[term].node;
+    const size_t half = system->n / 2, d = pairs->dimensions;
+    const bool *held = pairs->held + term * half;
+    size_t axes = 0;
+    for (size_t a = 0; a < half; a++) {
+        for (size_t b = a + 1; b < half && held[a]; b++) {
+            if (!held[b] || gm_equations_vanishes(system, gm_sum(&system->graph, slope_of(search, node, a),
+                                                                 slope_of(search, node, b))) == GM_NOT_ZERO) {
+                continue;
+            }
+            const bool first = is_of_first(search, pairs, a);
+            size_t axis = body == 1 ? axes : 0;
+            while (body > 1 && axis < d && pairs->places[axis] != (first ? a : b)) {
+                axis++;
+            }
+            if (axis == d) {
+                return false;
+            }
+            pairs->places[axis] = first ? a : b;
+            pairs->places[body * d + axis] = first ? b : a;
+            pairs->body[first ? b : a] = body;
+            axes++;
+        }
+    }
+    return axes == d;
+}
+
+/* G of a term of the first two bodies, with the distance 1 along the axis of a coordinate. */
+static gm_node_id strength_of(const struct search *search, const struct term *term, size_t coordinate)
+{
+    struct gm_user_system *system = search->system;
+    gm_node_id *replacement = gm_system_no_nodes(system, system->variable_count), node = term->node;
+    for (size_t i = 0; i < system->n / 2; i++) {
+        replacement[i] = gm_formula_constant(&system->graph, i == coordinate);
+    }
+    gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
+    return gm_negative(&system->graph, gm_product(&system->graph, term->coefficient, node));
+}
+
+/* Writes the masses and G, and concludes that all terms are those of the energy. */
+static void prove_gravity(const struct search *search, struct gm_finding *finding, const struct pairs *pairs,
+                          gm_node_id strength, gm_node_id *nodes)
+{
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const size_t half = system->n / 2, d = pairs->dimensions, bodies = pairs->bodies;
+    gm_node_id *lightness = nodes + 1 + half; /* 1/m */
+    bool *paired = gm_arena_take(system->arena, bodies * bodies, sizeof *paired);
+    nodes[0] = gm_formula_constant(graph, (double)d);
+    for (size_t i = 0; i < half; i++) {
+        const size_t place = pairs->places[i];
+        const gm_node_id rate = system->rates[place], p = gm_formula_variable(graph, half + place);
+        nodes[1 + i] = gm_formula_variable(graph, place);
+        lightness[i / d] = i % d == 0 ? slope_of(search, rate, half + place) : lightness[i / d];
+        need_zero(system, finding, gm_difference(graph, rate, gm_product(graph, lightness[i / d], p)), place);
+    }
+    const gm_node_id G = gm_product(graph, strength, gm_product(graph, lightness[0], lightness[1]));
+    for (size_t k = 0; k < pairs->count && finding->holds; k++) {
+        size_t a = 0, b;
+        while (!pairs->held[k * half + a]) {
+            a++;
+        }
+        for (b = a; !pairs->held[k * half + b] || pairs->body[b] == pairs->body[a]; b++) {
+        }
+        const size_t i = pairs->body[a], j = pairs->body[b];
+        const gm_node_id attraction = gm_product(
+            graph,
+            gm_simplified(graph, GM_OPERATION_DIVIDE, G, gm_product(graph, lightness[i], lightness[j])),
+            inverse_distance(graph, d, pairs->places + i * d, pairs->places + j * d));
+        const gm_node_id term = gm_product(graph, pairs->terms[k].coefficient, pairs->terms[k].node);
+        conclude(finding, gm_equations_vanishes(system, gm_sum(graph, term, attraction)));
+        if (!finding->holds || paired[i * bodies + j]) {
+            deny(finding, pairs->terms[k].node, "is not G m_i m_j/|q_i - q_j| with the G of the first term");
+        }
+        paired[i * bodies + j] = paired[j * bodies + i] = true;
+    }
+    nodes[1 + half + bodies] = G;
+    finding->nodes = nodes;
+}
+
+/* Finds bodies by their pairs, the first one in each of its terms, and then proves each term. */
+static void find_gravity(const struct search *search, struct gm_finding *finding, gm_node_id *nodes)
+{
+    struct gm_user_system *system = search->system;
+    const size_t half = system->n / 2;
+    struct pairs pairs = {.dimensions = 0};
+    pairs.terms = terms_of(search, at_zero(system, system->energy, half, half), &pairs.count);
+    pairs.held = gm_arena_take(system->arena, pairs.count * half, sizeof *pairs.held);
+    pairs.places = gm_arena_take(system->arena, 2 * half, sizeof *pairs.places);
+    pairs.body = pairs.places + half;
+    finding->asked = true;
+    if (!find_pairs(search, finding, &pairs)) {
+        return;
+    }
+    size_t body = 1;
+    gm_node_id strength = GM_NO_NODE;
+    for (size_t k = 0; k < pairs.count; k++) {
+        if (!pairs.held[k * half]) {
+            continue;
+        }
+        if (body == pairs.bodies || !find_places(search, &pairs, k, body)) {
+            deny(finding, pairs.terms[k].node, NULL);
+            return;
+        }
+        strength = body++ == 1 ? strength_of(search, &pairs.terms[k], 0) : strength;
+    }
+    if (body != pairs.bodies) {
+        deny(finding, GM_NO_NODE, "not every two bodies attract each other by one term");
+        return;
+    }
+    prove_gravity(search, finding, &pairs, strength, nodes);
+}
+
+/* Returns true if H is all that acts. */
+static bool is_alone(const struct gm_user_system *system)
+{
+    bool alone = system->tangents == 0 && !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        alone = alone && system->variables[i].force == GM_NO_NODE;
+    }
+    return alone;
 }
 
 /* Writes the nodes of the facet: the velocity u of p = 0, or 0; g; W by rows, which are the slopes of v' over v, or
@@ -787,6 +976,10 @@ static void find_all(struct gm_arena *arena, void *data)
         find_conformal(search, &findings[GM_FACT_CONFORMAL], search->nodes);
         find_mechanical(search, search->nodes + 1);
     }
+    if (kind == GM_CANONICAL && is_alone(system) && !system->timed && half >= 4 &&
+        (half % 2 == 0 || half % 3 == 0) && findings[GM_FACT_NYSTROM].holds) {
+        find_gravity(search, &findings[GM_FACT_GRAVITY], search->nodes + system->n + 17);
+    }
     if (kind == GM_RATES) {
         find_second_order(search, &findings[GM_FACT_SECOND_ORDER]);
     }
@@ -808,7 +1001,7 @@ static void find_all(struct gm_arena *arena, void *data)
 bool gm_facts_find(struct gm_user_system *system, struct gm_finding findings[GM_FACTS])
 {
     if (!system->facets) {
-        system->facets = gm_arena_take(system->arena, system->n + 17, sizeof *system->facets);
+        system->facets = gm_arena_take(system->arena, 2 * system->n + 19, sizeof *system->facets);
     }
     struct search search = {.system = system, .findings = findings, .nodes = system->facets};
     for (size_t i = 0; i < GM_FACTS; i++) {

@@ -21,6 +21,9 @@ enum gm_fact {
     GM_FACT_FAST_LINEAR,
     /* H = |p|^2/2 + V(q), V = -1/|q| + W(q) < 0 in the plane; nodes: V, both -dW/dq_i */
     GM_FACT_KEPLER_SPLIT,
+    /* H = sum |p_i|^2/(2 m_i) - sum G m_i m_j/|q_i - q_j| over all pairs of two bodies or more; nodes: the number of
+       dimensions, 2 or 3; the coordinates, body by body; all 1/m_i; G */
+    GM_FACT_GRAVITY,
     GM_FACT_LAGRANGIAN, /* L = v^2/2 - V(q), one degree of freedom; nodes: V, V', V'' */
     GM_FACT_CONFORMAL,  /* every force is -c p with the same constant c, its node */
     GM_FACTS

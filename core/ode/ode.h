@@ -87,6 +87,15 @@ struct gm_kepler_split {
     void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
 };
 
+/* H = sum |p_i|^2/(2 m_i) - sum G m_i m_j/|q_i - q_j| in 2 or 3 dimensions: the heaviest body, then the others by their
+   distances from it at the start */
+struct gm_gravity {
+    size_t bodies, dimensions;
+    size_t *places;        /* component of each coordinate, body by body; its momentum is n / 2 behind */
+    double *masses, *sums; /* sums[i] = m_0 + ... + m_i */
+    double G;
+};
+
 /* Q(y) > 0: the density of an adaptive scheme's steps, ds = Q dt */
 struct gm_monitor {
     /* one member's Q; gradient: dQ/dy (n), or NULL */
@@ -172,7 +181,8 @@ enum gm_ode_facet {
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
     GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
     GM_NEEDS_MAGNETIC = 1u << 23,
-    GM_NEEDS_PARTS = 1u << 24, /* parts with names */
+    GM_NEEDS_PARTS = 1u << 24,  /* parts with names */
+    GM_NEEDS_KEPLER = 1u << 26, /* a Kepler split, or gravity: parts kepler and interaction */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -189,6 +199,7 @@ struct gm_ode {
     const struct gm_action *action; /* NULL: a quadratic T(p) makes one (core/ode/variational/action.h) */
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
+    const struct gm_gravity *gravity;
     const struct gm_volume *volume;
     const struct gm_magnetic *magnetic;
     const struct gm_monitor *monitor;

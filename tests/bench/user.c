@@ -17,6 +17,7 @@
 #include "app/words/request.h"
 #include "core/basics.h"
 #include "core/model/equations.h"
+#include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/user/problem.h"
 #include "core/run.h"
@@ -368,10 +369,52 @@ static void read_large(size_t terms)
     free(text);
 }
 
+/* 200 days of the outer planets: a splitting in Jacobi coordinates beside a compiled scheme of about its error, and the
+   flow of one planet. */
+static void against_nystrom(void)
+{
+    enum { STEPS = 20000, PLANETS = 5 };
+    char *words[][3] = {{"outer-planets", "scheme=saba2(kepler,interaction)", "dt=200"},
+                        {"outer-planets", "scheme=blanes-moan-nystrom6", "dt=100"}};
+    struct gm_lane *lanes[] = {open_lane(3, words[0]), open_lane(3, words[1])};
+    double took[2][ROUNDS], ratio[ROUNDS], flow[ROUNDS];
+    for (size_t round = 0; round < ROUNDS && lanes[0] && lanes[1]; round++) {
+        for (long i = 0; i < 2; i++) {
+            const double before = seconds();
+            gm_run_advance(lanes[i]->run, (i + 1) * STEPS);
+            took[i][round] = 1e9 * (seconds() - before) / STEPS;
+        }
+        ratio[round] = took[0][round] / took[1][round];
+        double y[PLANETS][6];
+        for (size_t i = 0; i < PLANETS; i++) {
+            memcpy(y[i],
+                   (const double[6]){5.2 * (double)(i + 1), 0, 0.1, 0, 1.05 / sqrt(5.2 * (double)(i + 1)), 0},
+                   sizeof y[i]);
+        }
+        const double before = seconds();
+        for (size_t i = 0; i < PLANETS * STEPS; i++) {
+            gm_kepler_flow(3, 1, 1.7, y[i % PLANETS], y[i % PLANETS] + 3);
+        }
+        flow[round] = 1e9 * (seconds() - before) / (PLANETS * STEPS);
+    }
+    if (lanes[0] && lanes[1]) {
+        printf(
+            "outer planets, ns for 200 days: saba2 %.0f; blanes-moan-nystrom6 %s %.0f, ratio %.2f (wanted 0.45)\n",
+            median(took[0], ROUNDS), gm_engine_of(lanes[1]), median(took[1], ROUNDS), median(ratio, ROUNDS));
+        printf("a Kepler flow, ns: %.0f (wanted 120)\n", median(flow, ROUNDS));
+    }
+    gm_lane_close(lanes[0]);
+    gm_lane_close(lanes[1]);
+}
+
 int main(int argc, char *argv[])
 {
     const char *source = argc > 1 ? argv[1] : ".";
     gm_engine_choose(GM_ENGINE_NATIVE, source, tell, never);
+    if (argc > 2 && strcmp(argv[2], "planets") == 0) {
+        against_nystrom();
+        return EXIT_SUCCESS;
+    }
     static const char *const schemes[] = {"verlet", "yoshida4", "blanes-moan-nystrom6",
                                           "rk4",    "midpoint", "gauss4"};
     struct gm_user_system system;
@@ -399,6 +442,7 @@ int main(int argc, char *argv[])
     against_pendulum_by_hand();
     against_springs_by_hand();
     against_bodies_by_hand();
+    against_nystrom();
     read_large(10000);
     return EXIT_SUCCESS;
 }

@@ -140,6 +140,44 @@ static void wisdom_holman(void **unused)
     }
 }
 
+/* The largest difference of coordinates after 200 000 days to a solution of order 8 with small steps. */
+static double planets_differ(const double *exact, const char *scheme, int dt)
+{
+    char words[200];
+    struct gm_trial trial;
+    double largest = 0;
+    snprintf(words, sizeof words, "outer-planets until=200000 dt=%d scheme=%s", dt, scheme);
+    gm_trial_run(&trial, words, false);
+    const double *y = gm_run_state(trial.drive.lane->run);
+    for (size_t i = 0; i < 18; i++) {
+        largest = fmax(largest, fabs(y[i] - exact[i]));
+    }
+    gm_trial_close(&trial);
+    return largest;
+}
+
+static void outer_planets(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *scheme;
+        int dt;
+        double error;
+    } rows[] = {
+        {"strang(kepler,interaction)", 200, 3.14e-4}, {"strang(kepler,interaction)", 100, 7.82e-5},
+        {"saba2(kepler,interaction)", 200, 1.3e-6},   {"saba4(kepler,interaction)", 400, 2.27e-6},
+        {"aba864(kepler,interaction)", 500, 8.1e-6},  {"aba1064(kepler,interaction)", 1000, 2.3e-5},
+        {"aba1064(kepler,interaction)", 500, 5.5e-8}, {"blanes-moan-nystrom6", 100, 4.7e-7},
+    };
+    struct gm_trial exact;
+    gm_trial_run(&exact, "outer-planets until=200000 dt=40 scheme=kahan-li8", false);
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        const double error = planets_differ(gm_run_state(exact.drive.lane->run), rows[i].scheme, rows[i].dt);
+        expect(rows[i].scheme, "error", error, rows[i].error, 0.02 * rows[i].error);
+    }
+    gm_trial_close(&exact);
+}
+
 static void two_turned_vortices(void **unused)
 {
     (void)unused;
@@ -388,6 +426,7 @@ int main(void)
         cmocka_unit_test(high_eccentricity),
         cmocka_unit_test(levi_civita),
         cmocka_unit_test(wisdom_holman),
+        cmocka_unit_test(outer_planets),
         cmocka_unit_test(two_turned_vortices),
         cmocka_unit_test(symmetry_breaks_for_both),
         cmocka_unit_test(reduced_vortices),

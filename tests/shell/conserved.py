@@ -5,9 +5,11 @@ usage: conserved.py GEOMINT"""
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 geomint = sys.argv[1]
 failures = []
@@ -172,6 +174,54 @@ with tempfile.TemporaryDirectory() as folder:
         rest = run("run", "kepler", "scheme=" + word, "steps=60", "dt=.05", "--continue", kept, "--state", "--json")
         check(rest.returncode == 0 and json.loads(rest.stdout.splitlines()[0])["state"] == whole[0]["state"],
               f"{word} resumed: {rest.stdout}{rest.stderr}")
+
+# ---- what energy alone does not buy: the section of Hénon and Heiles drifts
+
+
+def doubles(file, name):
+    data = file.read(name)
+    body = data[10 + struct.unpack("<H", data[8:10])[0]:]
+    return struct.unpack(f"<{len(body) // 8}d", body)
+
+
+def solve(rows, right):
+    rows = [row + [value] for row, value in zip(rows, right)]
+    for i in range(len(rows)):
+        k = max(range(i, len(rows)), key=lambda r: abs(rows[r][i]))
+        rows[i], rows[k] = rows[k], rows[i]
+        for r in range(len(rows)):
+            if r != i:
+                factor = rows[r][i] / rows[i][i]
+                rows[r] = [a - factor * b for a, b in zip(rows[r], rows[i])]
+    return [row[-1] / row[i] for i, row in enumerate(rows)]
+
+
+def drift(places):
+    """the mean of the last tenth of the radii about the centre, less the waves 0 to 4 of the first tenth over the angle"""
+    x, y = sum(p[0] for p in places) / len(places), sum(p[1] for p in places) / len(places)
+    polar = [(math.atan2(b - y, a - x), math.hypot(a - x, b - y)) for a, b in places]
+    tenth = len(polar) // 10
+
+    def waves(angle):
+        return [1] + [f(k * angle) for k in range(1, 5) for f in (math.cos, math.sin)]
+
+    rows = [waves(angle) for angle, _ in polar[:tenth]]
+    normal = [[sum(row[i] * row[j] for row in rows) for j in range(9)] for i in range(9)]
+    fit = solve(normal, [sum(row[i] * r for row, (_, r) in zip(rows, polar)) for i in range(9)])
+    return sum(r - sum(c * w for c, w in zip(fit, waves(angle))) for angle, r in polar[-tenth:]) / tenth
+
+
+with tempfile.TemporaryDirectory() as folder:
+    tracks = os.path.join(folder, "tracks.npz")
+    lanes = numbers("henon-heiles", "scheme=relaxed(rk4; H),projected(rk4; H),verlet", "dt=.4,.4,.1", "zip=yes", "until=4000",
+                    "--save-tracks", tracks)
+    with zipfile.ZipFile(tracks) as file:
+        for number, (expected, energy) in enumerate(((3.9e-2, 1e-12), (4.4e-2, 1e-12), (1.9e-3, 5.2e-4))):
+            values = doubles(file, f"lane{number}/section.npy")
+            found = drift(list(zip(values[::2], values[1::2])))
+            check(abs(found / expected - 1) < .05, f"the section drifts by {found}, not {expected}")
+            check(abs(lanes[number]["observables"]["energy_error"]) < energy, f"energy: {lanes[number]['observables']}")
+
 
 # ---- what is refused, with its place ----
 for scene, word, sentence in (

@@ -291,6 +291,18 @@ def portraits():
     has("◌ centre", "lotka-volterra portrait=yes", "4s", 60)
 
 
+def invariants():
+    """What the equations conserve, for the values that the parameters have; why it is not searched."""
+    typed = "system H=(px^2+py^2)/2+(x^2+y^2)/2+C*x^2*y+2*y^3 coordinates=x,y momenta=px,py x=.1 y=.1 px=0 py=0 C=1"
+    has("angular_momentum = q1", "kepler", "SPACE V", 100)
+    has("proved: 2, 2 of them", typed, "SPACE V", 100)
+    has("proved: 1, 1 of them", typed.replace("C=1", "C=1.1"), "SPACE V", 100)
+    has("proved: 1, 1 of them", "henon-heiles", "SPACE V")
+    has("not searched: it is a field", "kdv", "SPACE V")
+    has("are those of a system", "vortices", "SPACE V")
+    same("SPACE", "SPACE V V", "kepler", "the page and back")
+
+
 def notices():
     has("stability of kepler is ready: m shows it", "kepler", "SPACE m ESC 1s", 120)
     lacks("is ready", "kepler", "SPACE m ESC 21s", 120)
@@ -353,7 +365,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, movies, aliases,
-                     names_of_keys, lists, ranges, portraits, notices, drive):
+                     names_of_keys, lists, ranges, portraits, invariants, notices, drive):
             part()
         os.chdir("/")
     print("shots: all passed" if not faults else f"shots: {faults} faults")

@@ -214,6 +214,53 @@ def members_and_engines_agree():
     check(not isinstance(several, str) and len(several[-1]["state"]) == 5 * len(alone), "members do not run")
 
 
+def bodies(**changes):
+    """three bodies in space, whose components are mixed and whose heaviest is the second"""
+    start = {"k": 1, "x1": 1, "y1": .1, "z1": -.2, "x2": .1, "y2": 0, "z2": .1, "x3": -2, "y3": .5, "z3": .3,
+             "p_x1": -.05, "p_y1": .35, "p_z1": .02, "p_x2": .1, "p_y2": 0, "p_z2": .1, "p_x3": .03, "p_y3": -.13,
+             "p_z3": .01, **changes}
+    return ["system", "coordinates=x1,z1,x2,x3,z2,z3,y1,y2,y3",
+            "H=(p_x1^2+p_y1^2+p_z1^2)/2/.2+(p_x2^2+p_y2^2+p_z2^2)/2/3+(p_x3^2+p_y3^2+p_z3^2)/2/.1"
+            "-.6*k/sqrt((x1-x2)^2+(y1-y2)^2+(z1-z2)^2)-.02*k/((x1-x3)^2+(y1-y3)^2+(z1-z3)^2)^.5"
+            "-.3*k/sqrt((x2-x3)^2+(y2-y3)^2+(z2-z3)^2)", *(f"{name}={value}" for name, value in start.items())]
+
+
+def bodies_move_in_jacobi_coordinates():
+    """Steps alone and in a block; flows of the program and of formulas."""
+    for words in (["outer-planets", "dt=100", "steps=40"], [*bodies(), "dt=.02", "steps=60"],
+                  [*bodies(k=2), "dt=.005", "steps=60"]):
+        for scheme in ("strang(kepler, interaction)", "wisdom-holman2", "aba864(kepler, interaction)"):
+            whole = state(*words, "scheme=" + scheme)
+            lanes = run(*words, "scheme=" + scheme, "--max")
+            alone = lanes[-1]["state"] if not isinstance(lanes, str) else [0] * len(whole)
+            check(distance(whole, alone) < 2e-13, f"{scheme} step by step: {distance(whole, alone)}")
+        by_flow = state(*words, "scheme=strang(kepler, interaction)")
+        same = ["strang(kepler by gauss8, interaction by gauss8)", "strang(kepler, interaction by gauss8)"]
+        for scheme in same if words[0] != "outer-planets" else same[1:]:
+            by_formula = state(*words, "scheme=" + scheme)
+            check(distance(by_flow, by_formula) < 3e-13, f"{scheme}: {distance(by_flow, by_formula)}")
+        check(distance(state(*words, "scheme=strang(interaction, kepler)"),
+                       state(*words, "scheme=wisdom-holman2")) == 0, "wisdom-holman2 is kick first")
+    words = [*bodies(), "dt=.02", "steps=60", "scheme=saba4(kepler, interaction)"]
+    one, several = state(*words), run(*words, "members=7", "spread=1e-9")
+    n = len(one)
+    check(not isinstance(several, str) and max(
+        abs(several[-1]["state"][c * 7 + l] - one[c]) for c in range(n) for l in range(7)) < 1e-6, f"members: {several}")
+    exact = state(*bodies(), "dt=.005", "until=1.2", "scheme=kahan-li8")
+    errors = [distance(state(*bodies(), f"dt={dt}", "until=1.2", "scheme=wisdom-holman2"), exact) for dt in (.02, .01)]
+    check(abs(errors[0] / errors[1] - 4) < .1, f"order of wisdom-holman2: {errors}")
+    # one body leaves on a hyperbola
+    energies = run(*bodies(p_y1=3, p_x1=2), "scheme=saba2(kepler, interaction)", "dt=.02", "steps=200", "--max")
+    check(not isinstance(energies, str) and abs(energies[-1]["observables"]["energy_error_max"]) < 1e-4,
+          f"a hyperbola: {energies}")
+    for k, scheme, told in ((-1, "saba2(kepler, interaction)", "it needs a part kepler"),
+                            (1, "sabac2(kepler, interaction)", "for its corrector"),
+                            (1, "saba2(kepler, potential)", "parts that sum to the rates"),
+                            (1, "saba2(keplar, interaction)", "did you mean kepler")):
+        refused = run(*bodies(k=k), "scheme=" + scheme)
+        check(isinstance(refused, str) and told in refused, f"{k} {scheme}: {refused}")
+
+
 def faults_are_told(path):
     for scheme, words in {
             "strang(A)": "column 8: strang splits into 2 parts or more",
@@ -245,6 +292,7 @@ def main():
         correctors_raise_the_order()
         words_agree(one.name, two.name)
         members_and_engines_agree()
+        bodies_move_in_jacobi_coordinates()
         faults_are_told(one.name)
     sys.exit(failures > 0)
 

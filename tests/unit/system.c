@@ -37,11 +37,15 @@ static char *lines_of(const char *line)
             fputc(*at, out);
         }
     }
-    static const char *const starts[][2] = {{"coordinates: q[1..3]", "q[i] = i, p_q[i] = 1"},
-                                            {"coordinates: q ", "q = 1, p_q = 2"},
-                                            {"coordinates: a b", "a = 1, b = 2, p_a = 3, p_b = 4"},
-                                            {"rate: z", "x = 1, y = 2, z = 3"},
-                                            {"rate: x", "x = 1, y = 2"}};
+    static const char *const starts[][2] = {
+        {"coordinates: q[1..3]", "q[i] = i, p_q[i] = 1"},
+        {"coordinates: q ", "q = 1, p_q = 2"},
+        {"coordinates: a b c d", "a = 1, b = 2, c = -1, d = 0, p_a = 3, "
+                                 "p_b = 4, p_c = 0, p_d = 1"},
+        {"coordinates: x[1..3]", "x[i] = i, y[i] = i^2, p_x[i] = 1, p_y[i] = 0"},
+        {"coordinates: a b", "a = 1, b = 2, p_a = 3, p_b = 4"},
+        {"rate: z", "x = 1, y = 2, z = 3"},
+        {"rate: x", "x = 1, y = 2"}};
     for (size_t i = 0; i < GM_COUNT(starts); i++) {
         if (strstr(line, starts[i][0])) {
             fprintf(out, "\nstart: %s\n", starts[i][1]);

@@ -40,22 +40,22 @@ bool gm_job_is_busy(struct gm_job *job);
 /* Waits until it is not. */
 void gm_job_wait(struct gm_job *job);
 
-/* Measures a scheme with `geomint certify` while the explorer runs. It is a child process, which can be
-   killed when another scheme is requested. */
+/* Measures a scheme with `geomint certify`, or finds invariants with `geomint list`, while the explorer runs. It is a
+   child process, which can be killed when something else is requested. */
 
 struct gm_measure {
-    const struct gm_scheme *scheme; /* NULL before the first request */
-    pid_t child;                    /* process id; 0 if none runs */
-    int fd;                         /* pipe from the child; -1 if none runs */
-    char *text;                     /* the child's output, `length` bytes */
+    char *words; /* the command, as gm_arguments_split reads it; NULL before the first request */
+    pid_t child; /* process id; 0 if none runs */
+    int fd;      /* pipe from the child; -1 if none runs */
+    char *text;  /* the child's output, `length` bytes */
     size_t length;
 };
 
-/* Requests a scheme; the measurement of another one is killed. An empty measure is {.fd = -1}. */
-void gm_measure_ask(struct gm_measure *measure, const struct gm_scheme *scheme);
+/* Requests the output of a command; another one is killed. An empty measure is {.fd = -1}. */
+void gm_measure_ask(struct gm_measure *measure, const char *words);
 /* Reads the available output; returns true if the child has ended. */
 bool gm_measure_read(struct gm_measure *measure);
-/* Returns the lines about the requested scheme, owned by measure; NULL while incomplete. */
+/* Returns the lines of the requested command, owned by measure; NULL while incomplete. */
 const char *gm_measure_text(const struct gm_measure *measure);
 void gm_measure_close(struct gm_measure *measure);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A child process that certifies, and its output. */
+/* A child process of this program, and its output. */
 #include "app/explorer/background/background.h"
 
 #include <errno.h>
@@ -31,28 +31,32 @@ static void end(struct gm_measure *measure)
 static bool start(struct gm_measure *measure, int out)
 {
     posix_spawn_file_actions_t files;
-    char *words[] = {"geomint", "certify", (char *)measure->scheme->name, NULL};
-    if (posix_spawn_file_actions_init(&files) != 0) {
+    struct gm_arguments words = {0};
+    gm_arguments_add(&words, "geomint");
+    gm_arguments_split(&words, measure->words ? measure->words : "");
+    if (words.failed || posix_spawn_file_actions_init(&files) != 0) {
+        gm_arguments_close(&words);
         return false;
     }
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    int error = posix_spawn(&measure->child, "/proc/self/exe", &files, NULL, words, environ);
+    posix_spawn_file_actions_adddup2(&files, out, STDERR_FILENO); /* the reason, if there is no answer */
+    int error = posix_spawn(&measure->child, "/proc/self/exe", &files, NULL, words.words, environ);
     posix_spawn_file_actions_destroy(&files);
+    gm_arguments_close(&words);
     if (error != 0) {
         measure->child = 0;
     }
     return error == 0;
 }
 
-void gm_measure_ask(struct gm_measure *measure, const struct gm_scheme *scheme)
+void gm_measure_ask(struct gm_measure *measure, const char *words)
 {
-    if (measure->scheme == scheme) {
+    if (measure->words && strcmp(measure->words, words) == 0) {
         return;
     }
     gm_measure_close(measure);
-    measure->scheme = scheme;
+    measure->words = strdup(words);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
         return;
@@ -101,5 +105,6 @@ void gm_measure_close(struct gm_measure *measure)
 {
     end(measure);
     free(measure->text);
+    free(measure->words);
     *measure = (struct gm_measure){.fd = -1};
 }

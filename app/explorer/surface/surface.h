@@ -21,6 +21,7 @@ enum gm_page {
     GM_PAGE_HELP,
     GM_PAGE_SCHEME,
     GM_PAGE_COMMAND,
+    GM_PAGE_INVARIANTS,
     GM_PAGE_START, /* the help of the list of scenes */
 };
 
@@ -53,9 +54,9 @@ struct gm_face {
     enum gm_page page;
     bool awaited; /* a page that the worker's next shot opens; keys typed ahead are for it */
     const struct gm_scheme *explained; /* the scheme that a page explains */
-    const char *measured;              /* certify's lines on that scheme; NULL before it has ended */
-    int scroll;                        /* lines of the page above the screen */
-    size_t command;                    /* index of the copied command line */
+    const char *measured; /* the lines of the last command (struct gm_measure); NULL before it has ended */
+    int scroll;           /* lines of the page above the screen */
+    size_t command;       /* index of the copied command line */
     enum gm_choosing choosing;
     const struct gm_scheme *choice;
     enum gm_prompt prompt;

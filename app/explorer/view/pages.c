@@ -115,14 +115,14 @@ static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum g
     put_wrapped(page, 0, scheme->reference ? scheme->reference : "", GM_SECONDARY);
 }
 
-static void put_measured(struct page *page)
+static void put_measured(struct page *page, const char *heading, const char *meanwhile)
 {
     const char *measured = page->sheet.face->measured;
-    put_heading(page, "AS MEASURED");
+    put_heading(page, heading);
     if (measured) {
         put_lines(page, 0, measured, GM_INK);
     } else {
-        put(page, 0, "measuring …", GM_SECONDARY, false);
+        put(page, 0, meanwhile, GM_SECONDARY, false);
         page->row++;
     }
 }
@@ -152,7 +152,7 @@ static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_s
     put_claims(&right);
     put_heading(&right, "THE SELECTED SCHEME");
     put_scheme(&right, lane->scheme, gm_lane_role(lane->shown.colour));
-    put_measured(&right);
+    put_measured(&right, "AS MEASURED", "measuring …");
     return left.row > right.row ? left.row : right.row;
 }
 
@@ -217,8 +217,13 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
         return draw_help(sheet, scroll, shot);
     }
     struct page page = {.sheet = *sheet, .scroll = scroll};
+    if (sheet->face->page == GM_PAGE_INVARIANTS) {
+        put_title(&page, shot->scene->title, GM_INK);
+        put_measured(&page, "WHAT THE EQUATIONS CONSERVE", "searching …");
+        return page.row;
+    }
     put_scheme(&page, sheet->face->explained, GM_INK);
-    put_measured(&page);
+    put_measured(&page, "AS MEASURED", "measuring …");
     return page.row;
 }
 

@@ -40,8 +40,8 @@ static unsigned facets(const struct gm_problem *problem)
            (ode->lagrangian ? GM_NEEDS_LAGRANGIAN : 0) | (ode->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) |
            (ode->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) |
            (ode->kepler_split || (split && split->attracts) ? GM_NEEDS_ATTRACTION : 0) |
-           (ode->volume ? GM_NEEDS_VOLUME : 0) | (ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
-           (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) |
+           (ode->kepler_split || ode->gravity ? GM_NEEDS_KEPLER : 0) | (ode->volume ? GM_NEEDS_VOLUME : 0) |
+           (ode->quadratic ? GM_NEEDS_QUADRATIC : 0) | (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) |
            (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
@@ -83,6 +83,8 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_MAGNETIC,
      "a magnetic field: v' = g(x, t) + W(x, t) v with W antisymmetric, in 2 or 3 dimensions",
      "motions in a magnetic field"},
+    {GM_NEEDS_KEPLER, "a Kepler part with a perturbation, or the gravity of bodies",
+     "perturbed Kepler problems and bodies that attract each other"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
     {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0",
      "motions in a negative potential V(q)"},

@@ -37,7 +37,8 @@ bool gm_conserved_open(struct gm_conserved *conserved, const struct gm_problem *
 {
     const size_t n = problem->n - 2 * problem->passive;
     struct gm_formula graph;
-    gm_node_id nodes[GM_MOST_CONSERVED], *slopes = malloc((count * n + 1) * sizeof *slopes);
+    gm_node_id *slopes = malloc((count * (n + 1) + 1) * sizeof *slopes),
+               *nodes = slopes ? slopes + count * n : NULL;
     bool good = slopes != NULL;
     *conserved =
         (struct gm_conserved){.problem = problem, .count = count, .n = n, .energy = count, .linear = true};
@@ -51,7 +52,8 @@ bool gm_conserved_open(struct gm_conserved *conserved, const struct gm_problem *
         conserved->linear &= graph.nodes[slopes[i]].operation == GM_CONSTANT && conserved->energy == count;
     }
     good = good && gm_tape_open(&conserved->values, &graph, nodes, count, n, NULL) &&
-           gm_tape_open(&conserved->slopes, &graph, slopes, count * n, n, NULL);
+           gm_tape_open(&conserved->slopes, &graph, slopes, count * n, n, NULL) &&
+           gm_tape_open(&conserved->both, &graph, slopes, count * (n + 1), n, NULL);
     if (!good) {
         gm_conserved_close(conserved);
     }
@@ -64,6 +66,7 @@ void gm_conserved_close(struct gm_conserved *conserved)
 {
     gm_tape_close(&conserved->values);
     gm_tape_close(&conserved->slopes);
+    gm_tape_close(&conserved->both);
 }
 
 void gm_conserved_values(const struct gm_conserved *conserved, const double *y, double *values)
@@ -74,19 +77,33 @@ void gm_conserved_values(const struct gm_conserved *conserved, const double *y, 
     }
 }
 
+/* An H without a formula: its gradient, of the field. */
+static void find_energy(const struct gm_conserved *conserved, const double *y, double *gradient)
+{
+    const struct gm_problem *problem = conserved->problem;
+    const double weight = gm_weight_of(problem);
+    const size_t half = conserved->n / 2;
+    gm_field(problem, y, gradient, 1);
+    for (size_t i = 0; i < half; i++) {
+        const double velocity = gradient[i];
+        gradient[i] = -gradient[half + i] / weight;
+        gradient[half + i] = velocity / weight;
+    }
+}
+
 void gm_conserved_slopes(const struct gm_conserved *conserved, const double *y, double *slopes)
 {
     gm_tape_values(&conserved->slopes, y, slopes, 1);
     if (conserved->energy < conserved->count) {
-        const struct gm_problem *problem = conserved->problem;
-        const double weight = gm_weight_of(problem);
-        const size_t n = conserved->n, half = n / 2;
-        double *gradient = slopes + conserved->energy * n;
-        gm_field(problem, y, gradient, 1);
-        for (size_t i = 0; i < half; i++) {
-            const double velocity = gradient[i];
-            gradient[i] = -gradient[half + i] / weight;
-            gradient[half + i] = velocity / weight;
-        }
+        find_energy(conserved, y, slopes + conserved->energy * conserved->n);
+    }
+}
+
+void gm_conserved_both(const struct gm_conserved *conserved, const double *y, double *slopes)
+{
+    gm_tape_values(&conserved->both, y, slopes, 1);
+    if (conserved->energy < conserved->count) {
+        find_energy(conserved, y, slopes + conserved->energy * conserved->n);
+        slopes[conserved->count * conserved->n + conserved->energy] = gm_energy(conserved->problem, y);
     }
 }

@@ -14,7 +14,7 @@ struct gm_conserved {
     size_t count, n;
     size_t energy; /* number of an H without a formula, whose gradient is made of the field; else `count` */
     bool linear;   /* all are linear */
-    struct gm_tape values, slopes;
+    struct gm_tape values, slopes, both;
 };
 
 /* Opens at most GM_MOST_CONSERVED of them; "H" is the energy. Returns false with what the problem lacks, worded
@@ -26,5 +26,7 @@ void gm_conserved_close(struct gm_conserved *conserved);
 /* Writes the values (count) and gradients (count * n, by rows) at one member's state. */
 void gm_conserved_values(const struct gm_conserved *conserved, const double *y, double *values);
 void gm_conserved_slopes(const struct gm_conserved *conserved, const double *y, double *slopes);
+/* Both in one pass: the gradients, then the values. */
+void gm_conserved_both(const struct gm_conserved *conserved, const double *y, double *slopes);
 
 #endif

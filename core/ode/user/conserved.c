@@ -6,6 +6,7 @@
 #include "core/ode/user/data.h"
 #include "core/ode/user/model.h"
 
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -61,23 +62,83 @@ static void close_system(void *system)
     gm_system_close(system);
 }
 
+/* A system and its invariants; the last searches of the process are kept. */
+struct found {
+    struct gm_arena *arena;
+    struct gm_user_system *system;
+    struct gm_found_invariants invariants;
+};
+enum { KEPT = 4 };
+static struct found kept[KEPT];
+static size_t next_kept;
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+
+struct finding {
+    struct found *found;
+    const struct gm_user_data *data;
+};
+
+static void find(struct gm_arena *arena, void *data)
+{
+    const struct finding *finding = data;
+    struct found *found = finding->found;
+    found->system = gm_arena_take(arena, 1, sizeof *found->system);
+    gm_arena_keep(arena, found->system, close_system);
+    gm_user_system_again(arena, finding->data->model->system, finding->data->values, false, found->system);
+    gm_invariants_find(found->system, arena, DEGREE, &found->invariants);
+}
+
+/* Returns true if these are the invariants of that text with the same choices and parameters. */
+static bool is_of(const struct found *found, const struct gm_user_data *data)
+{
+    const struct gm_user_system *one = found->system, *other = data->model->system;
+    bool same = one && one->length == other->length && memcmp(one->source, other->source, one->length) == 0;
+    for (size_t i = 0; same && i < one->choices.count; i++) {
+        same = one->choices.list[i].chosen == other->choices.list[i].chosen;
+    }
+    for (size_t i = same ? one->parameters : 0; same && i < one->velocities; i++) {
+        same = one->variables[i].value == data->values[i];
+    }
+    return same;
+}
+
+/* The invariants of the system with its values, during `turn`; NULL when out of memory. */
+static const struct found *found_of(const struct gm_user_data *data)
+{
+    for (size_t i = 0; i < KEPT; i++) {
+        if (is_of(&kept[i], data)) {
+            return &kept[i];
+        }
+    }
+    struct found *found = &kept[next_kept];
+    next_kept = (next_kept + 1) % KEPT;
+    gm_arena_close(found->arena);
+    *found = (struct found){.arena = gm_arena_open()};
+    const bool good = gm_arena_run(found->arena, find, &(struct finding){found, data});
+    if (!good) {
+        gm_arena_close(found->arena);
+        *found = (struct found){0};
+    }
+    return good ? found : NULL;
+}
+
 /* The node of number `number` among those without a name, in `graph`. */
 static gm_node_id found(struct gm_arena *arena, const struct naming *naming, size_t number)
 {
-    struct gm_user_system *again = gm_arena_take(arena, 1, sizeof *again);
-    struct gm_found_invariants invariants;
-    gm_arena_keep(arena, again, close_system);
-    gm_user_system_again(arena, naming->data->model->system, naming->data->values, false, again);
-    gm_invariants_find(again, arena, DEGREE, &invariants);
-    for (size_t i = 0; i < invariants.count; i++) {
-        const struct gm_found_invariant *invariant = &invariants.list[i];
+    gm_node_id node = GM_NO_NODE;
+    pthread_mutex_lock(&turn);
+    const struct found *all = found_of(naming->data);
+    for (size_t i = 0; all && i < all->invariants.count && number > 0; i++) {
+        const struct gm_found_invariant *invariant = &all->invariants.list[i];
         number -= !invariant->item && !invariant->energy;
         if (number == 0) {
-            return gm_formula_graft(naming->graph, &again->graph, invariant->node, again->n,
+            node = gm_formula_graft(naming->graph, &all->system->graph, invariant->node, all->system->n,
                                     naming->data->values);
         }
     }
-    return GM_NO_NODE;
+    pthread_mutex_unlock(&turn);
+    gm_arena_need(arena, all && (number > 0 || node != GM_NO_NODE));
+    return node;
 }
 
 /* "H, L, and I1, I2, ...": the names that there are. */

@@ -41,6 +41,7 @@ struct gm_user_data {
     struct gm_parts parts;
     struct gm_fast_linear fast_linear;
     struct gm_kepler_split kepler_split;
+    struct gm_gravity gravity;
     struct gm_lagrangian one_degree;
     struct gm_action action;
     struct gm_monitor monitor;

@@ -3,7 +3,7 @@
    structure are
        kinetic, potential    the rates of q, and those of p, where these separate
        linear, rest          the terms of degree 1 of the rates, and all others
-       kepler, interaction   |p|^2/2 - 1/|q|, and all else */
+       kepler, interaction   |p|^2/2 - 1/|q|, or the Kepler motions of Jacobi coordinates, and all else */
 #include "core/ode/user/data.h"
 #include "core/ode/user/model.h"
 
@@ -76,9 +76,51 @@ static bool may_have(const struct gm_problem *problem, enum structural which)
     const struct gm_user_data *data = gm_user_data_of(problem);
     const struct gm_user_system *system = data->model->system;
     const bool written = system->kind == GM_CANONICAL || system->kind == GM_RATES;
-    return which >= KEPLER   ? gm_user_model_holds(data->model, data->values, GM_FACT_KEPLER_SPLIT)
+    return which >= KEPLER   ? data->ode.kepler_split || data->ode.gravity
            : which >= LINEAR ? written && !system->timed
                              : written && gm_user_model_splits(data->model, data->values);
+}
+
+static gm_node_id scaled(struct gm_formula *graph, double factor, gm_node_id node)
+{
+    return gm_product(graph, gm_formula_constant(graph, factor), node);
+}
+
+/* The energy of the Kepler motions in Jacobi coordinates: with M = m_0 + ... + m_i, and M_0, P_0 the mass and momentum of
+   the bodies before i, the sum of
+       |p_i'|^2/(2 m_i M_0/M) - G m_i M_0/|x_i|,  p_i' = (M_0 p_i - m_i P_0)/M,
+   and the motion of the centre of mass. */
+static gm_node_id energy_in_jacobi(const struct gm_problem *problem, struct gm_formula *graph)
+{
+    const struct gm_gravity *gravity = gm_ode_of(problem)->gravity;
+    const size_t d = gravity->dimensions, half = gravity->bodies * d;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    gm_node_id centre[] = {zero, zero, zero}, momentum[] = {zero, zero, zero}, energy = zero;
+    for (size_t i = 0; i < gravity->bodies; i++) {
+        const double m = gravity->masses[i], M = gravity->sums[i], before = i > 0 ? gravity->sums[i - 1] : 0;
+        gm_node_id square = zero, motion = zero, all = zero;
+        for (size_t c = 0; c < d; c++) {
+            const size_t place = gravity->places[i * d + c];
+            const gm_node_id p = gm_formula_variable(graph, half + place),
+                             x = gm_difference(graph, gm_formula_variable(graph, place), centre[c]),
+                             own = gm_difference(graph, scaled(graph, before / M, p),
+                                                 scaled(graph, m / M, momentum[c]));
+            square = gm_sum(graph, square, gm_product(graph, x, x));
+            motion = gm_sum(graph, motion, gm_product(graph, own, own));
+            centre[c] = gm_sum(graph, centre[c], scaled(graph, m / M, x));
+            momentum[c] = gm_sum(graph, momentum[c], p);
+            all = gm_sum(graph, all, gm_product(graph, momentum[c], momentum[c]));
+        }
+        if (i > 0) {
+            const gm_node_id root = gm_simplified(graph, GM_OPERATION_SQRT, square, 0),
+                             attraction = gm_formula_constant(graph, gravity->G * m * before);
+            energy = gm_sum(graph, energy, scaled(graph, M / (2 * m * before), motion));
+            energy =
+                gm_difference(graph, energy, gm_simplified(graph, GM_OPERATION_DIVIDE, attraction, root));
+        }
+        energy = i + 1 == gravity->bodies ? gm_sum(graph, energy, scaled(graph, 1 / (2 * M), all)) : energy;
+    }
+    return energy;
 }
 
 /* Writes a part of the structure. Returns false if the system has no such structure. */
@@ -96,14 +138,22 @@ static bool structural_rates(const struct gm_problem *problem, enum structural w
     }
     const gm_node_id zero = gm_formula_constant(graph, 0);
     bool *fields = malloc(n * sizeof *fields), found = !linear;
-    graph->failed = !fields || graph->failed;
+    gm_node_id *motions = calloc(n, sizeof *motions);
+    const bool gravity = kepler && gm_ode_of(problem)->gravity;
+    graph->failed = !fields || !motions || graph->failed;
+    if (gravity && !graph->failed) {
+        rates_of_energy(problem, graph, energy_in_jacobi(problem, graph), motions);
+    }
     all_rates(problem, graph, data->model->system->rates, rates);
     for (size_t i = 0; i < n && !graph->failed; i++) {
         fields[i] = true;
     }
     for (size_t i = 0; i < n && !graph->failed; i++) {
         gm_node_id first = i < half ? rates[i] : zero, other = gm_difference(graph, rates[i], first);
-        if (i >= half && (kepler || (linear && fast))) {
+        if (gravity) {
+            first = motions[i];
+            other = gm_difference(graph, rates[i], first);
+        } else if (i >= half && (kepler || (linear && fast))) {
             other = graft(problem, graph, found_nodes[kepler ? 1 + i - half : i]);
             first = gm_difference(graph, rates[i], other);
         } else if (linear && !fast) {
@@ -114,6 +164,7 @@ static bool structural_rates(const struct gm_problem *problem, enum structural w
         rates[i] = second ? other : first;
     }
     free(fields);
+    free(motions);
     return found;
 }
 

@@ -152,7 +152,7 @@ static void kepler_solution(const struct gm_problem *problem, double t, const do
     (void)problem;
     for (size_t i = 0; i < m; i++) {
         double one[4] = {y0[i], y0[m + i], y0[2 * m + i], y0[3 * m + i]};
-        const bool found = gm_kepler_flow(t, one);
+        const bool found = gm_kepler_flow(2, 1, t, one, one + 2);
         for (size_t c = 0; c < 4; c++) {
             y[c * m + i] = found ? one[c] : NAN;
         }
@@ -223,6 +223,59 @@ static void open_mechanical(struct gm_user_data *self, struct gm_problem *proble
         self->one_degree.potential = potential;
         self->ode.lagrangian = &self->one_degree;
     }
+}
+
+/* The square of the distance of two bodies at the start. */
+static double square_distance(const struct gm_user_data *self, const gm_node_id *one, const gm_node_id *other)
+{
+    const struct gm_formula *graph = &self->model->system->graph;
+    double square = 0;
+    for (size_t c = 0; c < self->gravity.dimensions; c++) {
+        const double apart = self->values[graph->nodes[one[c]].a] - self->values[graph->nodes[other[c]].a];
+        square += apart * apart;
+    }
+    return square;
+}
+
+/* Opens the facet of bodies that attract each other, unless a mass is not positive. */
+static void open_gravity(struct gm_user_data *self)
+{
+    struct gm_gravity *gravity = &self->gravity;
+    if (!holds(self, GM_FACT_GRAVITY)) {
+        return;
+    }
+    const struct gm_formula *graph = &self->model->system->graph;
+    const gm_node_id *nodes = self->model->findings[GM_FACT_GRAVITY].nodes, *coordinates = nodes + 1;
+    const size_t half = self->model->system->n / 2, d = (size_t)graph->nodes[nodes[0]].value,
+                 count = half / d;
+    double *inverses = gm_arena_take(self->arena, 3 * count, sizeof *inverses);
+    size_t *order = gm_arena_take(self->arena, count + half, sizeof *order);
+    *gravity = (struct gm_gravity){count, d, order + count, inverses + count, inverses + 2 * count, 0};
+    find_constants(self, coordinates + half, count, inverses);
+    find_constants(self, coordinates + half + count, 1, &gravity->G);
+    bool real = gravity->G >= 0 && isfinite(gravity->G);
+    for (size_t i = 0; i < count; i++) {
+        order[i] = i;
+    }
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = i + 1; j < count; j++) {
+            const gm_node_id *first = coordinates + order[0] * d;
+            const size_t one = order[i], other = order[j];
+            if (i == 0 ? inverses[other] < inverses[one]
+                       : square_distance(self, coordinates + other * d, first) <
+                             square_distance(self, coordinates + one * d, first)) {
+                order[i] = other;
+                order[j] = one;
+            }
+        }
+        const double mass = gravity->masses[i] = 1 / inverses[order[i]];
+        gravity->sums[i] = mass + (i > 0 ? gravity->sums[i - 1] : 0);
+        real = real && mass > 0 && isfinite(mass);
+        for (size_t c = 0; c < d; c++) {
+            gravity->places[i * d + c] = graph->nodes[coordinates[order[i] * d + c]].a;
+        }
+    }
+    self->ode.gravity = real ? gravity : NULL;
 }
 
 /* Opens the facet of motions in a magnetic field. */
@@ -416,6 +469,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     self->interpreted = self->loops;
     name_tapes(self);
     open_mechanical(self, problem);
+    open_gravity(self);
     open_magnetic(self);
     open_action(self);
     open_monitor(self);

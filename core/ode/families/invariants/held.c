@@ -48,7 +48,8 @@ void gm_held_turn(struct gm_held *held, const double *y)
     enum { SWEEPS = 30 };
     const size_t n = held->n, count = held->count;
     bool turned = true;
-    gm_conserved_slopes(&held->conserved, y, held->slopes);
+    gm_conserved_both(&held->conserved, y, held->slopes);
+    memcpy(held->values, held->slopes + count * n, count * sizeof *held->values);
     memcpy(held->turned, held->slopes, count * n * sizeof *held->turned);
     for (size_t j = 0; j < count; j++) {
         held->scale[j] = 0;
@@ -80,16 +81,21 @@ void gm_held_turn(struct gm_held *held, const double *y)
     }
 }
 
-double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off)
+double gm_held_distance(const struct gm_held *held, const double *values, double *off)
 {
     double miss = 0;
-    gm_conserved_values(&held->conserved, y, held->values);
     for (size_t j = 0; j < held->count; j++) {
         off[j] = values[j] - held->values[j];
         const double part = fabs(off[j]) / (fabs(values[j]) + held->scale[j]);
         miss = off[j] == 0 || part <= miss ? miss : part;
     }
     return miss;
+}
+
+double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off)
+{
+    gm_conserved_values(&held->conserved, y, held->values);
+    return gm_held_distance(held, values, off);
 }
 
 void gm_held_solve(const struct gm_held *held, const double *off, double *multipliers)
@@ -142,10 +148,10 @@ void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
     held->n = n;
     held->count = count;
     double **const arrays[] = {&held->z, &held->next, &held->move};
-    double **const rows[] = {&held->start_slopes, &held->slopes, &held->turned};
+    double **const rows[] = {&held->start_slopes, &held->slopes, &held->turned}; /* behind slopes: values */
     for (size_t i = 0; i < 3; i++) {
         *arrays[i] = gm_arena_take(members->arena, n, sizeof(double));
-        *rows[i] = gm_arena_take(members->arena, count * n, sizeof(double));
+        *rows[i] = gm_arena_take(members->arena, count * (n + 1), sizeof(double));
     }
     gm_base_open(members->arena, &held->base, gm_holding_base(scheme), problem, 1);
     if (count > 0) {

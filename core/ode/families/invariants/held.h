@@ -35,11 +35,13 @@ struct gm_held {
     double turn[GM_MOST_CONSERVED][GM_MOST_CONSERVED];
 };
 
-/* Fills slopes and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
+/* Fills slopes, values and scale at y, and turns the rows, turned = turn' slopes, until they are orthogonal. */
 void gm_held_turn(struct gm_held *held, const double *y);
 /* Returns the largest distance of the invariants at y from `values`, relative to their scale, after writing these
    distances. */
 double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off);
+/* The same of held->values, which are those at some state. */
+double gm_held_distance(const struct gm_held *held, const double *values, double *off);
 /* multipliers := (D D')^+ off, D the turned slopes: singular values below 1e-12 of the largest are dropped. */
 void gm_held_solve(const struct gm_held *held, const double *off, double *multipliers);
 /* y := from + D' multipliers, returns the sum of |y - its old value|. */

@@ -19,7 +19,9 @@ static enum gm_status project(struct gm_held *held, const double *values)
     double off[GM_MOST_CONSERVED], multipliers[GM_MOST_CONSERVED], before = INFINITY;
     gm_held_turn(held, held->z);
     for (int i = 0; i < GM_HELD_MOST; i++) {
-        if (gm_held_is_met(gm_held_miss(held, values, held->z, off), &before)) {
+        const double miss =
+            i == 0 ? gm_held_distance(held, values, off) : gm_held_miss(held, values, held->z, off);
+        if (gm_held_is_met(miss, &before)) {
             return GM_OK;
         }
         gm_held_solve(held, off, multipliers);

@@ -10,39 +10,47 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
 
-/* The slope of the invariant in the direction of the step. */
-static double slope_along(const struct gm_held *held)
-{
-    double slope = 0;
-    for (size_t c = 0; c < held->n; c++) {
-        slope += held->slopes[c] * held->move[c];
-    }
-    return slope;
-}
-
-/* z := y + gamma move: from gamma = 1 a step of Newton's method, then the secant method. */
+/* z := y + gamma move: from gamma = 1 a step of Newton's method, then the secant method, whose next miss is known before:
+   the last one times the last factor of them. */
 static enum gm_status relax(struct gm_held *held, const double *y, double value, double *gamma)
 {
-    double off = 0, slope, change = 0, before = INFINITY;
+    static const double NEAR = 1e-8;
+    double off = 0, slope = 0, change = 0, before = INFINITY;
     *gamma = 1;
     for (int i = 0; i < GM_HELD_MOST; i++) {
         const double last = off;
+        double miss;
         for (size_t c = 0; c < held->n; c++) {
             held->z[c] = y[c] + *gamma * held->move[c];
         }
         if (i == 0) {
-            gm_held_turn(held, held->z);
+            gm_conserved_both(&held->conserved, held->z, held->slopes);
+            held->scale[0] = 0;
+            for (size_t c = 0; c < held->n; c++) {
+                held->scale[0] += fabs(held->slopes[c] * held->z[c]);
+                slope += held->slopes[c] * held->move[c];
+            }
+            held->values[0] = held->slopes[held->n];
+            miss = gm_held_distance(held, &value, &off);
+        } else {
+            miss = gm_held_miss(held, &value, held->z, &off);
+            slope = (last - off) / change;
         }
-        const double miss = gm_held_miss(held, &value, held->z, &off);
+        const double previous = before;
         if (gm_held_is_met(miss, &before)) {
             return GM_OK;
         }
-        slope = i > 0 ? (last - off) / change : slope_along(held);
         change = off / slope;
         if (!(fabs(*gamma + change - 1) <= 0.5)) {
             break;
         }
         *gamma += change;
+        if (i > 0 && miss <= NEAR && miss * miss <= GM_EPSILON * previous) {
+            for (size_t c = 0; c < held->n; c++) {
+                held->z[c] = y[c] + *gamma * held->move[c];
+            }
+            return GM_OK;
+        }
     }
     return before <= GM_HELD_MET ? GM_OK : GM_NO_CONVERGENCE;
 }

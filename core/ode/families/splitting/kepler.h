@@ -3,9 +3,10 @@
 #define GM_CORE_ODE_FAMILIES_SPLITTING_KEPLER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
-/* Advances y = q1 q2 p1 p2 in place by the exact motion of H = |p|^2/2 - 1/|q| in the plane over the time h.
-   Returns false if it is not found, as at the origin. */
-bool gm_kepler_flow(double h, double y[4]);
+/* Advances q and v = q' in place, in a plane or in space, by the exact motion q'' = -mu q/|q|^3 over the time h: ellipses
+   of many revolutions, parabolas and hyperbolas. Returns false if it is not found, as at the origin. */
+bool gm_kepler_flow(size_t dimensions, double mu, double h, double *q, double *v);
 
 #endif

@@ -17,15 +17,31 @@
 #include "core/ode/families/base_scheme.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/family.h"
+#include "core/ode/families/splitting/jacobi.h"
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/families/splitting/linear_flow.h"
 
 /* The ways in which the flow of a part is computed, with the words for them. */
-enum how { KICK, ROTATION, KEPLER, SHEAR, SERIES, EXPONENTIAL, VOLUME, BRACKET, STEPS, HOWS };
+enum how {
+    KICK,
+    ROTATION,
+    KEPLER,
+    JACOBI_KICK, /* this and the next move a state in Jacobi coordinates */
+    JACOBI_KEPLER,
+    SHEAR,
+    SERIES,
+    EXPONENTIAL,
+    VOLUME,
+    BRACKET,
+    STEPS,
+    HOWS
+};
 static const char *const words[HOWS] = {
     [KICK] = "a kick",
     [ROTATION] = "linear: a rotation of each coordinate and its momentum",
     [KEPLER] = "Kepler's motion, in universal variables",
+    [JACOBI_KICK] = "a kick in Jacobi coordinates",
+    [JACOBI_KEPLER] = "Kepler's motions in Jacobi coordinates, in universal variables",
     [SHEAR] = "a shear: what moves depends on what rests",
     [SERIES] = "linear in what moves: a series",
     [EXPONENTIAL] = "linear: exp(h L)",
@@ -71,8 +87,13 @@ struct work {
     double dt; /* of the matrices */
     /* values: of a part's tape. If a step begins with the flow it ends with, they are known at the state `kept`. */
     double *values, *scratch, *moved, *kept, *member, *matrix;
-    bool known;
+    bool known, jacobi; /* jacobi: the state is in Jacobi coordinates */
 };
+
+static bool is_jacobi(const struct part *part)
+{
+    return part->how == JACOBI_KICK || part->how == JACOBI_KEPLER;
+}
 
 /* ---- parts as formulas ---- */
 
@@ -197,6 +218,8 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
         part->how = KEPLER;
+    } else if (!given && ode->gravity && (strcmp(name, "kepler") == 0 || strcmp(name, "interaction") == 0)) {
+        part->how = name[0] == 'k' ? JACOBI_KEPLER : JACOBI_KICK;
     } else if (!given && ode->kepler_split && strcmp(name, "interaction") == 0) {
         part->force = ode->kepler_split->perturbing_force;
     } else if (!given && ode->fast_linear && strcmp(name, "linear") == 0) {
@@ -476,12 +499,15 @@ static bool advance_member(const struct gm_task *task, struct work *work, size_t
     struct flow *flow = &work->flows[number];
     struct part *part = &work->parts[flow->part];
     const size_t n = problem->n, half = n / 2;
-    const bool shear = part->how == SHEAR || part->how == KICK, first = number == 0 && problem->m == 1,
+    const bool shear = part->how == SHEAR || part->how == KICK || part->how == JACOBI_KICK,
+               first = number == 0 && problem->m == 1,
                last = number + 1 == work->flow_count && flow->part == work->flows[0].part && problem->m == 1;
     const bool known = shear && first && work->known && memcmp(work->kept, y, n * sizeof *y) == 0;
     switch (part->how) {
     case KEPLER:
-        return gm_kepler_flow(h, y);
+        return gm_kepler_flow(2, 1, h, y, y + 2);
+    case JACOBI_KEPLER:
+        return gm_jacobi_kepler(gm_ode_of(problem)->gravity, h, y);
     case BRACKET:
         gm_ode_of(problem)->poisson->flow(problem, flow->part, h, y);
         return true;
@@ -497,7 +523,10 @@ static bool advance_member(const struct gm_task *task, struct work *work, size_t
         memcpy(y, work->moved, n * sizeof *y);
         return true;
     case KICK:
-        if (!known) {
+    case JACOBI_KICK:
+        if (!known && part->how == JACOBI_KICK) {
+            gm_jacobi_interaction(gm_ode_of(problem)->gravity, y, work->values, work->scratch);
+        } else if (!known) {
             part->force(problem, y, work->values, 1);
         }
         for (size_t i = 0; i < half; i++) {
@@ -517,15 +546,33 @@ static bool advance_member(const struct gm_task *task, struct work *work, size_t
     return true;
 }
 
-/* The flow of all members. */
-static bool advance_flow(const struct gm_task *task, struct work *work, size_t number, double *y,
+/* Converts all members to or from Jacobi coordinates, unless they are in these. */
+static void convert(struct work *work, bool jacobi, double *y)
+{
+    const struct gm_problem *problem = work->problem;
+    const size_t n = problem->n, m = problem->m;
+    for (size_t l = 0; l < m && work->jacobi != jacobi; l++) {
+        for (size_t c = 0; c < n; c++) {
+            work->member[c] = y[c * m + l];
+        }
+        (jacobi ? gm_jacobi_from_state : gm_jacobi_to_state)(gm_ode_of(problem)->gravity, work->member,
+                                                             work->scratch);
+        for (size_t c = 0; c < n; c++) {
+            y[c * m + l] = work->member[c];
+        }
+    }
+    work->jacobi = jacobi;
+}
+
+/* The flow of all members over h. */
+static bool advance_flow(const struct gm_task *task, struct work *work, size_t number, double h, double *y,
                          struct gm_progress *progress)
 {
     const struct gm_problem *problem = work->problem;
     const struct flow *flow = &work->flows[number];
     const size_t n = problem->n, m = problem->m;
-    const double h = flow->fraction * (flow->cubed ? task->dt * task->dt * task->dt : task->dt);
     bool good = true;
+    convert(work, is_jacobi(&work->parts[flow->part]), y);
     if (work->parts[flow->part].how == VOLUME) {
         gm_ode_of(problem)->volume->flow(problem, flow->part, h, y, m);
     } else if (m == 1) {
@@ -547,6 +594,21 @@ static bool advance_flow(const struct gm_task *task, struct work *work, size_t n
     return good;
 }
 
+/* Returns the time of a flow. In Jacobi coordinates the last flow of a step and the first of the next are one if they are
+   of one part, except at the ends of a task. */
+static double time_of(const struct gm_task *task, const struct work *work, size_t number, int64_t step)
+{
+    const struct flow *first = work->flows, *last = first + work->flow_count - 1, *flow = first + number;
+    const bool joined = last > first && first->part == last->part && is_jacobi(&work->parts[first->part]);
+    if (flow->cubed) {
+        return flow->fraction * task->dt * task->dt * task->dt;
+    }
+    if (joined && flow == last && step + 1 < task->steps) {
+        return 0;
+    }
+    return (flow->fraction + (joined && flow == first && step > 0 ? last->fraction : 0)) * task->dt;
+}
+
 /* One evaluation is a flow of the last part. */
 static struct gm_progress loop(const struct gm_task *task)
 {
@@ -564,7 +626,12 @@ static struct gm_progress loop(const struct gm_task *task)
     work->dt = task->dt;
     for (; progress.done < task->steps; progress.done++) {
         for (size_t i = 0; i < work->flow_count; i++) {
-            if (!advance_flow(task, work, i, task->out, &progress)) {
+            const double h = time_of(task, work, i, progress.done);
+            if (h == 0) {
+                continue;
+            }
+            if (!advance_flow(task, work, i, h, task->out, &progress)) {
+                convert(work, false, task->out);
                 progress.unsolved.obstacle = GM_NOT_FINITE;
                 progress.status = GM_NO_CONVERGENCE;
                 return progress;
@@ -572,10 +639,12 @@ static struct gm_progress loop(const struct gm_task *task)
             progress.evaluations += work->flows[i].part + 1 == work->part_count ? task->problem->m : 0;
         }
         if (!gm_is_within(task->out, count, task->limit)) {
+            convert(work, false, task->out);
             progress.status = GM_BLOW_UP;
             return progress;
         }
     }
+    convert(work, false, task->out);
     return progress;
 }
 
@@ -627,7 +696,7 @@ static const struct gm_scheme schemes[] = {
     {GM_TEXTS_volume_splitting1, .coefficients = &once, PARTS = GM_NEEDS_VOLUME},
     {GM_TEXTS_volume_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_VOLUME},
     {GM_TEXTS_impulse2, .coefficients = &rest_linear, PARTS = GM_NEEDS_FAST_LINEAR},
-    {GM_TEXTS_wisdom_holman2, .coefficients = &interaction_kepler, PARTS = GM_NEEDS_KEPLER_SPLIT},
+    {GM_TEXTS_wisdom_holman2, .coefficients = &interaction_kepler, PARTS = GM_NEEDS_KEPLER},
     {GM_TEXTS_bracket_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_PIECES},
     {GM_TEXTS_bracket_splitting4, .coefficients = &suzuki4, PARTS = GM_NEEDS_PIECES},
     {GM_TEXTS_bracket_splitting6, .coefficients = &kahan_li6, PARTS = GM_NEEDS_PIECES},
