@@ -9,6 +9,7 @@
 
 #include "core/basics.h"
 #include "core/expression/number.h"
+#include "core/model/one_form.h"
 
 static const struct gm_span nameless = {0, 0};
 
@@ -744,10 +745,14 @@ static void read_jump(struct gm_reading *reading, const struct gm_read_line *lin
     (reading->system->kind == GM_MATRICES ? read_assignments : read_ring)(reading, line);
 }
 
-/* Reads L, V or S. */
+/* Reads L, V or S. The text is left at an L that is linear in the velocities, unless that is known. */
 static void read_function(struct gm_reading *reading, const struct gm_read_line *line)
 {
     reading->system->energy = gm_reading_formula(reading, line->value);
+    if (line->word == GM_WORD_LAGRANGE && !reading->degenerate && gm_one_form_is_in(reading->system)) {
+        reading->degenerate = true;
+        gm_arena_leave(reading->system->arena);
+    }
 }
 
 static void read_formula(struct gm_reading *reading, const struct gm_read_line *line)
@@ -942,6 +947,10 @@ static void read_system(struct gm_arena *arena, void *data)
                             "a system with a bracket has at most %d components", MOST_OF_BRACKET);
         system->bracket = gm_system_no_nodes(system, n * n);
     }
+    if (reading->degenerate) {
+        system->theta = gm_system_no_nodes(system, n);
+        system->omega = gm_system_no_nodes(system, n * n);
+    }
     if (system->kind == GM_MATRICES) {
         system->matrix_places = gm_arena_take(arena, 2 * n * n, sizeof *system->matrix_places);
         system->matrices = gm_system_no_nodes(system, 2 * n * n);
@@ -964,19 +973,21 @@ static void read_system(struct gm_arena *arena, void *data)
     name_parts(reading);
 }
 
-bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
-                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+/* Reads the text once; *degenerate is set if it has to be read again so. */
+static bool read_once(struct gm_user_system *system, const char *text, size_t length,
+                      const struct gm_system_value *values, size_t count, bool *degenerate)
 {
+    struct gm_fault *fault = system->fault;
     struct gm_reading reading = {.system = system,
                                  .text = text,
                                  .length = length,
                                  .values = values,
                                  .value_count = count,
+                                 .degenerate = *degenerate,
                                  .scratch = gm_arena_open()};
     for (size_t i = 0; i < count; i++) {
         reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
     }
-    *fault = (struct gm_fault){0};
     *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault};
     gm_formula_open(&system->graph);
     const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
@@ -985,5 +996,21 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
         *system = (struct gm_user_system){
             .arena = system->arena, .graph = system->graph, .choices = system->choices};
     }
+    *degenerate = reading.degenerate;
     return good;
+}
+
+bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
+                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    bool degenerate = false;
+    *fault = (struct gm_fault){0};
+    *system = (struct gm_user_system){.fault = fault};
+    const bool good = read_once(system, text, length, values, count, &degenerate);
+    if (good || !degenerate) {
+        return good;
+    }
+    gm_system_close(system);
+    system->fault = fault;
+    return read_once(system, text, length, values, count, &degenerate);
 }
