@@ -9,8 +9,8 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
+#include "core/expression/pfaffian.h"
 #include "core/linear/iteration.h"
-#include "core/model/one_form.h"
 #include "core/tape.h"
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
@@ -49,6 +49,96 @@ static gm_node_id *direction_of(struct gm_user_system *system, const gm_node_id 
     }
     direction[system->n] = gm_formula_constant(&system->graph, time);
     return direction;
+}
+
+/* Ends runs where the Pfaffian changes sign, unless the file says where, and names it in printed formulas if it is
+   long. */
+static void watch_pfaffian(struct gm_user_system *system)
+{
+    const gm_node_id node = system->pfaffian;
+    if (!gm_formula_holds(&system->graph, node, marks_of(system, 0, system->n + 1), system->variable_count)) {
+        return; /* it depends on parameters alone */
+    }
+    if (!gm_system_item_of(system, GM_WORD_STOP, 0)) {
+        const size_t count = system->item_count + 1;
+        system->items = gm_arena_resize(system->arena, system->items, count, sizeof *system->items);
+        struct gm_system_item *item = &system->items[system->item_count++];
+        *item = (struct gm_system_item){.word = GM_WORD_STOP, .name = "", .place = system->bracket_place};
+        item->nodes = gm_arena_take(system->arena, 1, sizeof *item->nodes);
+        item->nodes[item->count++] = node;
+    }
+    if (system->n > 2 && node >= system->part_count) {
+        system->parts =
+            gm_arena_resize(system->arena, system->parts, node + (size_t)1, sizeof *system->parts);
+        while (system->part_count <= node) {
+            system->parts[system->part_count++] = NULL;
+        }
+        system->parts[node] = "Pf";
+    }
+}
+
+/* The equations of L = theta(q, t) . q' - H(q, t) are
+       Omega q' = dH/dq + d theta/dt,   Omega_ij = d theta_j/d q_i - d theta_i/d q_j:
+   a Poisson system with the bracket Omega^-1, whose Jacobi identity says that Omega is closed. Derives theta, Omega
+   and the bracket, and replaces L by H. M. Kraus, arXiv:1708.07356 (2017), 2 */
+static void derive_form(struct gm_user_system *system)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n, mark = gm_arena_mark(system->arena);
+    const uint32_t origin = gm_formula_origin(graph, system->energy);
+    const size_t place = system->bracket_place = origin == GM_NO_PLACE ? 0 : origin;
+    gm_system_refuse_if(
+        system, n % 2 == 1, place,
+        "L is linear in the velocities, and the form of theta is singular: %zu coordinate%s an odd "
+        "number",
+        n, n == 1 ? " is" : "s are");
+    gm_system_refuse_if(system, n > GM_MOST_ROWS_OF_SKEW, place,
+                        "a Lagrangian that is linear in the velocities has at most %d coordinates",
+                        GM_MOST_ROWS_OF_SKEW);
+    gm_node_id *rest = gm_system_no_nodes(system, system->variable_count);
+    const gm_node_id *slopes =
+        gm_equations_gradient(system, system->energy, marks_of(system, system->velocities, n));
+    for (size_t i = 0; i < n; i++) {
+        system->theta[i] = slopes[system->velocities + i];
+        rest[system->velocities + i] = gm_formula_constant(graph, 0);
+    }
+    gm_arena_need(system->arena,
+                  gm_formula_substitute(graph, system->theta, n, rest, system->variable_count) &&
+                      gm_formula_substitute(graph, &system->energy, 1, rest, system->variable_count));
+    system->energy = gm_negative(graph, system->energy);
+    for (size_t i = 0; i < n * n; i++) {
+        const size_t row = i / n, column = i % n;
+        const gm_node_id ahead = gm_system_derivative(system, system->theta[column], row),
+                         back = gm_system_derivative(system, system->theta[row], column);
+        graph->origin = origin;
+        system->omega[i] = gm_difference(graph, ahead, back);
+    }
+    const bool inverted = gm_skew_inverse(graph, system->omega, n, system->bracket, &system->pfaffian);
+    graph->origin = GM_NO_PLACE;
+    gm_system_need_graph(system);
+    gm_system_refuse_if(
+        system, !inverted, place,
+        "the form of theta has too many entries: its inverse is written for about 10 coordinates that "
+        "all depend on each other");
+    gm_arena_release(system->arena, mark);
+    watch_pfaffian(system);
+}
+
+/* Replaces the velocities of theta's system in the formulas of all lines by the rates. */
+static void replace_velocities(struct gm_user_system *system)
+{
+    const size_t n = system->n, count = system->variable_count;
+    const bool *marked = marks_of(system, system->velocities, n);
+    gm_node_id *rates = gm_system_no_nodes(system, count);
+    memcpy(rates + system->velocities, system->rates, n * sizeof *rates);
+    for (size_t i = 0; i < system->item_count; i++) {
+        for (size_t k = 0; k < system->items[i].count; k++) {
+            gm_node_id *node = &system->items[i].nodes[k];
+            if (*node != GM_NO_NODE && gm_formula_holds(&system->graph, *node, marked, count)) {
+                gm_arena_need(system->arena, gm_formula_substitute(&system->graph, node, 1, rates, count));
+            }
+        }
+    }
 }
 
 static void derive_poisson(struct gm_user_system *system, const gm_node_id *gradient)
@@ -120,7 +210,7 @@ static void derive(struct gm_user_system *system)
                           ? gm_arena_take(system->arena, half + 1, sizeof *system->momenta)
                           : NULL;
     if (system->theta) {
-        gm_one_form_derive(system);
+        derive_form(system);
     }
     const size_t mark = gm_arena_mark(system->arena);
     const gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
@@ -135,7 +225,7 @@ static void derive(struct gm_user_system *system)
     } else if (system->kind == GM_POISSON) {
         derive_poisson(system, gradient);
         if (system->theta) {
-            gm_one_form_replace_velocities(system);
+            replace_velocities(system);
         }
     } else if (system->kind == GM_MATRICES) {
         memcpy(system->rates, gradient, system->n * sizeof *gradient);

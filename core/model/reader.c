@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/expression/linear_part.h"
 #include "core/expression/number.h"
-#include "core/model/one_form.h"
 
 static const struct gm_span nameless = {0, 0};
 
@@ -748,11 +748,20 @@ static void read_jump(struct gm_reading *reading, const struct gm_read_line *lin
 /* Reads L, V or S. The text is left at an L that is linear in the velocities, unless that is known. */
 static void read_function(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    reading->system->energy = gm_reading_formula(reading, line->value);
-    if (line->word == GM_WORD_LAGRANGE && !reading->degenerate && gm_one_form_is_in(reading->system)) {
-        reading->degenerate = true;
-        gm_arena_leave(reading->system->arena);
+    struct gm_user_system *system = reading->system;
+    system->energy = gm_reading_formula(reading, line->value);
+    if (system->kind != GM_LAGRANGIAN) {
+        return;
     }
+    const size_t mark = gm_arena_mark(system->arena);
+    bool *marked = gm_arena_take(system->arena, system->variable_count, sizeof *marked);
+    memset(marked + system->velocities, true, system->n / 2 * sizeof *marked);
+    reading->degenerate = gm_is_affine(&system->graph, system->energy, marked, system->variable_count);
+    gm_system_need_graph(system);
+    if (reading->degenerate) {
+        gm_arena_leave(system->arena);
+    }
+    gm_arena_release(system->arena, mark);
 }
 
 static void read_formula(struct gm_reading *reading, const struct gm_read_line *line)

@@ -157,7 +157,7 @@ struct gm_user_system {
     struct gm_sparse mass; /* Lagrangian: d2L/dv2, of dL/dv number `row` over velocity number `column` */
     gm_node_id *bracket;   /* Poisson system: [n * n] */
     /* The Poisson system of L = theta(q, t) . q' - H(q, t): theta [n], and Omega [n * n], the inverse of its bracket
-       (core/model/one_form.c); else NULL. Its velocities are variables. */
+       (core/model/equations.c); else NULL. Its velocities are variables. */
     gm_node_id *theta, *omega;
     gm_node_id pfaffian;     /* of Omega: pf^2 = det */
     gm_node_id *matrices;    /* K, then L, [n * n] each */
