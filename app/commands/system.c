@@ -35,7 +35,7 @@
 
 static const struct {
     const char *word, *title, *energy;
-} kinds[GM_SYSTEM_KINDS + 1] = {
+} kinds[] = {
     {"canonical", "A canonical system", "H"},
     {"lagrangian", "A Lagrangian system", "L"},
     {"ode", "An ordinary differential equation", ""},
@@ -44,12 +44,15 @@ static const struct {
     {"evolution", "An evolution equation on a line", ""},
     {"multisymplectic", "A multisymplectic equation on a line", "S"},
     {"forms", "Differential forms on triangles", ""},
+    {"room", "A room", ""},
+    /* behind the kinds: nodes alone; the Poisson system of a Lagrangian that is linear in the velocities */
     {"nodes", "Nodes alone, each", ""},
+    {"degenerate", "A degenerate Lagrangian system", "H"},
 };
 
 static size_t kind_of(const struct gm_user_system *system)
 {
-    return system->alone ? GM_SYSTEM_KINDS : (size_t)system->kind;
+    return system->alone ? GM_SYSTEM_KINDS : system->theta ? GM_SYSTEM_KINDS + 1 : (size_t)system->kind;
 }
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
@@ -257,15 +260,36 @@ static void print_parameters(const struct report *report)
     }
 }
 
+/* The left side of row i of the form of a degenerate Lagrangian, theta or what is named of Omega, and its node;
+   GM_NO_NODE behind the last row. */
+static gm_node_id form_of(const struct report *report, size_t i, bool latex, const char **left)
+{
+    const struct gm_user_system *system = &report->system;
+    if (system->theta && i < system->n) {
+        *left = gm_arena_print(report->arena, latex ? "\\theta_{%.60s}" : "theta_%.60s",
+                               name_of(report, system->variables[i].name, latex));
+        return system->theta[i];
+    }
+    *left = latex ? "\\mathrm{Pf}\\,\\Omega" : "Pf";
+    return system->theta && i == system->n && gm_system_naming(system).part(system->pfaffian, system)
+               ? system->pfaffian
+               : GM_NO_NODE;
+}
+
 static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
+    const char *name;
+    gm_node_id part;
     printf("\nequations\n");
     if (system->alone) {
         gm_print_wrapped(system->texts[GM_WORD_CELL], printf("  cell = "), 6);
     }
     if (kinds[kind_of(system)].energy[0]) {
         print_equation(report, kinds[kind_of(system)].energy, system->energy);
+    }
+    for (size_t i = 0; (part = form_of(report, i, false, &name)) != GM_NO_NODE; i++) {
+        print_equation(report, name, part);
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {
@@ -502,6 +526,13 @@ static void put_equations(struct gm_row *row, const struct report *report)
         put_formula(&equations, name, report, node);
     }
     gm_row_close(&equations);
+    const char *left;
+    gm_node_id part;
+    struct gm_row form = gm_row_open(row, "form", '}');
+    for (size_t i = 0; (part = form_of(report, i, false, &left)) != GM_NO_NODE; i++) {
+        put_formula(&form, left, report, part);
+    }
+    gm_row_close(&form);
     struct gm_row constraints = gm_row_open(row, "constraints", ']');
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_CONSTRAINT) {
@@ -612,6 +643,11 @@ static void print_latex(struct report *report)
     printf("\\begin{align}\n");
     if (kinds[kind_of(system)].energy[0]) {
         printf("  %s &= %s \\\\\n", kinds[kind_of(system)].energy, formula_of(report, system->energy, true));
+    }
+    const char *name;
+    gm_node_id part;
+    for (size_t i = 0; (part = form_of(report, i, true, &name)) != GM_NO_NODE; i++) {
+        printf("  %s &= %s \\\\\n", name, formula_of(report, part, true));
     }
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_LET) {

@@ -2,7 +2,11 @@
 /* The linear part of a formula, from the leaves upwards: sums, and products with constants. */
 #include "core/expression/linear_part.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+#include "core/expression/derivative.h"
+#include "core/expression/identity.h"
 
 struct parts {
     gm_node_id line, rest;
@@ -64,4 +68,42 @@ bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *field
     free(of);
     free(moves);
     return good && !graph->failed;
+}
+
+/* Tests the derivatives over marked variables of each derivative in `slopes`. */
+static bool are_constant(struct gm_formula *graph, const gm_node_id *slopes, const bool *marked,
+                         size_t variables)
+{
+    gm_node_id *second = malloc((variables + 1) * sizeof *second);
+    double *fixed = malloc((variables + 1) * sizeof *fixed);
+    graph->failed |= !second || !fixed;
+    for (size_t i = 0; i < variables && !graph->failed; i++) {
+        fixed[i] = NAN;
+    }
+    bool constant = true;
+    for (size_t i = 0; i < variables && constant && !graph->failed; i++) {
+        if (marked[i] && gm_gradient(graph, slopes[i], marked, variables, second)) {
+            for (size_t k = i; k < variables && constant; k++) {
+                constant = !marked[k] || gm_is_constant(graph, second[k], 0) ||
+                           gm_identity_of(graph, second[k], fixed, variables) == GM_ZERO_PROVED;
+            }
+        }
+    }
+    free(second);
+    free(fixed);
+    return constant;
+}
+
+bool gm_is_affine(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
+{
+    struct gm_formula copy;
+    gm_node_id *slopes = malloc((variables + 1) * sizeof *slopes);
+    gm_formula_open(&copy);
+    const gm_node_id root = gm_formula_graft(&copy, graph, node, variables, NULL);
+    const bool opened = slopes && root != GM_NO_NODE && gm_gradient(&copy, root, marked, variables, slopes);
+    const bool affine = opened && are_constant(&copy, slopes, marked, variables);
+    graph->failed |= !opened || copy.failed;
+    gm_formula_close(&copy);
+    free(slopes);
+    return affine;
 }

@@ -10,5 +10,8 @@
    memory. */
 bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *fields, const bool *varying,
                     size_t variables, gm_node_id *line, gm_node_id *rest);
+/* True if a node is proved to be of degree 1 in the marked variables, for all values of the others: its second
+   derivatives are 0. Works in a copy of the graph; out of memory sets graph->failed. */
+bool gm_is_affine(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 
 #endif

@@ -334,6 +334,15 @@ void gm_declared_kind(struct gm_reading *reading)
                             "a system %s has no line \"%s\"", called[which],
                             gm_system_words[line->word].word);
     }
+    for (size_t i = 0; i < reading->line_count && reading->degenerate; i++) {
+        const enum gm_system_word word = reading->lines[i].word;
+        gm_system_refuse_if(
+            system, word == GM_WORD_MOMENTA || word == GM_WORD_FORCE || word == GM_WORD_CONSTRAINT,
+            reading->lines[i].place,
+            "L is linear in the velocities: its state is the coordinates alone, and it has no line "
+            "\"%s\"",
+            gm_system_words[word].word);
+    }
     for (size_t i = 0; i < GM_COUNT(needed); i++) {
         if (needed[i].kind == kind && !gm_reading_line(reading, needed[i].word)) {
             gm_system_refuse(system, gm_reading_line(reading, needed[i].known_by)->place,
@@ -341,7 +350,7 @@ void gm_declared_kind(struct gm_reading *reading)
                              gm_system_words[needed[i].word].word);
         }
     }
-    system->kind = kind;
+    system->kind = reading->degenerate ? GM_POISSON : kind;
 }
 
 /* Adds the new components on the left side of a rate or a bracket. */
@@ -613,14 +622,14 @@ static void add_coordinates(struct gm_reading *reading, const struct gm_read_lin
     const size_t n = reading->component_count;
     if (momenta) {
         add_components(reading, momenta->value);
-    } else {
+    } else if (!reading->degenerate) {
         add_derived(reading, "p_", "", GM_ENTRY_COMPONENT, n);
     }
-    if (reading->component_count != 2 * n) {
+    if (momenta && reading->component_count != 2 * n) {
         gm_system_refuse(system, momenta->place, "%zu momenta for %zu coordinate%s",
                          reading->component_count - n, n, gm_plural((double)n));
     }
-    if (system->kind != GM_LAGRANGIAN) {
+    if (system->kind == GM_CANONICAL) {
         return;
     }
     if (velocities) {

@@ -9,6 +9,7 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
+#include "core/expression/pfaffian.h"
 #include "core/linear/iteration.h"
 #include "core/tape.h"
 
@@ -50,15 +51,111 @@ static gm_node_id *direction_of(struct gm_user_system *system, const gm_node_id 
     return direction;
 }
 
+/* Ends runs where the Pfaffian changes sign, unless the file says where, and names it in printed formulas if it is
+   long. */
+static void watch_pfaffian(struct gm_user_system *system)
+{
+    const gm_node_id node = system->pfaffian;
+    if (!gm_formula_holds(&system->graph, node, marks_of(system, 0, system->n + 1), system->variable_count)) {
+        return; /* it depends on parameters alone */
+    }
+    if (!gm_system_item_of(system, GM_WORD_STOP, 0)) {
+        const size_t count = system->item_count + 1;
+        system->items = gm_arena_resize(system->arena, system->items, count, sizeof *system->items);
+        struct gm_system_item *item = &system->items[system->item_count++];
+        *item = (struct gm_system_item){.word = GM_WORD_STOP, .name = "", .place = system->bracket_place};
+        item->nodes = gm_arena_take(system->arena, 1, sizeof *item->nodes);
+        item->nodes[item->count++] = node;
+    }
+    if (system->n > 2 && node >= system->part_count) {
+        system->parts =
+            gm_arena_resize(system->arena, system->parts, node + (size_t)1, sizeof *system->parts);
+        while (system->part_count <= node) {
+            system->parts[system->part_count++] = NULL;
+        }
+        system->parts[node] = "Pf";
+    }
+}
+
+/* The equations of L = theta(q, t) . q' - H(q, t) are
+       Omega q' = dH/dq + d theta/dt,   Omega_ij = d theta_j/d q_i - d theta_i/d q_j:
+   a Poisson system with the bracket Omega^-1, whose Jacobi identity says that Omega is closed. Derives theta, Omega
+   and the bracket, and replaces L by H. M. Kraus, arXiv:1708.07356 (2017), 2 */
+static void derive_form(struct gm_user_system *system)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n, mark = gm_arena_mark(system->arena);
+    const uint32_t origin = gm_formula_origin(graph, system->energy);
+    const size_t place = system->bracket_place = origin == GM_NO_PLACE ? 0 : origin;
+    gm_system_refuse_if(
+        system, n % 2 == 1, place,
+        "L is linear in the velocities, and the form of theta is singular: %zu coordinate%s an odd "
+        "number",
+        n, n == 1 ? " is" : "s are");
+    gm_system_refuse_if(system, n > GM_MOST_ROWS_OF_SKEW, place,
+                        "a Lagrangian that is linear in the velocities has at most %d coordinates",
+                        GM_MOST_ROWS_OF_SKEW);
+    gm_node_id *rest = gm_system_no_nodes(system, system->variable_count);
+    const gm_node_id *slopes =
+        gm_equations_gradient(system, system->energy, marks_of(system, system->velocities, n));
+    for (size_t i = 0; i < n; i++) {
+        system->theta[i] = slopes[system->velocities + i];
+        rest[system->velocities + i] = gm_formula_constant(graph, 0);
+    }
+    gm_arena_need(system->arena,
+                  gm_formula_substitute(graph, system->theta, n, rest, system->variable_count) &&
+                      gm_formula_substitute(graph, &system->energy, 1, rest, system->variable_count));
+    system->energy = gm_negative(graph, system->energy);
+    for (size_t i = 0; i < n * n; i++) {
+        const size_t row = i / n, column = i % n;
+        const gm_node_id ahead = gm_system_derivative(system, system->theta[column], row),
+                         back = gm_system_derivative(system, system->theta[row], column);
+        graph->origin = origin;
+        system->omega[i] = gm_difference(graph, ahead, back);
+    }
+    const bool inverted = gm_skew_inverse(graph, system->omega, n, system->bracket, &system->pfaffian);
+    graph->origin = GM_NO_PLACE;
+    gm_system_need_graph(system);
+    gm_system_refuse_if(
+        system, !inverted, place,
+        "the form of theta has too many entries: its inverse is written for about 10 coordinates that "
+        "all depend on each other");
+    gm_arena_release(system->arena, mark);
+    watch_pfaffian(system);
+}
+
+/* Replaces the velocities of theta's system in the formulas of all lines by the rates. */
+static void replace_velocities(struct gm_user_system *system)
+{
+    const size_t n = system->n, count = system->variable_count;
+    const bool *marked = marks_of(system, system->velocities, n);
+    gm_node_id *rates = gm_system_no_nodes(system, count);
+    memcpy(rates + system->velocities, system->rates, n * sizeof *rates);
+    for (size_t i = 0; i < system->item_count; i++) {
+        for (size_t k = 0; k < system->items[i].count; k++) {
+            gm_node_id *node = &system->items[i].nodes[k];
+            if (*node != GM_NO_NODE && gm_formula_holds(&system->graph, *node, marked, count)) {
+                gm_arena_need(system->arena, gm_formula_substitute(&system->graph, node, 1, rates, count));
+            }
+        }
+    }
+}
+
 static void derive_poisson(struct gm_user_system *system, const gm_node_id *gradient)
 {
     const size_t n = system->n;
+    gm_node_id *slopes = gm_arena_take(system->arena, n + 1, sizeof *slopes); /* dH/dy + d theta/dt */
+    for (size_t k = 0; k < n; k++) {
+        slopes[k] = system->theta ? gm_sum(&system->graph, gradient[k],
+                                           gm_system_derivative(system, system->theta[k], n))
+                                  : gradient[k];
+    }
     for (size_t i = 0; i < n; i++) {
         system->rates[i] = gm_formula_constant(&system->graph, 0);
         for (size_t k = 0; k < n; k++) {
             const gm_node_id entry = system->bracket[i * n + k];
             system->graph.origin = gm_formula_origin(&system->graph, entry);
-            const gm_node_id term = gm_product(&system->graph, entry, gradient[k]);
+            const gm_node_id term = gm_product(&system->graph, entry, slopes[k]);
             system->graph.origin = GM_NO_PLACE;
             system->rates[i] = gm_sum(&system->graph, system->rates[i], term);
         }
@@ -112,6 +209,9 @@ static void derive(struct gm_user_system *system)
     system->momenta = system->kind == GM_LAGRANGIAN
                           ? gm_arena_take(system->arena, half + 1, sizeof *system->momenta)
                           : NULL;
+    if (system->theta) {
+        derive_form(system);
+    }
     const size_t mark = gm_arena_mark(system->arena);
     const gm_node_id *gradient = rates ? NULL : gm_equations_gradient(system, system->energy, NULL);
     if (system->kind == GM_CANONICAL) {
@@ -124,6 +224,9 @@ static void derive(struct gm_user_system *system)
         derive_lagrangian(system, gradient);
     } else if (system->kind == GM_POISSON) {
         derive_poisson(system, gradient);
+        if (system->theta) {
+            replace_velocities(system);
+        }
     } else if (system->kind == GM_MATRICES) {
         memcpy(system->rates, gradient, system->n * sizeof *gradient);
     } else if (system->kind == GM_FIELD) {
@@ -699,33 +802,58 @@ static size_t rank_of(double *matrix, size_t rows, size_t columns, double part, 
     return rank;
 }
 
-bool gm_equations_check_legendre(const struct gm_user_system *system, double *start, struct gm_fault *fault)
+/* The matrix that determines the velocities at these values: Omega of theta, or the mass matrix of a Lagrangian.
+   Returns false if it is not finite, which the check of the rates reports. */
+static bool find_matrix(const struct gm_user_system *system, double *start, double *values, double *matrix)
 {
-    const size_t half = system->n / 2;
-    size_t first;
-    double *scratch = malloc((2 + half) * half * sizeof *scratch), unused = 0,
+    const size_t n = system->n;
+    double *residual = matrix + n * n, *wanted = residual + n, unused = 0;
+    struct transform transform = {system, start, values, NULL, system->graph.count, NULL, wanted};
+    bool finite = true;
+    if (!system->theta) {
+        memcpy(wanted, start + system->velocities, n / 2 * sizeof *wanted);
+        return momenta_at(&transform, wanted, residual, matrix, &unused);
+    }
+    gm_formula_evaluate(&system->graph, system->graph.count, start, values);
+    for (size_t i = 0; i < n * n; i++) {
+        matrix[i] = values[system->omega[i]];
+        finite &= isfinite(matrix[i]);
+    }
+    return finite;
+}
+
+bool gm_equations_check_velocities(const struct gm_user_system *system, double *start, struct gm_fault *fault)
+{
+    const size_t n = system->n, size = system->theta ? n : n / 2; /* coordinates */
+    size_t first, rank = size;
+    if (system->kind != GM_LAGRANGIAN && !system->theta) {
+        return true;
+    }
+    double *matrix = malloc((n + 2) * n * sizeof *matrix),
            *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
-    const bool opened = scratch && values;
-    bool regular = false;
-    if (opened) {
-        double *v = scratch + (1 + half) * half;
-        struct transform transform = {system, start, values, NULL, system->graph.count, NULL, v};
-        memcpy(v, start + system->velocities, half * sizeof *v);
-        momenta_at(&transform, v, scratch, scratch + half, &unused);
-        regular = rank_of(scratch + half, half, half, 1e-14, &first) == half;
+    const bool opened = matrix && values;
+    if (opened && find_matrix(system, start, values, matrix)) {
+        rank = rank_of(matrix, size, size, 1e-14, &first);
     }
     free(values);
-    free(scratch);
-    if (!opened || regular) {
+    free(matrix);
+    if (!opened || rank == size) {
         return opened;
     }
     char where[120] = "";
     size_t length = 0;
-    for (size_t i = 0; i < half && length + 40 < sizeof where; i++) {
+    for (size_t i = 0; i < size && length + 40 < sizeof where; i++) {
         length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
                                    system->variables[i].name, start[i]);
     }
     const uint32_t place = gm_formula_origin(&system->graph, system->energy);
+    if (system->theta) {
+        return gm_fail(
+            fault, system->bracket_place,
+            "theta has a form of rank %zu of %zu at the start, %s: L = theta . q' - H does not determine "
+            "the velocities",
+            rank, size, where);
+    }
     return gm_fail(
         fault, place == GM_NO_PLACE ? 0 : place,
         "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
@@ -886,7 +1014,7 @@ static void check_start(struct gm_user_system *system)
     const size_t mark = gm_arena_mark(system->arena);
     double *start = gm_arena_keep(system->arena, gm_equations_start(system, NULL), free);
     const double *values = gm_equations_values(system, start);
-    if (system->kind == GM_LAGRANGIAN && !gm_equations_check_legendre(system, start, system->fault)) {
+    if (!gm_equations_check_velocities(system, start, system->fault)) {
         gm_arena_leave(system->arena);
     }
     check_values(system, start, values);
@@ -1150,7 +1278,9 @@ static void derive_and_check(struct gm_arena *arena, void *data)
     } else if (system->kind == GM_EVOLUTION) {
         check_evolution(system);
     } else {
-        if (system->kind == GM_POISSON) {
+        if (system->theta) {
+            system->jacobi = GM_ZERO_PROVED; /* Omega is closed: it is the differential of theta */
+        } else if (system->kind == GM_POISSON) {
             check_jacobi(system);
         }
         check_start(system);

@@ -18,9 +18,11 @@ bool gm_equations_open(struct gm_user_system *system, const char *text, size_t l
    the file's, or NaN; NULL: none. A start that depends on itself is NaN. The caller frees; NULL when out of
    memory. */
 double *gm_equations_start(const struct gm_user_system *system, const double *given);
-/* True if momenta of a Lagrangian determine velocities at these values of all variables (gm_equations_start),
-   which stay unchanged. False with a fault, whose sentence is untouched when out of memory. */
-bool gm_equations_check_legendre(const struct gm_user_system *system, double *start, struct gm_fault *fault);
+/* True if momenta of a Lagrangian, or the form of theta, determine velocities at these values of all variables
+   (gm_equations_start), which stay unchanged; or if the system has neither. False with a fault, whose sentence is
+   untouched when out of memory. */
+bool gm_equations_check_velocities(const struct gm_user_system *system, double *start,
+                                   struct gm_fault *fault);
 
 /* The field of a mass of an evolution; system->n if it has none or several, or when out of memory. */
 size_t gm_system_mass_field(const struct gm_user_system *system, gm_node_id node);

@@ -39,6 +39,10 @@ static const struct {
     [GM_FACT_LAGRANGIAN] = {"lagrangian", "L = v^2/2 - V(q), one degree of freedom", ""},
     [GM_FACT_CONFORMAL] = {"conformal", "every force is the same multiple of the momentum",
                            "is not the multiple of the momentum that others are"},
+    [GM_FACT_DEGENERATE] = {"degenerate", "L = theta(q) . q' - H(q), linear in the velocities", ""},
+    [GM_FACT_HALF_GAUGE] =
+        {"half-gauge", "half of theta is 0: degenerate-midpoint2 is symplectic",
+         "less than half of theta is 0: certify measures how far degenerate-midpoint2 is from symplectic"},
 };
 
 const char *gm_fact_word(enum gm_fact fact)
@@ -875,6 +879,22 @@ static void find_magnetic(const struct search *search, struct gm_finding *findin
     }
 }
 
+/* Counts the components of theta that are 0. */
+static void find_gauge(const struct search *search, struct gm_finding *finding)
+{
+    struct gm_user_system *system = search->system;
+    size_t zeros = 0;
+    finding->asked = true;
+    for (size_t i = 0; i < system->n; i++) {
+        const enum gm_identity found = gm_equations_vanishes(system, system->theta[i]);
+        zeros += found == GM_ZERO_PROVED || found == GM_ZERO_TESTED;
+        finding->how = found == GM_ZERO_TESTED ? found : finding->how;
+    }
+    if (2 * zeros < system->n) {
+        deny(finding, GM_NO_NODE, NULL);
+    }
+}
+
 static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
 {
     (void)graph;
@@ -971,6 +991,10 @@ static void find_all(struct gm_arena *arena, void *data)
         memset(search->all + system->velocities, true, half);
     }
     find_of_parts(search);
+    if (system->theta) {
+        find_gauge(search, &findings[GM_FACT_HALF_GAUGE]);
+        findings[GM_FACT_DEGENERATE].asked = true;
+    }
     if (kind <= GM_LAGRANGIAN) {
         find_split(search);
         find_conformal(search, &findings[GM_FACT_CONFORMAL], search->nodes);

@@ -26,6 +26,8 @@ enum gm_fact {
     GM_FACT_GRAVITY,
     GM_FACT_LAGRANGIAN, /* L = v^2/2 - V(q), one degree of freedom; nodes: V, V', V'' */
     GM_FACT_CONFORMAL,  /* every force is -c p with the same constant c, its node */
+    GM_FACT_DEGENERATE, /* L = theta(q) . q' - H(q) */
+    GM_FACT_HALF_GAUGE, /* half of theta, or more, are 0 */
     GM_FACTS
 };
 

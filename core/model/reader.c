@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/expression/linear_part.h"
 #include "core/expression/number.h"
 
 static const struct gm_span nameless = {0, 0};
@@ -755,10 +756,23 @@ static void read_jump(struct gm_reading *reading, const struct gm_read_line *lin
     (reading->system->kind == GM_MATRICES ? read_assignments : read_ring)(reading, line);
 }
 
-/* Reads L, V or S. */
+/* Reads L, V or S. The text is left at an L that is linear in the velocities, unless that is known. */
 static void read_function(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    reading->system->energy = gm_reading_formula(reading, line->value);
+    struct gm_user_system *system = reading->system;
+    system->energy = gm_reading_formula(reading, line->value);
+    if (system->kind != GM_LAGRANGIAN) {
+        return;
+    }
+    const size_t mark = gm_arena_mark(system->arena);
+    bool *marked = gm_arena_take(system->arena, system->variable_count, sizeof *marked);
+    memset(marked + system->velocities, true, system->n / 2 * sizeof *marked);
+    reading->degenerate = gm_is_affine(&system->graph, system->energy, marked, system->variable_count);
+    gm_system_need_graph(system);
+    if (reading->degenerate) {
+        gm_arena_leave(system->arena);
+    }
+    gm_arena_release(system->arena, mark);
 }
 
 static void read_formula(struct gm_reading *reading, const struct gm_read_line *line)
@@ -969,6 +983,10 @@ void gm_reading_read(struct gm_reading *reading)
                             "a system with a bracket has at most %d components", MOST_OF_BRACKET);
         system->bracket = gm_system_no_nodes(system, n * n);
     }
+    if (reading->degenerate) {
+        system->theta = gm_system_no_nodes(system, n);
+        system->omega = gm_system_no_nodes(system, n * n);
+    }
     if (system->kind == GM_MATRICES) {
         system->matrix_places = gm_arena_take(arena, 2 * n * n, sizeof *system->matrix_places);
         system->matrices = gm_system_no_nodes(system, 2 * n * n);
@@ -995,19 +1013,21 @@ static void read_system(struct gm_arena *arena, void *data)
     gm_reading_read(data);
 }
 
-bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
-                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+/* Reads the text once; *degenerate is set if it has to be read again so. */
+static bool read_once(struct gm_user_system *system, const char *text, size_t length,
+                      const struct gm_system_value *values, size_t count, bool *degenerate)
 {
+    struct gm_fault *fault = system->fault;
     struct gm_reading reading = {.system = system,
                                  .text = text,
                                  .length = length,
                                  .values = values,
                                  .value_count = count,
+                                 .degenerate = *degenerate,
                                  .scratch = gm_arena_open()};
     for (size_t i = 0; i < count; i++) {
         reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
     }
-    *fault = (struct gm_fault){0};
     *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault, .drift = GM_NO_NODE};
     gm_formula_open(&system->graph);
     const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
@@ -1016,5 +1036,21 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
         *system = (struct gm_user_system){
             .arena = system->arena, .graph = system->graph, .choices = system->choices};
     }
+    *degenerate = reading.degenerate;
     return good;
+}
+
+bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
+                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    bool degenerate = false;
+    *fault = (struct gm_fault){0};
+    *system = (struct gm_user_system){.fault = fault};
+    const bool good = read_once(system, text, length, values, count, &degenerate);
+    if (good || !degenerate) {
+        return good;
+    }
+    gm_system_close(system);
+    system->fault = fault;
+    return read_once(system, text, length, values, count, &degenerate);
 }

@@ -52,6 +52,7 @@ struct gm_reading {
     bool fixed;             /* parameters are constants in formulas */
     bool structural;        /* the graph depends on values of parameters */
     bool without_tangents;  /* the motion alone is read */
+    bool degenerate;        /* L is linear in the velocities: the text is read again, without momenta */
     bool exact;             /* exact(NAME) has a meaning */
     struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
     long counted;

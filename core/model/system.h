@@ -14,7 +14,7 @@ enum gm_system_kind {
     GM_CANONICAL,  /* coordinates, then their momenta; H */
     GM_LAGRANGIAN, /* the same state; L of coordinates and velocities */
     GM_RATES,      /* components with their rates */
-    GM_POISSON,    /* components, a bracket, H */
+    GM_POISSON,    /* components, a bracket, H; or coordinates, theta, H */
     GM_FIELD,      /* u of x and t, and u_t: u_tt = u_xx - V'(u) */
     GM_EVOLUTION,  /* fields u, v .. of x and t, with their rates, or rates of their masses */
     GM_MATRICES,   /* components z of x and t: K z_t + L z_x = grad S(z), K and L skew */
@@ -173,9 +173,13 @@ struct gm_user_system {
     /* [n]; a Lagrangian has none for coordinates, the second of a field is without u_xx, and rates of
        matrices are the derivatives of S. */
     gm_node_id *rates;
-    gm_node_id *momenta;     /* Lagrangian: dL/dv */
-    struct gm_sparse mass;   /* Lagrangian: d2L/dv2, of dL/dv number `row` over velocity number `column` */
-    gm_node_id *bracket;     /* Poisson system: [n * n] */
+    gm_node_id *momenta;   /* Lagrangian: dL/dv */
+    struct gm_sparse mass; /* Lagrangian: d2L/dv2, of dL/dv number `row` over velocity number `column` */
+    gm_node_id *bracket;   /* Poisson system: [n * n] */
+    /* The Poisson system of L = theta(q, t) . q' - H(q, t): theta [n], and Omega [n * n], the inverse of its bracket
+       (core/model/equations.c); else NULL. Its velocities are variables. */
+    gm_node_id *theta, *omega;
+    gm_node_id pfaffian;     /* of Omega: pf^2 = det */
     gm_node_id *matrices;    /* K, then L, [n * n] each */
     size_t *matrix_places;   /* offsets of the entries of `matrices` in the text */
     enum gm_identity jacobi; /* result of the check of Jacobi's identity */
@@ -184,7 +188,7 @@ struct gm_user_system {
     size_t item_count;
     gm_node_id *facets; /* nodes of core/model/facts.c */
     const char **parts; /* names of nodes, by number; NULL from part_count on */
-    size_t part_count;  /* number of read nodes; later ones are derived */
+    size_t part_count;  /* number of read nodes; later ones are derived, but for the last, a Pfaffian */
 };
 
 /* A new value of a parameter, "N", "5", or a new word of a choice. With the name GM_WITHOUT_TANGENTS the motion alone

@@ -123,6 +123,15 @@ struct gm_poisson {
     void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y);
 };
 
+/* L = theta(q) . q' - H(q): Omega q' = dH/dq, Omega_ij = d theta_j/d q_i - d theta_i/d q_j */
+struct gm_degenerate {
+    bool half_gauge; /* half of theta, or more, are 0 */
+    /* At q, of one member: theta_1 .. theta_n and H (n + 1), their derivatives by rows ((n + 1) * n), and the matrix
+       of second derivatives of their sum with these weights (n * n). theta is NaN when out of memory, which is noted. */
+    void (*functions)(const struct gm_problem *problem, const double *q, const double *weights,
+                      double *values, double *slopes, double *curvature);
+};
+
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
 struct gm_volume {
     size_t pieces;
@@ -183,6 +192,7 @@ enum gm_ode_facet {
     GM_NEEDS_MAGNETIC = 1u << 23,
     GM_NEEDS_PARTS = 1u << 24,  /* parts with names */
     GM_NEEDS_KEPLER = 1u << 26, /* a Kepler split, or gravity: parts kepler and interaction */
+    GM_NEEDS_DEGENERATE = 1u << 27,
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -204,6 +214,7 @@ struct gm_ode {
     const struct gm_magnetic *magnetic;
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
+    const struct gm_degenerate *degenerate;
     const struct gm_semilinear *semilinear;
     const struct gm_parts *parts;
     /* Writes the quantity of that name, which the motion conserves, in a graph opened for it, of the components by

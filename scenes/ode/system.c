@@ -152,12 +152,11 @@ static bool starts_on_manifold(const struct gm_problem *problem, const double *v
                defects.constraint, defects.hidden);
 }
 
-/* Returns true if momenta determine velocities at this start; the file's start is checked when it is read. */
+/* Returns true if momenta, or theta, determine velocities at this start; the file's start is checked when it is read. */
 static bool has_velocities(const struct gm_user_system *system, double *values, char *sentence)
 {
     struct gm_fault fault = {.sentence = "not enough memory"};
-    return system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, values, &fault) ||
-           gm_refuse(sentence, "%s", fault.sentence);
+    return gm_equations_check_velocities(system, values, &fault) || gm_refuse(sentence, "%s", fault.sentence);
 }
 
 /* Returns true if the sizes of the surfaces are positive. */

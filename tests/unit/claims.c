@@ -266,6 +266,7 @@ static void structure_that_is_not_asked_for(void **unused)
                  {GM_NEEDS_CONSTRAINTS, GM_KEEPS_MOMENTUM_MAPS, 13},
                  {GM_NEEDS_FRICTION, GM_CONFORMAL, 14},
                  {GM_NEEDS_INSEPARABLE, GM_KEEPS_BILINEAR, 12},
+                 {GM_NEEDS_DEGENERATE, GM_SYMPLECTIC, 0},
                  {GM_NEEDS_ROTATIONS, GM_KEEPS_CASIMIRS, 17},
                  {GM_NEEDS_ROTATIONS, GM_POISSON_MAP, 18},
                  {GM_NEEDS_GROUP, GM_KEEPS_CASIMIRS, 17},

@@ -211,6 +211,157 @@ static void a_singular_transform_stops(void **unused)
     untype(&typed);
 }
 
+/* ---- linear in the velocities ---- */
+
+#define HUNTERS "coordinates: x y\nL: log(y)/x*v_x - (x - log(x) + y - 2*log(y))\nstart: x = 2, y = 1.5\n"
+#define GUIDING                                                                                              \
+    "parameter: quartic = 0\ncoordinates: x y z u\nlet: s = sin(x)/5\n"                                      \
+    "L: -y*(1 + x/4)*v_x + (x/2 + x*z/10 + u*s)*v_y + u*sqrt(1 - s^2)*v_z - u^2/2"                           \
+    " - 0.3*(1 + x^2/4 + y^2/3 + z^2/4) - quartic*(x^4/10 + z^4/20)\n"                                       \
+    "start: x = 0.5, y = 0.4, z = 0.2, u = 0.6\n"
+
+/* Six coordinates, all of which the form holds, and the time. */
+#define DENSE                                                                                                \
+    "coordinates: q[1..6]\n"                                                                                 \
+    "L: sum(i = 1 .. 6, (sin(i*q[mod(i, 6) + 1] + q[mod(i + 2, 6) + 1]) + i*q[mod(i + 1, 6) + 1]^2 + "       \
+    "t*i*q[i])*v_q[i]) - sum(i = 1 .. 6, q[i]^4/i)\nstart: q[i] = cos(i)\n"
+
+static void forms_have_rates(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    double f[4];
+    type(&typed, HUNTERS);
+    assert_int_equal(typed.problem.n, 2);
+    gm_field(&typed.problem, typed.start, f, 1);
+    expect_near("rates", "hunters", f, (const double[]){-1, -1.5}, 2, 1e-15);
+    /* p dq - H: the equations of Hamilton, and the time in theta alone is a force */
+    untype(&typed);
+    type(&typed, "coordinates: q p\nL: (p + t^2)*v_q - p^2/2 - cos(q)\nstart: q = 0.5, p = 0.25\n");
+    gm_field(&typed.problem, (const double[]){0.5, 0.25, 3}, f, 1);
+    expect_near("rates", "timed", f, (const double[]){0.25, sin(0.5) - 6, 1}, 3, 1e-15);
+    untype(&typed);
+}
+
+/* Omega f = dH/dq + d theta/dt, with Omega by differences of theta. */
+static void forms_are_inverted(void **unused)
+{
+    (void)unused;
+    enum { N = 6 };
+    struct typed typed;
+    type(&typed, DENSE);
+    struct gm_user_system *system = &typed.system;
+    const double h = 1e-5;
+    double *values[2] = {malloc(system->graph.count * sizeof(double)),
+                         malloc(system->graph.count * sizeof(double))};
+    double omega[N][N] = {{0}}, force[N], f[N + 1];
+    assert_true(system->n == N && system->timed && values[0] && values[1]);
+    for (size_t i = 0; i <= N; i++) {
+        for (int side = 0; side < 2; side++) {
+            typed.start[i] += side == 0 ? h : -2 * h;
+            gm_formula_evaluate(&system->graph, system->graph.count, typed.start, values[side]);
+        }
+        typed.start[i] += h;
+        for (size_t j = 0; j < N; j++) {
+            const double slope = (values[0][system->theta[j]] - values[1][system->theta[j]]) / (2 * h);
+            if (i < N) {
+                omega[i][j] += slope;
+                omega[j][i] -= slope;
+            } else {
+                force[j] += slope;
+            }
+        }
+        if (i < N) {
+            force[i] = (values[0][system->energy] - values[1][system->energy]) / (2 * h);
+        }
+    }
+    gm_field(&typed.problem, typed.start, f, 1);
+    for (size_t i = 0; i < N; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < N; j++) {
+            sum += omega[i][j] * f[j];
+        }
+        assert_true(fabs(sum - force[i]) < 1e-8);
+    }
+    free(values[0]);
+    free(values[1]);
+    untype(&typed);
+}
+
+/* The midpoint rule in x and P = log(y)/x, by a fixed point here: H(x, P) = x - log(x) + exp(P x) - 2 P x. */
+static void hunters_by_midpoint(double h, int steps, double y[2])
+{
+    double x = y[0], p = log(y[1]) / y[0];
+    for (int step = 0; step < steps; step++) {
+        double to_x = x, to_p = p;
+        for (int sweep = 0; sweep < 200; sweep++) {
+            const double a = (x + to_x) / 2, b = (p + to_p) / 2;
+            to_x = x + h * (a * exp(a * b) - 2 * a);
+            to_p = p - h * (1 - 1 / a + b * exp(a * b) - 2 * b);
+        }
+        x = to_x;
+        p = to_p;
+    }
+    y[0] = x;
+    y[1] = exp(p * x);
+}
+
+static void half_a_form_is_canonical(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    double end[2], wanted[2];
+    type(&typed, HUNTERS);
+    memcpy(wanted, typed.start, sizeof wanted);
+    hunters_by_midpoint(0.1, 300, wanted);
+    typed_advance(&typed, &settings, "degenerate-midpoint2", 0.1, 300, end);
+    expect_near("300 steps", "hunters", end, wanted, 2, 1e-12);
+    untype(&typed);
+}
+
+/* 40 steps of 0.1, by an independent computation with 40 digits and differences of theta. */
+static void centres_are_guided(void **unused)
+{
+    (void)unused;
+    static const double wanted[2][4] = {
+        {0.2790768474162552, 0.5364516496503313, 1.554478290994164, -0.06164673338617337},
+        {0.2933116925922715, 0.6044419070411135, 0.6184383368127211, -0.5373649927709805}};
+    for (int quartic = 0; quartic < 2; quartic++) {
+        struct typed typed;
+        double end[4], back[4];
+        type(&typed, GUIDING);
+        typed.start[typed.system.parameters] = quartic;
+        gm_user_problem_close(&typed.problem);
+        assert_true(gm_user_problem_open(&typed.problem, &typed.model, typed.start));
+        typed_advance(&typed, &settings, "degenerate-midpoint2", 0.1, 40, end);
+        expect_near("40 steps", "guiding centre", end, wanted[quartic], 4, 1e-13);
+        memcpy(back, typed.start, sizeof back);
+        memcpy(typed.start, end, sizeof end);
+        typed_advance(&typed, &settings, "degenerate-midpoint2", -0.1, 40, end);
+        expect_near("40 steps back", "guiding centre", end, back, 4, 1e-13);
+        untype(&typed);
+    }
+}
+
+/* Two vortices at a distance d turn by (G_1 + G_2) t / (2 pi d^2) about their centre. Omega is constant: the step is
+   that of the midpoint rule. */
+static void vortices_turn(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    double end[4], other[4];
+    type(&typed, "coordinates: a b x y\n"
+                 "L: (a*v_b - b*v_a)/2 + 3*(x*v_y - y*v_x)/2 - 3*log((a - x)^2 + (b - y)^2)/(4*pi)\n"
+                 "start: a = 1.5, b = 0, x = -0.5, y = 0\n");
+    const double angle = 4 * 10. / (2 * M_PI * 4), c = cos(angle), s = sin(angle);
+    typed_advance(&typed, &settings, "gauss8", 0.1, 100, end);
+    expect_near("gauss8", "vortices", end, (const double[]){1.5 * c, 1.5 * s, -0.5 * c, -0.5 * s}, 4, 1e-13);
+    typed_advance(&typed, &settings, "degenerate-midpoint2", 0.5, 20, end);
+    typed_advance(&typed, &settings, "midpoint", 0.5, 20, other);
+    expect_near("the midpoint rule", "vortices", end, other, 4, 1e-14);
+    untype(&typed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,6 +369,11 @@ int main(void)
         cmocka_unit_test(runs_agree),
         cmocka_unit_test(members_are_alone),
         cmocka_unit_test(a_singular_transform_stops),
+        cmocka_unit_test(forms_have_rates),
+        cmocka_unit_test(forms_are_inverted),
+        cmocka_unit_test(half_a_form_is_canonical),
+        cmocka_unit_test(centres_are_guided),
+        cmocka_unit_test(vortices_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -266,13 +266,14 @@ static void the_printed_rectangle_rule_loses_its_root(void **unused)
     }
 }
 
-/* Held to their claims by tests/unit/claims.c, to a second solver by that or by tests/shell/systems.sh, or to other
-   schemes by variational.c. */
+/* Held to their claims by tests/unit/claims.c, to a second solver by that, by lagrangian.c or by
+   tests/shell/systems.sh, or to other schemes by variational.c. */
 static bool is_without_reference(const char *name)
 {
     const char *const list[] = {"radau3",
                                 "radau5",
                                 "boris2",
+                                "degenerate-midpoint2",
                                 "saba2",
                                 "saba3",
                                 "saba4",

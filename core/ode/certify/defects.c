@@ -141,9 +141,65 @@ static double areas_defect(const struct derivative *derivative, double area)
     return defect;
 }
 
+/* Omega_ij = d theta_j/d q_i - d theta_i/d q_j */
+static void find_omega(const struct gm_problem *problem, const double *q, double *omega)
+{
+    const size_t n = problem->n;
+    double weights[GM_SUBJECT_TANGENTS + 1] = {0}, values[GM_SUBJECT_TANGENTS + 1],
+                                         slopes[(GM_SUBJECT_TANGENTS + 1) * GM_SUBJECT_TANGENTS],
+                                         curvature[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
+    gm_ode_of(problem)->degenerate->functions(problem, q, weights, values, slopes, curvature);
+    for (size_t i = 0; i < n * n; i++) {
+        omega[i] = slopes[i % n * n + i / n] - slopes[i];
+    }
+}
+
+/* The largest entry of T A T' - B, T the derivative or its transpose. */
+static double congruence_defect(const struct derivative *derivative, bool transposed, const double *a,
+                                const double *b)
+{
+    const size_t n = derivative->subject->problem.n;
+    double defect = 0;
+    for (size_t row = 0; row < n; row++) {
+        for (size_t column = 0; column < n; column++) {
+            double carried = 0;
+            for (size_t i = 0; i < n * n; i++) {
+                const size_t k = i / n, l = i % n;
+                carried += (transposed ? derivative->at[k][row] : derivative->at[row][k]) * a[i] *
+                           (transposed ? derivative->at[l][column] : derivative->at[column][l]);
+            }
+            defect = fmax(defect, fabs(carried - b[row * n + column]));
+        }
+    }
+    return defect;
+}
+
+/* Finds a matrix at the start of the step and at its end. Returns false if the step fails. */
+static bool find_at_ends(const struct derivative *derivative,
+                         void (*find)(const struct gm_problem *problem, const double *y, double *matrix),
+                         double *before, double *after)
+{
+    const struct gm_subject *subject = derivative->subject;
+    double start[MOST], end[MOST];
+    gm_subject_start(subject, start);
+    if (!gm_subject_advance(subject, derivative->dt, 1, start, end)) {
+        return false;
+    }
+    find(&subject->problem, start, before);
+    find(&subject->problem, end, after);
+    return true;
+}
+
 static double form_defect(const struct derivative *derivative)
 {
-    return areas_defect(derivative, 1);
+    double before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
+        after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
+    if (!gm_ode_of(&derivative->subject->problem)->degenerate) {
+        return areas_defect(derivative, 1);
+    }
+    return find_at_ends(derivative, find_omega, before, after)
+               ? congruence_defect(derivative, true, after, before)
+               : NAN;
 }
 
 static double conformal_form_defect(const struct derivative *derivative)
@@ -153,27 +209,11 @@ static double conformal_form_defect(const struct derivative *derivative)
 
 static double bracket_defect(const struct derivative *derivative)
 {
-    const struct gm_subject *subject = derivative->subject;
-    const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
-    const size_t n = subject->problem.n;
-    double start[MOST], end[MOST], defect = 0, before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
-                                   after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
-    gm_subject_start(subject, start);
-    if (!gm_subject_advance(subject, derivative->dt, 1, start, end)) {
-        return NAN;
-    }
-    poisson->bracket(&subject->problem, start, before);
-    poisson->bracket(&subject->problem, end, after);
-    for (size_t a = 0; a < n; a++) {
-        for (size_t b = 0; b < n; b++) {
-            double carried = 0;
-            for (size_t i = 0; i < n * n; i++) {
-                carried += derivative->at[a][i / n] * before[i] * derivative->at[b][i % n];
-            }
-            defect = fmax(defect, fabs(carried - after[a * n + b]));
-        }
-    }
-    return defect;
+    double before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
+        after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
+    return find_at_ends(derivative, gm_ode_of(&derivative->subject->problem)->poisson->bracket, before, after)
+               ? congruence_defect(derivative, false, before, after)
+               : NAN;
 }
 
 static double determinant_defect(const struct derivative *derivative)

@@ -48,7 +48,7 @@ static unsigned facets(const struct gm_problem *problem)
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
            (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->parts ? GM_NEEDS_PARTS : 0) |
-           (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) |
+           (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) | (ode->degenerate ? GM_NEEDS_DEGENERATE : 0) |
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
 
@@ -73,6 +73,9 @@ static const struct gm_facet_words words[] = {
      "a bracket, and an energy that splits into pieces whose flows are exact: of components that commute, and in whose "
      "flow the others are linear",
      "Poisson systems whose energy splits into pieces with exact flows"},
+    {GM_NEEDS_DEGENERATE,
+     "a Lagrangian that is linear in the velocities, L = theta(q) . q' - H(q), of at most 64 coordinates and without t",
+     "Lagrangian systems linear in the velocities"},
     {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
     {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
     {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",
@@ -299,7 +302,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     const size_t n = subject->problem.n;
     const bool hamiltonian = ode->hamiltonian && !ode->hamiltonian->partial && n % 2 == 0,
                even = hamiltonian && is_even(subject), poisson = ode->poisson != NULL,
-               damped = gm_subject_friction(subject) != 0,
+               form = hamiltonian || ode->degenerate, damped = gm_subject_friction(subject) != 0,
                held = gm_action_constraints(&subject->problem) > 0,
                differentiable = !subject->scheme->family->adaptive && n <= GM_SUBJECT_TANGENTS,
                on_a_grid = subject->problem.line.points > 0;
@@ -317,7 +320,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         {GM_SYMMETRIC, true, NULL},
         {GM_REVERSIBLE, even,
          hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy},
-        {GM_SYMPLECTIC, hamiltonian && differentiable, hamiltonian ? no_derivative : no_energy},
+        {GM_SYMPLECTIC, form && differentiable, form ? no_derivative : no_energy},
         {GM_CONFORMAL, damped && differentiable, damped ? no_derivative : "the system has no friction -c p"},
         {GM_POISSON_MAP, poisson && differentiable, poisson ? no_derivative : no_bracket},
         {GM_KEEPS_VOLUME, ((ode->volume && subject->volume && n == 3) || ode->magnetic) && differentiable,
@@ -446,6 +449,11 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         subject.scale = fmax(subject.scale, fabs(system->start[c]));
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
+    const struct gm_degenerate *degenerate = gm_ode_of(system->problem)->degenerate;
+    if (degenerate && !(degenerate->half_gauge && (scheme->needs & GM_NEEDS_DEGENERATE))) {
+        /* of other schemes the claim is about canonical coordinates, and of this one about half of theta */
+        gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
+    }
     measure(certificate, &subject);
     follow_all(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */

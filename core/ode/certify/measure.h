@@ -57,7 +57,8 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
 /* Returns the defect of a claim; NaN if a step fails, or if a defect beyond the tolerance does not exceed the
    error of its measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
    (core/linear/differences.h).
-       GM_SYMPLECTIC         |M' J M - J|, under constraints for tangents of their manifold only
+       GM_SYMPLECTIC         |M' J M - J|, under constraints for tangents of their manifold only; of a degenerate
+                             Lagrangian |M' Omega(y1) M - Omega(y0)|
        GM_CONFORMAL          |M' J M - exp(-c dt) J|
        GM_POISSON_MAP        |M B(y0) M' - B(y1)|
        GM_KEEPS_VOLUME       |det M - 1|, of three components

@@ -115,6 +115,7 @@ static const struct row {
      .start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
      .kept = {KEPT(ring_sum), KEPT(ring_square)}},
     {.file = "charged-particle", .dt = 0.3, .only = GM_NEEDS_MAGNETIC, .start = {0.3, -1, 0.5, 0.2}},
+    {.file = "lotka-volterra-L", .dt = 0.3, .only = GM_NEEDS_DEGENERATE, .start = {1.2, 1.7}},
     {.file = "fpu", .dt = 0.3, .only = GM_NEEDS_FAST_LINEAR, .start = FPU_START},
     /* (h Omega)^2 = 0.09, at which two copies of phase space are stable with the binding given here */
     {.file = "fpu", .dt = 0.06, .only = GM_NEEDS_HAMILTONIAN, .start = FPU_START},

@@ -24,6 +24,7 @@ enum gm_user_formula {
     GM_USER_ACTION,
     GM_USER_ACTION_SLOPES,
     GM_USER_CONSTRAINTS,
+    GM_USER_ONE_FORM,
     GM_USER_FORMULAS
 };
 
@@ -46,6 +47,7 @@ struct gm_user_data {
     struct gm_action action;
     struct gm_monitor monitor;
     struct gm_poisson poisson;
+    struct gm_degenerate degenerate;
     struct gm_late_tape tapes[GM_USER_FORMULAS];
     struct gm_late_tape *rates;  /* one by one, where each component alone has an exact flow; else NULL */
     struct gm_late_tape *pieces; /* of the energy of a bracket: rates and slopes of each */

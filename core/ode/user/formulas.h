@@ -20,12 +20,12 @@ struct gm_user_rates {
     double value;
 };
 
-/* The constraints g(q) = 0 of a system and their exact derivatives. */
-struct gm_user_constraints {
-    size_t half, count;      /* coordinates; constraints, 0: none */
-    gm_node_id *nodes;       /* g, the slopes, and the slopes of these */
-    struct gm_sparse slopes; /* dg[row] / dq */
-    struct gm_sparse second; /* the slopes' derivatives over q: row is an entry of slopes */
+/* Functions g(q) of coordinates, and their exact derivatives. */
+struct gm_user_functions {
+    size_t coordinates, count; /* count: functions, 0: none */
+    gm_node_id *nodes;         /* g, the slopes, and the slopes of these */
+    struct gm_sparse slopes;   /* dg[row] / dq */
+    struct gm_sparse second;   /* the slopes' derivatives over q: row is an entry of slopes */
 };
 
 /* A Lagrangian as functions of q, v (stored instead of the momenta) and t. */
@@ -58,7 +58,9 @@ struct gm_user_model {
     size_t rate_count;
     bool has_jacobian;                    /* false if the matrix would be too large */
     struct gm_user_lagrangian lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
-    struct gm_user_constraints constraints;
+    struct gm_user_functions constraints; /* g(q) = 0 */
+    struct gm_user_functions
+        one_form;                /* theta, n functions, and H; none if the system is timed, or too large */
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket bracket;
     const char *names; /* the components' names, in the format of struct gm_ode */

@@ -122,28 +122,49 @@ static void open_rates(struct gm_arena *arena, const struct opening *opening,
     }
 }
 
-static void open_constraints(struct gm_arena *arena, const struct opening *opening)
+/* Derives functions of the first coordinates, whose nodes these are. */
+static void open_functions(struct gm_arena *arena, struct gm_user_system *system,
+                           struct gm_user_functions *functions, gm_node_id *nodes)
 {
-    struct gm_user_system *system = opening->system;
-    struct gm_user_constraints *constraints = &opening->model->constraints;
-    const size_t variables = system->variable_count, half = constraints->half = system->n / 2;
-    gm_node_id *nodes = gm_arena_take(arena, system->item_count + 1, sizeof *nodes);
+    const size_t variables = system->variable_count, count = functions->count;
     bool *coordinates = gm_arena_take(arena, variables, sizeof *coordinates);
-    memset(coordinates, true, half * sizeof *coordinates);
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            nodes[constraints->count++] = system->items[i].nodes[0];
-        }
-    }
-    const size_t count = constraints->count;
-    struct gm_sparse *slopes = &constraints->slopes, *second = &constraints->second;
+    memset(coordinates, true, functions->coordinates * sizeof *coordinates);
+    struct gm_sparse *slopes = &functions->slopes, *second = &functions->second;
     gm_sparse_keep(arena, slopes,
                    gm_sparse_jacobian(&system->graph, nodes, count, coordinates, variables, slopes));
     nodes = gm_sparse_nodes(arena, nodes, count, slopes);
     gm_sparse_keep(
         arena, second,
         gm_sparse_jacobian(&system->graph, nodes + count, slopes->count, coordinates, variables, second));
-    constraints->nodes = gm_sparse_nodes(arena, nodes, count + slopes->count, second);
+    functions->nodes = gm_sparse_nodes(arena, nodes, count + slopes->count, second);
+}
+
+static void open_constraints(struct gm_arena *arena, const struct opening *opening)
+{
+    struct gm_user_system *system = opening->system;
+    struct gm_user_functions *constraints = &opening->model->constraints;
+    gm_node_id *nodes = gm_arena_take(arena, system->item_count + 1, sizeof *nodes);
+    constraints->coordinates = system->n / 2;
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            nodes[constraints->count++] = system->items[i].nodes[0];
+        }
+    }
+    open_functions(arena, system, constraints, nodes);
+}
+
+static void open_one_form(struct gm_arena *arena, const struct opening *opening)
+{
+    struct gm_user_system *system = opening->system;
+    struct gm_user_functions *one_form = &opening->model->one_form;
+    const size_t n = system->n;
+    if (system->theta && !system->timed && opening->model->has_jacobian) {
+        gm_node_id *nodes = gm_arena_take(arena, n + 1, sizeof *nodes);
+        memcpy(nodes, system->theta, n * sizeof *nodes);
+        nodes[n] = system->energy;
+        *one_form = (struct gm_user_functions){.coordinates = n, .count = n + 1};
+        open_functions(arena, system, one_form, nodes);
+    }
 }
 
 static void open_model(struct gm_arena *arena, void *data)
@@ -159,6 +180,7 @@ static void open_model(struct gm_arena *arena, void *data)
     opening->marked = gm_arena_take(arena, system->variable_count, sizeof *opening->marked);
     memset(opening->marked, true, n * sizeof *opening->marked);
     open_constraints(arena, opening);
+    open_one_form(arena, opening);
     if (system->kind == GM_LAGRANGIAN) {
         gm_user_lagrangian_derive(arena, &model->lagrangian, system);
     }

@@ -61,37 +61,54 @@ static void potential(const struct gm_problem *problem, double q, double values[
     gm_user_values(problem, GM_KERNEL_POTENTIAL, &q, values, 1);
 }
 
-/* gm_action.constrain; NaN when out of memory, which is noted */
-static void constrain(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
-                      double *slopes, double *curvature)
+/* The constraints, or theta and H: their values, slopes, and the second derivatives of their sum with these weights.
+   NaN when out of memory, which is noted. */
+static void evaluate(const struct gm_problem *problem, enum gm_user_formula formula, const double *q,
+                     const double *weights, double *const results[3])
 {
     enum { FEW = 2048 }; /* more values are allocated */
     const struct gm_user_data *self = gm_user_data_of(problem);
-    const struct gm_user_constraints *constraints = &self->model->constraints;
-    const size_t half = constraints->half, count = self->tapes[GM_USER_CONSTRAINTS].count;
+    const struct gm_user_functions *functions =
+        formula == GM_USER_ONE_FORM ? &self->model->one_form : &self->model->constraints;
+    double *g = results[0], *slopes = results[1], *curvature = results[2];
+    const size_t n = functions->coordinates, count = self->tapes[formula].count;
     double few[FEW], *values = count <= FEW ? few : malloc(count * sizeof *values);
-    memset(slopes, 0, constraints->count * half * sizeof *slopes);
-    memset(curvature, 0, half * half * sizeof *curvature);
-    for (size_t k = 0; !values && k < constraints->count; k++) {
+    memset(slopes, 0, functions->count * n * sizeof *slopes);
+    memset(curvature, 0, n * n * sizeof *curvature);
+    for (size_t k = 0; !values && k < functions->count; k++) {
         g[k] = NAN;
     }
     if (!values) {
         return;
     }
-    gm_user_values(problem, GM_USER_CONSTRAINTS, q, values, 1);
-    memcpy(g, values, constraints->count * sizeof *g);
-    const double *next = values + constraints->count;
-    for (size_t i = 0; i < constraints->slopes.count; i++) {
-        slopes[constraints->slopes.entries[i].row * half + constraints->slopes.entries[i].column] = *next++;
+    gm_user_values(problem, formula, q, values, 1);
+    memcpy(g, values, functions->count * sizeof *g);
+    const double *next = values + functions->count;
+    for (size_t i = 0; i < functions->slopes.count; i++) {
+        slopes[functions->slopes.entries[i].row * n + functions->slopes.entries[i].column] = *next++;
     }
-    for (size_t i = 0; i < constraints->second.count; i++) {
-        const struct gm_sparse_entry *entry = &constraints->second.entries[i],
-                                     *slope = &constraints->slopes.entries[entry->row];
-        curvature[slope->column * half + entry->column] += multipliers[slope->row] * *next++;
+    for (size_t i = 0; i < functions->second.count; i++) {
+        const struct gm_sparse_entry *entry = &functions->second.entries[i],
+                                     *slope = &functions->slopes.entries[entry->row];
+        curvature[slope->column * n + entry->column] += weights[slope->row] * *next++;
     }
     if (values != few) {
         free(values);
     }
+}
+
+/* gm_action.constrain */
+static void constrain(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
+                      double *slopes, double *curvature)
+{
+    evaluate(problem, GM_USER_CONSTRAINTS, q, multipliers, (double *[]){g, slopes, curvature});
+}
+
+/* gm_degenerate.functions */
+static void one_form(const struct gm_problem *problem, const double *q, const double *weights, double *values,
+                     double *slopes, double *curvature)
+{
+    evaluate(problem, GM_USER_ONE_FORM, q, weights, (double *[]){values, slopes, curvature});
 }
 
 /* x_piece := x_piece + h rate(the others) */
@@ -299,7 +316,7 @@ static void open_magnetic(struct gm_user_data *self)
 static void open_action(struct gm_user_data *self)
 {
     const struct gm_user_model *model = self->model;
-    const struct gm_user_constraints *constraints = &model->constraints;
+    const struct gm_user_functions *constraints = &model->constraints;
     const enum gm_system_kind kind = model->system->kind;
     if (!gm_user_model_has_action(model) || (kind == GM_CANONICAL && !holds(self, GM_FACT_NYSTROM))) {
         return;
@@ -312,11 +329,25 @@ static void open_action(struct gm_user_data *self)
     if (constraints->count > 0) {
         gm_user_compile(self, &self->tapes[GM_USER_CONSTRAINTS], constraints->nodes,
                         constraints->count + constraints->slopes.count + constraints->second.count,
-                        constraints->half);
+                        constraints->coordinates);
     }
     if (holds(self, GM_FACT_CONFORMAL)) {
         find_constants(self, model->findings[GM_FACT_CONFORMAL].nodes, 1, &self->friction);
         self->action.friction = &self->friction;
+    }
+}
+
+/* Opens the facet of Lagrangians linear in the velocities. */
+static void open_degenerate(struct gm_user_data *self)
+{
+    const struct gm_user_functions *functions = &self->model->one_form;
+    if (functions->count > 0) {
+        self->degenerate =
+            (struct gm_degenerate){.half_gauge = holds(self, GM_FACT_HALF_GAUGE), .functions = one_form};
+        self->ode.degenerate = &self->degenerate;
+        gm_user_compile(self, &self->tapes[GM_USER_ONE_FORM], functions->nodes,
+                        functions->count + functions->slopes.count + functions->second.count,
+                        functions->coordinates);
     }
 }
 
@@ -472,6 +503,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     open_gravity(self);
     open_magnetic(self);
     open_action(self);
+    open_degenerate(self);
     open_monitor(self);
     gm_user_bracket_open(problem);
     if (system->tangents == 0 && !constrained) {

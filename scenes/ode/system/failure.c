@@ -28,26 +28,36 @@ static void tell_node(const struct gm_user_system *system, gm_node_id node, cons
     free(inside);
 }
 
+/* The values of all nodes in a member's state; the caller frees. NULL when out of memory. */
+static double *values_at(const struct gm_system_scene *system_scene, const struct gm_view *view,
+                         const double *state, size_t member)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const struct gm_formula *graph = &system->graph;
+    const size_t m = view->problem->m;
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = variables ? malloc((graph->count + (size_t)1) * sizeof *values) : NULL;
+    for (size_t i = 0; variables && i < system->variable_count; i++) {
+        const bool is_time = i == system->n && !system->timed;
+        variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
+    }
+    if (values) {
+        gm_system_put_parameters(view->parameters, variables);
+        gm_formula_evaluate(graph, graph->count, variables, values);
+    }
+    free(variables);
+    return values;
+}
+
 /* Writes the first part of H, else of a rate, that is not finite in a member's state; false without one. */
 static bool tell_part(const struct gm_system_scene *system_scene, const struct gm_view *view,
                       const double *state, size_t member, char *text, size_t size)
 {
     const struct gm_user_system *system = &system_scene->system;
     const struct gm_formula *graph = &system->graph;
-    const struct gm_system_lane *lane = view->parameters;
-    const size_t m = view->problem->m;
-    double *variables = malloc(system->variable_count * sizeof *variables);
-    double *values = malloc((graph->count + (size_t)1) * sizeof *values);
+    double *values = values_at(system_scene, view, state, member);
     bool told = false;
-    for (size_t i = 0; variables && i < system->variable_count; i++) {
-        const bool is_time = i == system->n && !system->timed;
-        variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
-    }
-    if (variables && values) {
-        gm_system_put_parameters(lane, variables);
-        gm_formula_evaluate(graph, graph->count, variables, values);
-    }
-    for (size_t i = 0; variables && values && i <= system->n && !told; i++) {
+    for (size_t i = 0; values && i <= system->n && !told; i++) {
         const gm_node_id root = i > 0                      ? system->rates[i - 1]
                                 : system->kind != GM_RATES ? system->energy
                                                            : GM_NO_NODE;
@@ -62,9 +72,34 @@ static bool tell_part(const struct gm_system_scene *system_scene, const struct g
         }
         free(parts);
     }
-    free(variables);
     free(values);
     return told;
+}
+
+/* Writes where the Pfaffian of theta's form changes its sign on the line of the next two steps of the first member. */
+static void tell_form(const struct gm_view *view, const double *slope, double *ahead, char *text, size_t size)
+{
+    enum { PARTS = 16, STEPS = 2 };
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const struct gm_user_system *system = &system_scene->system;
+    const size_t total = view->problem->n * view->problem->m;
+    double before = 0;
+    for (int part = 0; part <= STEPS * PARTS && !text[0]; part++) {
+        for (size_t i = 0; i < total; i++) {
+            ahead[i] = view->state[i] + view->dt * part / PARTS * slope[i];
+        }
+        double *values = values_at(system_scene, view, ahead, 0);
+        const double here = values ? values[system->pfaffian] : NAN;
+        free(values);
+        if (here == 0 || here * before < 0) {
+            size_t length = (size_t)snprintf(text, size, "the form of theta loses its rank near ");
+            for (size_t i = 0; i < system->n && length + 60 < size; i++) {
+                length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.4g", i > 0 ? ", " : "",
+                                           system->variables[i].name, ahead[i * view->problem->m]);
+            }
+        }
+        before = here;
+    }
 }
 
 /* Writes a state of a Lagrangian system in which a member stops: its momenta have no velocities, or no
@@ -212,6 +247,9 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     }
     if (!told && (view->scheme->needs & GM_NEEDS_MONITOR)) {
         tell_monitor(view, slope, ahead, text, size);
+    }
+    if (!text[0] && gm_system_scene_of(view)->system.theta) {
+        tell_form(view, slope, ahead, text, size);
     }
     if (!text[0] && (view->scheme->needs & GM_NEEDS_ATTRACTION)) {
         tell_rest(view, slope, ahead, text, size);
