@@ -14,6 +14,7 @@ struct gm_kind; /* core/kind.h */
 struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
+struct gm_events; /* core/events.h */
 
 /* The task of a family's loop: `steps` steps of length dt for every member, reading `y` and writing `out`
    (both n * m, component-major). They do not overlap, but loops over kernels also make steps in place, and
@@ -78,6 +79,7 @@ struct gm_problem {
     size_t passive;               /* 0, or m is 1 */
     const void *parameters;       /* constants of the problem; they outlive every run */
     const struct gm_exact *exact; /* NULL: not known */
+    const struct gm_events *events; /* NULL: none (core/events.h) */
     double bound;                 /* a component above this is a blow-up; 0: the default of core/run.c */
     struct gm_grid1 line;         /* the grid of a field */
 };

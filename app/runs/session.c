@@ -181,7 +181,7 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
 
 static bool goes(const struct gm_lane *lane)
 {
-    return lane->run->status == GM_OK && !gm_lane_stopped(lane);
+    return lane->run->status == GM_OK && !lane->run->stopped;
 }
 
 double gm_session_direction(const struct gm_session *session)
