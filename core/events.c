@@ -93,6 +93,11 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
     return sum;
 }
 
+double gm_events_last(const struct gm_problem *problem, const double *memory)
+{
+    return memory[2 * problem->events->count + problem->events->quantities + LAST];
+}
+
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
 {
     return memory[2 * problem->events->count + quantity];

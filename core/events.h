@@ -59,6 +59,8 @@ void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, c
                    double *memory, double *scratch);
 /* The number of times that an event happened; all of them for event `count`. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
+/* The time of the last event, after one has happened. */
+double gm_events_last(const struct gm_problem *problem, const double *memory);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
 /* Returns true if some g of `looks` looks has another sign than its event waits with, or waits with none. */

@@ -146,7 +146,8 @@ struct gm_family {
 /* Returns true if a part of a step follows from the state alone; and if a step made again is the same to the bit. */
 static inline bool gm_scheme_makes_parts(const struct gm_scheme *scheme)
 {
-    return !scheme->family->adaptive && !scheme->family->memory;
+    const struct gm_family *family = scheme->family;
+    return !family->adaptive && !family->memory && !family->by_tolerance && !family->not_resumable;
 }
 static inline bool gm_scheme_repeats_steps(const struct gm_scheme *scheme)
 {

@@ -447,6 +447,8 @@ static void check_surface(struct gm_user_system *system, const struct gm_system_
 /* The state of a Lagrangian is coordinates and momenta. */
 static void check_event(struct gm_user_system *system, const struct gm_system_item *item)
 {
+    gm_system_refuse_if(system, is_of_components(system, item->nodes[0], 0), item->place,
+                        "what an event waits for never changes: it holds no component, and no t");
     const bool *velocities =
         marks_of(system, system->velocities, system->kind == GM_LAGRANGIAN ? system->n / 2 : 0);
     for (size_t i = 0; i < item->count; i++) {
