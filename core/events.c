@@ -123,7 +123,7 @@ void gm_events_clear(const struct gm_problem *problem, double *memory)
     history_of(problem, memory)[LAST] = -DBL_MAX;
 }
 
-/* The sign with which an event waits in this state: that of g, or on g = 0 the one that the motion leads to. */
+/* The sign of g with which an event waits in this state; on g = 0 the motion decides, by where it leads. */
 static double sign_ahead(const struct gm_problem *problem, size_t event, bool backwards, const double *look,
                          double value, double nothing)
 {
@@ -165,7 +165,7 @@ bool gm_events_are_near(const struct gm_problem *problem, const double *memory, 
 
 /* ---- the events of a step ---- */
 
-/* What is left of a step, from `from` at t on for a time `rest`. */
+/* The remaining part of a step, from `from` at t on for a time `rest`. */
 struct rest {
     struct gm_event_step *step;
     double t, rest;
@@ -209,29 +209,31 @@ static double value_after(void *data, double s)
    cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
-    const double sign = signs_of(rest->step->memory)[event], least = 0x1p-51;
-    double low = 0, at_low = rest->at_begin[event];
+    const double sign = signs_of(rest->step->memory)[event], at_begin = rest->at_begin[event],
+                 least = 0x1p-51;
+    double low = 0, at_low = at_begin;
     rest->event = event;
     /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
     for (double s = 0.5; sign_of(at_low) != sign && s > least && !isnan(at_low); s /= 2) {
         at_low = value_after(rest, low = s);
     }
-    return isnan(at_low)             ? NAN
-           : sign_of(at_low) != sign ? 0
-                                     : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
+    if (!isnan(at_low) && sign_of(at_low) != sign) {
+        low = 0;
+        at_low = at_begin;
+    }
+    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
 }
 
-/* Finds where events happen first. Events whose conditions do not hold where they would happen before that wait with
-   the other sign. Returns the fraction; infinity: nothing happens; NaN: it cannot be found. */
+/* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
+   infinity: nothing happens, and all wait with the signs at the end; NaN: it cannot be found. */
 static double first_place(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
     double *signs = signs_of(step->memory), first = INFINITY;
     const double least = 1e-6;
-    double *passed = rest->values + events->count; /* places without an event */
     for (size_t i = 0; i < events->count; i++) {
-        rest->places[i] = passed[i] = NAN;
+        rest->places[i] = NAN;
         if ((events->ends[i] && !step->ends) || !crosses(signs[i], rest->at_end[i])) {
             continue;
         }
@@ -239,15 +241,17 @@ static double first_place(struct rest *rest)
         if (isnan(place) || !make_part(rest, place, false)) {
             return NAN;
         }
+        if (step->first && rest->t == step->t && place < least) {
+            signs[i] = -signs[i];
+            continue;
+        }
         look_at(step->problem, rest->t + place * rest->rest, rest->to, rest->look);
-        const bool starts = step->first && rest->t == step->t && place < least,
-                   happens = !starts && (place == 0 || events->happens(step->problem, i, rest->look));
-        *(happens ? &rest->places[i] : &passed[i]) = place;
+        const bool happens = place == 0 || events->happens(step->problem, i, rest->look);
+        rest->places[i] = place;
         first = happens ? fmin(first, place) : first;
     }
-    for (size_t i = 0; i < events->count; i++) {
-        signs[i] = passed[i] <= first ? sign_of(rest->at_end[i]) : signs[i];
-        signs[i] = signs[i] == 0 && first > 1 ? sign_of(rest->at_end[i]) : signs[i];
+    for (size_t i = 0; i < events->count && first > 1; i++) {
+        signs[i] = signs[i] == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
     }
     return first;
 }
@@ -326,12 +330,16 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
     }
     step->reached = t;
     if (place == 0) {
-        return GM_EVENTS_MANY; /* back on g = 0 before a number can tell */
+        return GM_EVENTS_MANY; /* back on g = 0 within the accuracy of the finder */
     }
     for (size_t i = 0; i < events->count; i++) {
+        if (!(rest->places[i] <= place + together)) {
+            continue;
+        }
         look_at(step->problem, t, rest->to, rest->look);
-        if (!(rest->places[i] <= place + together) ||
-            (made > 0 && !events->happens(step->problem, i, rest->look))) {
+        if (rest->places[i] < place - together || !events->happens(step->problem, i, rest->look)) {
+            double *sign = &signs_of(step->memory)[i]; /* passed without its conditions */
+            *sign = rest->places[i] <= place ? -*sign : *sign;
             continue;
         }
         if (events->ends[i]) {

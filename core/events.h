@@ -41,7 +41,7 @@ struct gm_event_part {
     size_t event;
     const double *begin, *before, *after; /* looks: where the part begins, before and after the change */
 };
-/* Is told of every event, in order. */
+/* Sees every event, in order. */
 struct gm_event_witness {
     void (*see)(void *data, const struct gm_event_part *part);
     void *data;

@@ -128,7 +128,7 @@ static size_t snapshot_numbers(const struct gm_run *run)
     return gm_run_snapshot_size(run) / sizeof(double) + 1;
 }
 
-/* Takes the scratch of events: that of a step, then looks and values of steps together, then a snapshot. */
+/* Takes the scratch of events: for a step, for looks and values of steps together, and for a snapshot. */
 static bool open_events(struct gm_run *run)
 {
     const struct gm_problem *problem = run->problem;

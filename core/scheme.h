@@ -143,7 +143,7 @@ struct gm_family {
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
-/* Returns true if a part of a step follows from the state alone; and if a step made again is the same to the bit. */
+/* Returns true if a part of a step follows from the state alone; and if a repeated step is the same to the bit. */
 static inline bool gm_scheme_makes_parts(const struct gm_scheme *scheme)
 {
     const struct gm_family *family = scheme->family;

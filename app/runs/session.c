@@ -719,6 +719,11 @@ bool gm_session_turn(struct gm_session *session, char *message)
             return gm_refuse(message, "%s has step size control, and its steps only go forwards.",
                              scheme->title);
         }
+        const struct gm_events *events = session->lanes[i]->problem.events;
+        if (events && events->changes) {
+            return gm_refuse(message,
+                             "An event is not undone by running back: go to an earlier moment instead.");
+        }
     }
     settle(session);
     for (size_t i = 0; i < session->count; i++) {

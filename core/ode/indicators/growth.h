@@ -42,7 +42,7 @@ bool gm_growth_follow_volume(struct gm_growth *growth);
    before. */
 bool gm_growth_to(struct gm_growth *growth, int64_t steps);
 
-/* Returns true if the orbit only touches the surface of an event, where it has no derivative. */
+/* Returns true if the orbit only touches the surface of an event: it has no derivative there. */
 bool gm_growth_grazes(const struct gm_growth *growth);
 
 /* Returns the run along the orbit. */

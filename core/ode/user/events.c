@@ -67,7 +67,7 @@ static void field_at(const struct gm_problem *problem, const double *look, doubl
     rates[gm_user_data_of(problem)->model->system->n] = 1;
 }
 
-/* What S is made of. */
+/* The parts of S. */
 struct saltation {
     double *slopes, *before, *after,
         *v;                        /* slopes of an event; f-, f+ and an error, of components and the time */
