@@ -7,13 +7,40 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/grid1.h"
 #include "core/status.h"
 
 struct gm_kind; /* core/kind.h */
 struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
+struct gm_events; /* core/events.h */
+
+/* A grid of equal spacing; node i lies at first + i dx. A periodic field obeys u(x + points dx) = u(x) +
+   jump. Between walls, nodes 0 and points / 2, the field is one half of a ring, whose other half is its
+   mirror image: node points - i is at the place of node i. */
+struct gm_grid1 {
+    size_t points;
+    double dx, first, jump;
+    bool walls;
+};
+
+/* The number of nodes between walls, both included, or around the ring. */
+static inline size_t gm_grid1_seen(const struct gm_grid1 *grid)
+{
+    return grid->walls ? grid->points / 2 + 1 : grid->points;
+}
+
+/* Node i; nodes on both sides of x = 0 are exact opposites where the grid is symmetric. */
+static inline double gm_grid1_node(const struct gm_grid1 *grid, size_t i)
+{
+    return ((double)(i < gm_grid1_seen(grid) ? i : grid->points - i) + grid->first / grid->dx) * grid->dx;
+}
+
+/* The part of dx that belongs to a visible node: a half at walls. */
+static inline double gm_grid1_share(const struct gm_grid1 *grid, size_t i)
+{
+    return grid->walls && (i == 0 || 2 * i == grid->points) ? 0.5 : 1;
+}
 
 /* The task of a family's loop: `steps` steps of length dt for every member, reading `y` and writing `out`
    (both n * m, component-major). They do not overlap, but loops over kernels also make steps in place, and
@@ -75,11 +102,12 @@ struct gm_problem {
     const struct gm_kind *kind;
     const void *facets; /* facets, laid out by the kind; they outlive every run */
     size_t n, m;
-    size_t passive;               /* 0, or m is 1 */
-    const void *parameters;       /* constants of the problem; they outlive every run */
-    const struct gm_exact *exact; /* NULL: not known */
-    double bound;                 /* a component above this is a blow-up; 0: the default of core/run.c */
-    struct gm_grid1 line;         /* the grid of a field */
+    size_t passive;                 /* 0, or m is 1 */
+    const void *parameters;         /* constants of the problem; they outlive every run */
+    const struct gm_exact *exact;   /* NULL: not known */
+    const struct gm_events *events; /* NULL: none (core/events.h) */
+    double bound;                   /* a component above this is a blow-up; 0: the default of core/run.c */
+    struct gm_grid1 line;           /* the grid of a field */
 };
 
 #endif

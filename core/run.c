@@ -40,7 +40,8 @@ static size_t memory_count(const struct gm_run *run)
 
 static size_t half_size(const struct gm_run *run)
 {
-    const size_t count = state_count(run) + carry_count(run) + memory_count(run);
+    const size_t count =
+        state_count(run) + carry_count(run) + memory_count(run) + gm_events_memory(run->problem);
     return (count * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
@@ -57,6 +58,24 @@ const double *gm_run_state(const struct gm_run *run)
 const double *gm_run_memory(const struct gm_run *run)
 {
     return run->scheme->family->memory ? half(run, run->current) + state_count(run) + carry_count(run) : NULL;
+}
+
+static double *events_of(const struct gm_run *run, int which)
+{
+    return half(run, which) + state_count(run) + carry_count(run) + memory_count(run);
+}
+
+const double *gm_run_events(const struct gm_run *run)
+{
+    return run->problem->events ? events_of(run, run->current) : NULL;
+}
+
+static void arm(struct gm_run *run)
+{
+    if (run->problem->events) {
+        gm_events_arm(run->problem, run->t, run->dt < 0, gm_run_state(run), events_of(run, run->current),
+                      run->event_scratch);
+    }
 }
 
 /* The task that reads half `from` and writes half `to`. */
@@ -101,6 +120,26 @@ static void start(struct gm_run *run)
     }
 }
 
+enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
+
+/* The numbers that hold a snapshot. */
+static size_t snapshot_numbers(const struct gm_run *run)
+{
+    return gm_run_snapshot_size(run) / sizeof(double) + 1;
+}
+
+/* Takes the scratch of events: for a step, for looks and values of steps together, and for a snapshot. */
+static bool open_events(struct gm_run *run)
+{
+    const struct gm_problem *problem = run->problem;
+    const size_t step = gm_events_scratch(problem, state_count(run) + carry_count(run)),
+                 looks = TOGETHER * (problem->n + 1 + problem->events->count);
+    const size_t size = (step + looks + snapshot_numbers(run)) * sizeof(double);
+    run->looks_back = true;
+    run->event_scratch = aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+    return run->event_scratch != NULL;
+}
+
 struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
                            const struct gm_settings *settings, double t0, double dt, const double *y0)
 {
@@ -128,6 +167,10 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     *run = head;
     memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
+    if (problem->events && open_events(run)) {
+        gm_events_clear(problem, events_of(run, 0));
+        arm(run);
+    }
     start(run);
     if (gm_memory_refusals() != refusals) {
         gm_run_close(run);
@@ -140,6 +183,9 @@ void gm_run_close(struct gm_run *run)
 {
     if (run && run->workspace) {
         run->scheme->family->workspace_close(run->workspace);
+    }
+    if (run) {
+        free(run->event_scratch);
     }
     free(run);
 }
@@ -166,7 +212,18 @@ static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
            steps <= FARTHEST_BEHIND - run->behind;
 }
 
-static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
+static void count_progress(struct gm_run *run, const struct gm_progress *progress)
+{
+    run->evaluations += progress->evaluations;
+    run->solves += progress->solves;
+    run->factor_solves += progress->factor_solves;
+    run->own_steps += progress->own_steps;
+    run->rejected += progress->rejected;
+    run->iterations += progress->iterations;
+}
+
+/* Makes steps, whatever happens in them. */
+static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
@@ -183,7 +240,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         task = task_again(run);
         loop(&task);
         run->behind = 0;
-        return advance(run, steps, until);
+        return make_steps(run, steps, until);
     }
     if (gm_memory_refusals() != refusals) {
         /* a result without enough memory, in factors or in a solution, is not valid */
@@ -203,17 +260,136 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
             return run->status;
         }
     }
-    run->evaluations += progress.evaluations;
-    run->solves += progress.solves;
-    run->factor_solves += progress.factor_solves;
-    run->own_steps += progress.own_steps;
-    run->rejected += progress.rejected;
-    run->iterations += progress.iterations;
+    count_progress(run, &progress);
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
     run->n += progress.done;
     run->steps += progress.done;
     run->t = family->adaptive ? progress.t : run->t0 + (double)run->n * run->dt;
+    return run->status;
+}
+
+/* ---- events ---- */
+
+/* Makes a part of a step; gm_event_step.part */
+static bool make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+{
+    struct gm_run *run = data;
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_task task = task_of(run, run->current, run->current, 1);
+    task.y = from;
+    task.out = to;
+    task.carry = task.carry ? from + state_count(run) : NULL;
+    task.carry_out = task.carry ? to + state_count(run) : NULL;
+    task.t = task.t0 = t;
+    task.n = 0;
+    task.dt = dt;
+    task.steps_before = run->steps - 1;
+    if (run->workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(run->workspace);
+    }
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
+    if (counted) {
+        count_progress(run, &progress);
+    }
+    return progress.done == 1 && gm_memory_refusals() == refusals;
+}
+
+/* Looks for events in the step that was just made. */
+static void pass_events(struct gm_run *run)
+{
+    const size_t carried = carry_count(run);
+    const int before = 1 - run->current;
+    double *memory = events_of(run, run->current);
+    memcpy(memory, events_of(run, before), gm_events_memory(run->problem) * sizeof *memory);
+    struct gm_event_step step = {.problem = run->problem,
+                                 .t = run->t0 + (double)(run->n - 1) * run->dt,
+                                 .dt = run->dt,
+                                 .first = run->steps == 1,
+                                 .ends = run->ends,
+                                 .size = state_count(run) + carried,
+                                 .state = state_count(run),
+                                 .begin = half(run, before),
+                                 .end = half(run, run->current),
+                                 .memory = memory,
+                                 .scratch = run->event_scratch,
+                                 .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
+                                 .data = run,
+                                 .witness = run->witness};
+    if (!step.part) {
+        step.t = run->t - run->dt;
+    }
+    run->behind = 0; /* a step in parts is not repeated */
+    const enum gm_event_outcome outcome = gm_events_pass(&step);
+    if (outcome == GM_EVENTS_FAILED) {
+        run->status = GM_NO_CONVERGENCE;
+        run->current = before;
+        run->n--;
+        run->steps--;
+        run->t = run->t0 + (double)run->n * run->dt;
+    } else if (outcome == GM_EVENTS_NONE) {
+        run->behind = 1;
+    }
+    if (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY) {
+        run->stopped = outcome == GM_EVENTS_ENDED;
+        run->status = outcome == GM_EVENTS_MANY ? GM_EVENTS_ACCUMULATE : run->status;
+        run->t = run->t0 = step.part ? step.reached : run->t;
+        run->n = step.part ? 0 : run->n;
+    }
+}
+
+/* Makes TOGETHER steps if no event happens in them: to look for events after each takes longer than a short step.
+   Returns false, with all as before, if one may. */
+static bool make_together(struct gm_run *run)
+{
+    const struct gm_problem *problem = run->problem;
+    const size_t n = problem->n, m = problem->m;
+    double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
+           *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
+    const double *memory = events_of(run, run->current);
+    const size_t bytes = gm_events_memory(problem) * sizeof *memory;
+    bool good = true;
+    gm_run_save(run, snapshot);
+    for (size_t k = 0; good && k < TOGETHER; k++) {
+        good = make_steps(run, 1, INFINITY) == GM_OK;
+        const double *state = gm_run_state(run);
+        for (size_t c = 0; good && c < n; c++) {
+            looks[c * TOGETHER + k] = state[c * m + m - 1];
+        }
+        looks[n * TOGETHER + k] = run->t;
+        memcpy(events_of(run, run->current), events_of(run, 1 - run->current), good ? bytes : 0);
+    }
+    if (good) {
+        problem->events->values(problem, looks, TOGETHER, values);
+        good = !gm_events_are_near(problem, events_of(run, run->current), run->ends, values, TOGETHER);
+    }
+    if (!good) {
+        gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
+    }
+    return good;
+}
+
+static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
+{
+    const struct gm_events *events = run->problem->events;
+    if (!events || !(events->changes || (run->ends && events->ends_runs))) {
+        return make_steps(run, steps, until);
+    }
+    for (int64_t alone = 0; steps > 0 && run->status == GM_OK && !run->stopped;) {
+        const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
+        if (together && make_together(run)) {
+            steps -= TOGETHER;
+            continue;
+        }
+        alone = together ? TOGETHER : alone;
+        const int64_t before = run->steps;
+        if (make_steps(run, 1, until) != GM_OK || run->steps == before) {
+            break;
+        }
+        pass_events(run);
+        steps--;
+        alone -= alone > 0;
+    }
     return run->status;
 }
 
@@ -224,9 +400,7 @@ enum gm_status gm_run_advance(struct gm_run *run, int64_t steps)
 
 bool gm_run_repeats(const struct gm_run *run)
 {
-    const struct gm_family *family = run->scheme->family;
-    return run->status == GM_OK && run->n > 0 && run->behind == 1 && !family->adaptive && !family->memory &&
-           !family->workspace_reset;
+    return run->status == GM_OK && run->n > 0 && run->behind == 1 && gm_scheme_repeats_steps(run->scheme);
 }
 
 const double *gm_run_before(const struct gm_run *run)
@@ -250,18 +424,6 @@ bool gm_run_part(const struct gm_run *run, double fraction, double *y)
     task.carry_out = task.carry ? y + state_count(run) : NULL;
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
     return progress.done == 1 && gm_memory_refusals() == refusals;
-}
-
-void gm_run_shorten(struct gm_run *run, double fraction)
-{
-    const struct gm_task task = part_of(run, fraction);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
-    run->evaluations += progress.evaluations;
-    run->solves += progress.solves;
-    run->factor_solves += progress.factor_solves;
-    run->iterations += progress.iterations;
-    run->t = run->t0 = task.t + task.dt;
-    run->n = run->behind = 0;
 }
 
 int64_t gm_run_steps_at(const struct gm_run *run, double t)
@@ -290,7 +452,7 @@ static double reached_from(double until)
 bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
 {
     const bool there = run->scheme->family->adaptive && run->t >= reached_from(until);
-    return run->status == GM_OK && run->steps < steps && !there;
+    return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
@@ -319,6 +481,8 @@ void gm_run_set_state(struct gm_run *run, const double *y, const double *memory)
     memcpy(half(run, run->current), y, state_count(run) * sizeof(double));
     memset(half(run, run->current) + state_count(run), 0, carry_count(run) * sizeof(double));
     gm_run_set_step(run, run->dt);
+    run->stopped = 0;
+    arm(run);
     if (memory) {
         memcpy(half(run, run->current) + state_count(run) + carry_count(run), memory,
                memory_count(run) * sizeof(double));
@@ -332,6 +496,11 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
     if (next) {
         next->limit = run->limit;
         next->looks_back = run->looks_back;
+        next->ends = run->ends;
+        next->witness = run->witness;
+        next->stopped = run->stopped;
+        memcpy(events_of(next, 0), events_of(run, run->current),
+               gm_events_memory(run->problem) * sizeof(double));
         next->steps = run->steps;
         next->evaluations = run->evaluations;
         next->solves = run->solves;
@@ -374,7 +543,7 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
            then->n >= 0 && then->steps >= then->n && then->steps <= INT64_MAX / 4 &&
            strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
            then->unsolved.obstacle <= GM_STILL_LARGE && isfinite(then->t0) && isfinite(then->dt) &&
-           then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
+           then->dt != 0 && isfinite(then->t) && then->limit > 0 && (then->stopped & ~1) == 0 &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 
@@ -390,13 +559,16 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.scheme = run->scheme;
     then.workspace = run->workspace;
     then.looks_back = run->looks_back;
+    then.ends = run->ends;
+    then.witness = run->witness;
+    then.event_scratch = run->event_scratch;
     then.behind = run->behind = 0;
     /* into the half that is not in use, until it is known to be a state; tracers may be lost */
     const size_t active = (run->problem->n - 2 * run->problem->passive) * run->problem->m;
     double *state = half(run, 1 - run->current), *carry = state + state_count(run);
     memcpy(state, (const char *)snapshot + head_size(), run->half_size);
     if (!is_finite(state, active) || (carry_count(run) > 0 && !is_finite(carry, active)) ||
-        !is_finite(carry + carry_count(run), memory_count(run))) {
+        !is_finite(carry + carry_count(run), memory_count(run) + gm_events_memory(run->problem))) {
         return false;
     }
     then.current = 1 - run->current;

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_RUN_H
 #define GM_CORE_RUN_H
 
+#include "core/events.h"
 #include "core/scheme.h"
 
 /* A run: one problem advanced by one scheme. Everything that influences the next step lies in the
@@ -20,11 +21,15 @@ struct gm_run {
     unsigned long own_steps, rejected;             /* steps of a scheme with a tolerance */
     struct gm_unsolved unsolved;                   /* why a step was not solved */
     enum gm_status status;
+    int stopped;      /* 1: an event has ended the run */
     int current;      /* index of the block's half with the state */
     size_t half_size; /* bytes of half the block */
     void *workspace;  /* workspace of the scheme's family, not in snapshots */
     int64_t behind;   /* steps by which the other half is behind; 0: it has no state */
     bool looks_back;  /* set by callers of gm_run_before */
+    bool ends;        /* set by callers for whom events that end a run do so; others do not see them */
+    struct gm_event_witness witness; /* set by callers who follow events */
+    double *event_scratch;           /* NULL: the problem has no events; not in snapshots */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem
@@ -39,15 +44,20 @@ const double *gm_run_state(const struct gm_run *run);
 /* The scheme's own memory, as its family lays it out; NULL if it has none. Valid until the next step. */
 const double *gm_run_memory(const struct gm_run *run);
 
+/* The memory of events (core/events.h); NULL: the problem has none. Valid until the next step. */
+const double *gm_run_events(const struct gm_run *run);
+
 /* A count of the run for one member: the mean over the ensemble. */
 double gm_run_per_member(const struct gm_run *run, unsigned long count);
 
 /* Makes up to `steps` steps. After a failure the run stays at its last good step, run->status is the
-   reason, and further calls do nothing. GM_OUT_OF_MEMORY leaves the state as before the call. */
+   reason, and further calls do nothing. GM_OUT_OF_MEMORY leaves the state as before the call. Where events happen
+   the step is made in parts; one that ends the run sets run->stopped, and begins a new segment there, if the
+   scheme can make parts of steps, else after the step. */
 enum gm_status gm_run_advance(struct gm_run *run, int64_t steps);
 
 /* Returns true if the last step can be repeated with another length: gm_run_advance was last called for
-   one step, in this segment (the caller ensures that), and the scheme is neither adaptive nor has a
+   one step without events, in this segment (the caller ensures that), and the scheme is neither adaptive nor has a
    memory. An ensemble also needs run->looks_back. */
 bool gm_run_repeats(const struct gm_run *run);
 /* The state before the last step; valid as gm_run_state is. */
@@ -55,10 +65,6 @@ const double *gm_run_before(const struct gm_run *run);
 /* Writes the state after this fraction of the last step; the run does not change. y has room for 2 * n * m
    doubles (the state is the first half), aligned for 128 bytes. Returns false if the shorter step fails. */
 bool gm_run_part(const struct gm_run *run, double fraction, double *y);
-/* Replaces the last step by this fraction of it, for which gm_run_part succeeded, and begins a new
-   segment. */
-void gm_run_shorten(struct gm_run *run, double fraction);
-
 /* The number of all steps of a run at the time t, rounded; for an adaptive scheme, more than it will ever
    make. */
 int64_t gm_run_steps_at(const struct gm_run *run, double t);

@@ -143,6 +143,17 @@ struct gm_family {
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
+/* Returns true if a part of a step follows from the state alone; and if a repeated step is the same to the bit. */
+static inline bool gm_scheme_makes_parts(const struct gm_scheme *scheme)
+{
+    const struct gm_family *family = scheme->family;
+    return !family->adaptive && !family->memory && !family->by_tolerance && !family->not_resumable;
+}
+static inline bool gm_scheme_repeats_steps(const struct gm_scheme *scheme)
+{
+    return gm_scheme_makes_parts(scheme) && !scheme->family->workspace_reset;
+}
+
 /* Returns true if a scheme has this parameter, a row of gm_settings_parameters. */
 bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *row);
 

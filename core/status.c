@@ -19,6 +19,8 @@ const char *gm_status_name(enum gm_status status)
         return "out-of-memory";
     case GM_STEP_TOO_SMALL:
         return "step-too-small";
+    case GM_EVENTS_ACCUMULATE:
+        return "events-accumulate";
     }
     return "unknown";
 }

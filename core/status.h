@@ -11,6 +11,7 @@ enum gm_status {
     GM_STEP_COLLAPSE,  /* an adaptive scheme found no step */
     GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
     GM_STEP_TOO_SMALL, /* step size control led to round-off of the time, or to too many steps */
+    GM_EVENTS_ACCUMULATE, /* events follow each other in ever shorter times */
 };
 
 /* The reason why an implicit equation was not solved. */

@@ -152,8 +152,8 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     gm_meta_parameters(&row, lane);
     gm_row_put(&row, "status %s, message %s, warning %s, t %.17g", status, sentence, outcome->warning,
                run->t);
-    if (lane->scene->stop) {
-        gm_row_put(&row, "stopped %d", gm_lane_stopped(lane));
+    if (lane->problem.events && lane->problem.events->ends_runs) {
+        gm_row_put(&row, "stopped %d", run->stopped);
     }
     gm_row_put(&row, "steps %.0f, evaluations %.0f, solves %.0f", (double)run->steps,
                gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
@@ -439,7 +439,7 @@ static bool only_saves(const struct outcome *outcome)
 {
     const struct outputs *outputs = outcome->outputs;
     const struct gm_lane *lane = outcome->drive.lane;
-    return outputs->save && !outputs->csv && !outputs->tracks && !outcome->maxima && !lane->scene->stop &&
+    return outputs->save && !outputs->csv && !outputs->tracks && !outcome->maxima &&
            gm_save_takes_many(outputs->save) && gm_rows_all(&outputs->rows, lane->run);
 }
 

@@ -55,8 +55,7 @@ struct gm_lane *gm_grid_open_lane(const struct gm_grid *grid, const struct gm_sc
 bool gm_grid_goes_on(const struct gm_grid *grid, const struct gm_lane *lane, int64_t steps)
 {
     const double until = ((const struct gm_timing *)lane->parameters)->until;
-    return gm_run_goes_on(lane->run, steps, until) && !gm_lane_stopped(lane) &&
-           !gm_listener_stops(grid->listener);
+    return gm_run_goes_on(lane->run, steps, until) && !gm_listener_stops(grid->listener);
 }
 
 double gm_grid_advance(const struct gm_grid *grid, struct gm_lane *lane, int64_t steps, double most)

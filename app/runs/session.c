@@ -181,7 +181,7 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
 
 static bool goes(const struct gm_lane *lane)
 {
-    return lane->run->status == GM_OK && !gm_lane_stopped(lane);
+    return lane->run->status == GM_OK && !lane->run->stopped;
 }
 
 double gm_session_direction(const struct gm_session *session)
@@ -718,6 +718,11 @@ bool gm_session_turn(struct gm_session *session, char *message)
         if (scheme->family->adaptive || scheme->family->not_resumable) {
             return gm_refuse(message, "%s has step size control, and its steps only go forwards.",
                              scheme->title);
+        }
+        const struct gm_events *events = session->lanes[i]->problem.events;
+        if (events && events->changes) {
+            return gm_refuse(message,
+                             "An event is not undone by running back: go to an earlier moment instead.");
         }
     }
     settle(session);

@@ -59,7 +59,7 @@ static double until_of(const struct gm_drive *drive)
 
 bool gm_drive_goes_on(const struct gm_drive *drive, int64_t step)
 {
-    return gm_run_goes_on(drive->lane->run, step, until_of(drive)) && !gm_lane_stopped(drive->lane);
+    return gm_run_goes_on(drive->lane->run, step, until_of(drive));
 }
 
 int64_t gm_drive_end(const struct gm_drive *drive, int64_t step)
@@ -272,6 +272,10 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     case GM_STEP_COLLAPSE:
         snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
         return;
+    case GM_EVENTS_ACCUMULATE:
+        snprintf(text, size, "events follow each other in ever shorter times, and accumulate at t = %.10g",
+                 run->t);
+        return;
     case GM_STEP_TOO_SMALL:
         snprintf(
             text, size,
@@ -293,7 +297,7 @@ static double overshoot(const struct gm_drive *drive)
     const struct gm_run *run = drive->lane->run;
     const double until = drive->request->lanes[drive->index].until; /* NAN: not requested */
     const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
-    return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
+    return run->status != GM_OK || there || run->stopped ? 0 : run->t - until;
 }
 
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)

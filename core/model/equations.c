@@ -547,6 +547,22 @@ static void check_surface(struct gm_user_system *system, const struct gm_system_
     }
 }
 
+/* The state of a Lagrangian is coordinates and momenta. */
+static void check_event(struct gm_user_system *system, const struct gm_system_item *item)
+{
+    gm_system_refuse_if(system, is_of_components(system, item->nodes[0], 0), item->place,
+                        "what an event waits for never changes: it holds no component, and no t");
+    const bool *velocities =
+        marks_of(system, system->velocities, system->kind == GM_LAGRANGIAN ? system->n / 2 : 0);
+    for (size_t i = 0; i < item->count; i++) {
+        const bool holds =
+            gm_formula_holds(&system->graph, item->nodes[i], velocities, system->variable_count);
+        gm_system_refuse_if(system, holds, item->place,
+                            "an event is of coordinates and momenta, not of velocities");
+    }
+    gm_system_need_graph(system);
+}
+
 static void check_item(struct gm_user_system *system, struct gm_system_item *item, bool forced)
 {
     struct broken broken = {NULL, GM_NO_NODE};
@@ -563,9 +579,12 @@ static void check_item(struct gm_user_system *system, struct gm_system_item *ite
         check_surface(system, item);
         break;
     case GM_WORD_SECTION:
-        gm_system_refuse_if(system, !item->periodic && is_of_components(system, item->nodes[0], 0),
-                            item->place,
-                            "what a section waits for never changes: it holds no component, and no t");
+        gm_system_refuse_if(
+            system, !item->periodic && !item->at_event && is_of_components(system, item->nodes[0], 0),
+            item->place, "what a section waits for never changes: it holds no component, and no t");
+        break;
+    case GM_WORD_EVENT:
+        check_event(system, item);
         break;
     case GM_WORD_CASIMIR:
         item->check = check_casimir(system, item->nodes[0]);
@@ -941,12 +960,14 @@ static void check_values_of_items(struct gm_user_system *system, const double *v
     }
     for (size_t i = 0; i < system->item_count; i++) {
         item = &system->items[i];
-        const bool stops = item->word == GM_WORD_STOP;
+        const bool stops = item->word == GM_WORD_STOP || item->word == GM_WORD_EVENT;
         gm_system_refuse_if(system,
                             (stops || item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR) &&
                                 !isfinite(values[item->nodes[0]]),
                             item->place, "%.60s is not finite at the start",
-                            stops ? "what ends the run" : item->name);
+                            item->word == GM_WORD_EVENT ? "the function of the event"
+                            : stops                     ? "what ends the run"
+                                                        : item->name);
     }
 }
 

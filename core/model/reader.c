@@ -324,7 +324,87 @@ static void read_optional(struct gm_reading *reading, const struct gm_read_line 
                         "a statement was expected: figure: NAME; scheme=rk4; what it shows");
 }
 
-/* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
+/* Adds g - h of g = h, where an event happens. */
+static void add_surface(struct gm_reading *reading, struct gm_system_item *item, struct gm_span surface)
+{
+    const size_t equals = gm_span_until(reading->text, surface, "=");
+    gm_system_refuse_if(reading->system, equals == surface.end, surface.begin,
+                        "an event needs an =: event: q = 0; p = -p");
+    const gm_node_id left = gm_reading_formula(reading, gm_reading_between(reading, surface.begin, equals)),
+                     right =
+                         gm_reading_formula(reading, gm_reading_between(reading, equals + 1, surface.end));
+    struct gm_formula *graph = &reading->system->graph;
+    gm_item_add(
+        reading, item,
+        gm_is_constant(graph, right, 0) ? left : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, left, right));
+}
+
+/* Sets the value of a component after an event. */
+static void replace(struct gm_reading *reading, struct gm_entry *entry, const struct gm_target *target,
+                    gm_node_id node, void *data)
+{
+    const struct gm_user_system *system = reading->system;
+    struct gm_system_item *item = data;
+    gm_system_refuse_if(
+        system, entry->role == GM_ENTRY_PARAMETER, target->name.begin,
+        "%.60s is a parameter, which no event changes: a component with rate: %.60s = 0 is a memory",
+        entry->name, entry->name);
+    gm_system_refuse_if(
+        system, entry->role != GM_ENTRY_COMPONENT, target->name.begin, "an event changes %s, not %.60s",
+        system->kind <= GM_LAGRANGIAN ? "coordinates and momenta" : "components", entry->name);
+    gm_system_refuse_if(system, gm_system_is_tangent(system, entry->number), target->name.begin,
+                        "%.60s is of a tangent, whose change follows from the event", entry->name);
+    item->nodes[1 + entry->number] = node;
+}
+
+/* event: [name;] g = h, conditions; x = F, y = G   or   ...; stop */
+static void read_event(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    struct gm_user_system *system = reading->system;
+    struct gm_span rest = line->value, piece = take_piece(reading, &rest), name = nameless, surface;
+    const char *const text = reading->text;
+    const struct gm_read_line *held = gm_reading_line(reading, GM_WORD_CONSTRAINT);
+    gm_system_refuse_if(system, held, line->place,
+                        "an event does not go together with a line \"constraint\"");
+    if (gm_name_length(text + piece.begin, piece.end - piece.begin) == piece.end - piece.begin &&
+        gm_span_until(text, rest, ";") < rest.end) {
+        name = piece;
+        piece = take_piece(reading, &rest);
+    }
+    struct gm_system_item *item = add_item(reading, line, name);
+    for (size_t i = 0; i + 1 < system->item_count && item->name[0]; i++) {
+        gm_system_refuse_if(
+            system, system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, item->name) == 0,
+            name.begin, "the event %.60s is given twice", item->name);
+    }
+    gm_span_take(text, &piece, ",", &surface);
+    add_surface(reading, item, surface);
+    rest = gm_span_trimmed(text, rest);
+    gm_system_refuse_if(system, rest.begin == rest.end, surface.end,
+                        "what happens is missing: event: q = 0; p = -p, or event: q = 0; stop");
+    item->ends = gm_span_is(text, rest, "stop");
+    for (size_t i = 0; i < system->n && !item->ends; i++) {
+        gm_item_add(reading, item, gm_formula_variable(&system->graph, i));
+    }
+    struct gm_span change;
+    while (!item->ends && gm_span_take(text, &rest, ",", &change)) {
+        const struct gm_target target = gm_reading_assignment(reading, change);
+        gm_reading_elements(reading, &target, replace, item);
+    }
+    while (gm_span_take(text, &piece, ",", &surface)) {
+        gm_item_add(reading, item, gm_reading_condition(reading, surface));
+    }
+}
+
+/* stop: g, the event g = 0 that ends the run */
+static void read_stop(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, nameless);
+    item->ends = true;
+    add_formula(reading, item, line->value);
+}
+
+/* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x   or   section: at EVENT; x, p_x */
 static void read_section(struct gm_reading *reading, const struct gm_read_line *line)
 {
     const char *text = reading->text;
@@ -332,17 +412,23 @@ static void read_section(struct gm_reading *reading, const struct gm_read_line *
     struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     item->periodic = where.end - where.begin > 6 && memcmp(text + where.begin, "every ", 6) == 0;
     where.begin += item->periodic ? 6 : 0;
+    item->at_event = where.end - where.begin > 3 && memcmp(text + where.begin, "at ", 3) == 0;
     gm_span_take(text, &where, ",", &condition);
-    if (!item->periodic) {
+    if (item->at_event) {
+        condition.begin += 3;
+        item->name = gm_reading_text(reading, gm_span_trimmed(text, condition));
+    } else if (!item->periodic) {
         const size_t equals = gm_span_until(text, condition, "=");
         gm_system_refuse_if(
             reading->system,
             equals == condition.end ||
                 !gm_span_is(text, gm_reading_between(reading, equals + 1, condition.end), "0"),
-            condition.begin, "a section is where something is 0, x = 0, or every T");
+            condition.begin, "a section is where something is 0, x = 0, or every T, or at EVENT");
         condition.end = equals;
     }
-    add_formula(reading, item, condition);
+    gm_item_add(reading, item,
+                item->at_event ? gm_formula_constant(&reading->system->graph, 0)
+                               : gm_reading_formula(reading, condition));
     const double period = item->periodic ? gm_reading_number(reading, condition) : 1;
     gm_system_refuse_if(reading->system, !(period > 0), condition.begin,
                         "the time between two looks is %g, and has to be above 0", period);
@@ -413,6 +499,19 @@ static void read_surface(struct gm_reading *reading, const struct gm_read_line *
     while (item->count < 3) {
         gm_item_add(reading, item, item->nodes[0]);
     }
+}
+
+/* A section may be at an event that has this name. */
+static void check_section(const struct gm_user_system *system)
+{
+    const struct gm_system_item *section = gm_system_item_of(system, GM_WORD_SECTION, 0);
+    bool known = !section || !section->at_event;
+    for (size_t i = 0; i < system->item_count && !known; i++) {
+        known = system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, section->name) == 0;
+    }
+    gm_system_refuse_if(system, !known, section ? section->place : 0,
+                        "there is no event %.60s: event: %.60s; q = 0; p = -p", known ? "" : section->name,
+                        known ? "" : section->name);
 }
 
 /* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
@@ -1002,6 +1101,7 @@ void gm_reading_read(struct gm_reading *reading)
     }
     if (system->kind != GM_ROOM) {
         check_space(reading);
+        check_section(system);
         (gm_system_is_form(system) ? complete_forms : complete)(reading);
     }
     name_parts(reading);

@@ -135,11 +135,14 @@ struct gm_system_item {
     bool periodic;          /* a section at equal times: nodes[0] is the period */
     bool in_section;        /* a level in the section */
     bool alone;             /* a section that is the default picture */
+    bool at_event;          /* a section at the event `name` */
+    bool ends;              /* an event that ends the run */
     enum gm_identity check; /* invariants, Casimirs and symmetries only */
 };
 /* nodes, by word. boundary of forms: the formula, and the let that it is given for, if it is one; `name` is the part of
    the boundary, `variable` the form. section: the function that becomes 0, two functions to show, a function that must be
-   positive. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
+   positive. event and stop: the function that becomes 0, then for each component its new value, unless the event ends
+   the run; then conditions. symmetry: the generator, one per coordinate or component, and last its momentum map. rod: one end
    and the other. surface: three half axes. mass: the formula. dt, until and steps: the number, in parameters.
    require, level and exact-while: first the formula. Every text: then the nodes of its braces, GM_NO_NODE for a key of the
    scene. */

@@ -4,7 +4,7 @@
 #ifndef GM_CORE_USER_LINE_H
 #define GM_CORE_USER_LINE_H
 
-#include "core/grid1.h"
+#include "core/problem.h"
 #include "core/model/system.h"
 #include "core/tape.h"
 

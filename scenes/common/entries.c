@@ -6,58 +6,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/events.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
 
-/* ---- the zero of a value along a step that is repeated with other lengths: T. R. Chandrupatla, Adv. Eng. Software 28
-   (1997) 145, inverse quadratic interpolation if it is safe, else bisection ---- */
-
-/* A fraction of the step, and its value. */
-struct place {
-    double s, value;
-};
-
+/* A step that is repeated with other lengths. */
 struct step {
     struct gm_view view; /* view of the last place evaluated */
     double (*value)(const struct gm_view *view);
     double begin, h;
     double *storage; /* storage of gm_run_part */
-    bool failed;
 };
 
-static struct place place_at(struct step *step, double s)
+static double value_after(void *data, double s)
 {
-    const struct gm_run *run = step->view.run;
-    if (s > 0) {
-        step->failed |= !gm_run_part(run, s, step->storage);
-    } else {
-        memcpy(step->storage, gm_run_before(run), run->problem->n * run->problem->m * sizeof *step->storage);
-    }
+    struct step *step = data;
     step->view.t = step->begin + s * step->h;
-    const double value = step->failed ? NAN : step->value(&step->view);
-    step->failed |= isnan(value);
-    return (struct place){s, value};
-}
-
-/* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
-   before. */
-static double next_share(struct place newest, struct place other, struct place third)
-{
-    const double xi = (newest.s - other.s) / (third.s - other.s),
-                 phi = (newest.value - other.value) / (third.value - other.value);
-    if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) {
-        return 0.5;
-    }
-    return newest.value / (other.value - newest.value) * third.value / (other.value - third.value) +
-           (third.s - newest.s) / (other.s - newest.s) * newest.value / (third.value - newest.value) *
-               other.value / (third.value - other.value);
+    return gm_run_part(step->view.run, s, step->storage) ? step->value(&step->view) : NAN;
 }
 
 double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
                         double *state)
 {
-    enum { MOST = 60, ALIGNMENT = 128 };
-    const double tolerance = 2.2e-16;
+    enum { ALIGNMENT = 128 };
     const size_t size = view->problem->n * view->problem->m * sizeof *state;
     struct step step = {.view = *view, .value = value, .begin = view->t - view->dt, .h = view->dt};
     step.storage = gm_run_repeats(view->run)
@@ -66,28 +37,15 @@ double gm_crossing_find(const struct gm_view *view, double (*value)(const struct
     if (!step.storage) {
         return NAN;
     }
+    step.view.state = gm_run_before(view->run);
+    step.view.t = step.begin;
+    const double before = value(&step.view), after = value(view);
     step.view.state = step.storage;
-    struct place other = place_at(&step, 0), newest = place_at(&step, 1), third = other;
-    const bool below = newest.value < 0; /* sign at the end of the step */
-    step.failed |= (other.value < 0) == below;
-    double t = 0.5;
-    for (int i = 0; i < MOST && !step.failed && fabs(newest.s - other.s) > 2 * tolerance; i++) {
-        const struct place next = place_at(&step, newest.s + t * (other.s - newest.s));
-        if ((next.value < 0) == (newest.value < 0)) {
-            third = newest;
-        } else {
-            third = other;
-            other = newest;
-        }
-        newest = next;
-        const double least = tolerance / fabs(other.s - newest.s);
-        t = fmin(fmax(next_share(newest, other, third), least), 1 - least);
-    }
-    const struct place beyond = (newest.value < 0) == below ? newest : other;
-    place_at(&step, beyond.s);
+    double place = gm_zero_beyond(value_after, &step, 0, before, after);
+    place = isnan(value_after(&step, place)) ? NAN : place;
     memcpy(state, step.storage, size);
     free(step.storage);
-    return step.failed ? NAN : beyond.s;
+    return place;
 }
 
 /* ---- entries ---- */
@@ -143,8 +101,16 @@ static double *entry_values(const struct gm_entries *entries, size_t index)
 
 static void thin(struct gm_entries *entries)
 {
-    size_t kept = 0;
-    for (size_t i = 0; i < entries->count; i += 2, kept++) {
+    const size_t least = entries->count / 4;
+    size_t kept = 0, jumps = 0;
+    for (size_t i = 0; i < entries->count; i++) {
+        const bool jumped = i > 0 && entries->times[i] == entries->times[i - 1],
+                   jumps_next = i + 1 < entries->count && entries->times[i] == entries->times[i + 1];
+        /* both sides of a jump stay, unless there are too many */
+        jumps += jumped || jumps_next;
+        if (i % 2 != 0 && (!(jumped || jumps_next) || jumps > least)) {
+            continue;
+        }
         entries->times[kept] = entries->times[i];
         entries->steps[kept] = entries->steps[i];
         memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
@@ -221,6 +187,22 @@ static void find_crossing(const struct gm_track *track, const struct gm_view *vi
     }
 }
 
+/* Makes an entry of a section, unless thinning leaves it out. */
+static void add_crossing(struct gm_entries *entries, const struct gm_track *track,
+                         const struct gm_view *there)
+{
+    if (entries->count == track->bound) {
+        thin(entries);
+        entries->skipped = 0;
+    }
+    if (entries->skipped > 0) {
+        entries->skipped--;
+        return;
+    }
+    entries->skipped = entries->every - 1;
+    add_entry(entries, track, there);
+}
+
 /* Makes an entry for every section crossed in the step that ended in `view`. */
 static void record_crossings(struct gm_entries *entries, const struct gm_track *track,
                              const struct gm_view *view, const struct gm_behind *behind)
@@ -252,19 +234,9 @@ static void record_crossings(struct gm_entries *entries, const struct gm_track *
             }
             find_crossing(track, view, behind, before, after, &there);
         }
-        if (track->admits && !track->admits(&there)) {
-            continue;
+        if (!track->admits || track->admits(&there)) {
+            add_crossing(entries, track, &there);
         }
-        if (entries->count == track->bound) {
-            thin(entries);
-            entries->skipped = 0;
-        }
-        if (entries->skipped > 0) {
-            entries->skipped--;
-            continue;
-        }
-        entries->skipped = entries->every - 1;
-        add_entry(entries, track, &there);
     }
 }
 
@@ -288,6 +260,17 @@ static bool is_due(const struct gm_entries *entries, const struct gm_track *trac
                         : view->t != last;
 }
 
+static void make_room(struct gm_entries *entries, const struct gm_track *track)
+{
+    if (entries->count == track->bound) {
+        if (track->recent) {
+            forget(entries);
+        } else {
+            thin(entries);
+        }
+    }
+}
+
 void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                        const struct gm_behind *behind)
 {
@@ -303,14 +286,29 @@ void gm_entries_record(struct gm_entries *entries, const struct gm_track *track,
     if (!is_due(entries, track, view)) {
         return;
     }
-    if (entries->count == track->bound) {
-        if (track->recent) {
-            forget(entries);
-        } else {
-            thin(entries);
+    make_room(entries, track);
+    add_entry(entries, track, view);
+}
+
+void gm_entries_event(struct gm_entries *entries, const struct gm_track *track, size_t event,
+                      const struct gm_view *before, const struct gm_view *after,
+                      const struct gm_behind *behind)
+{
+    if (track->section && track->at_event && track->at_event(after, event)) {
+        entries->kept = entries->count;
+        if (!track->admits || track->admits(after)) {
+            add_crossing(entries, track, after);
+        }
+    } else if (track->section) {
+        gm_entries_record(entries, track, before, behind);
+        entries->before[0] = track->section(after);
+    } else if (track->jumps) {
+        entries->kept = entries->count;
+        for (int k = 0; k < 2; k++) {
+            make_room(entries, track);
+            add_entry(entries, track, k ? after : before);
         }
     }
-    add_entry(entries, track, view);
 }
 
 void gm_behind_note(struct gm_behind *behind, const struct gm_view *view)

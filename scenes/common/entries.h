@@ -24,7 +24,7 @@ struct gm_entries { /* the record of one track */
 
 /* The state before a step: it shows that a section was crossed. */
 struct gm_behind {
-    double *state; /* active components, then room for 3 times as many; NULL: no sections, no stop */
+    double *state; /* active components, then room for 3 times as many; NULL: no sections */
     double t;
 };
 /* Takes the memory, if it has none; in a body of the arena. */
@@ -42,6 +42,10 @@ size_t gm_active_count(const struct gm_problem *problem);
 /* Makes an entry if one is due now. */
 void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                        const struct gm_behind *behind);
+/* Makes the entries of an event, which changed the state `before` to `after`. */
+void gm_entries_event(struct gm_entries *entries, const struct gm_track *track, size_t event,
+                      const struct gm_view *before, const struct gm_view *after,
+                      const struct gm_behind *behind);
 /* Copies the current state to `behind`, after all tracks. */
 void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
 

@@ -34,7 +34,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .worked = lane->worked,
         .initials = lane->initials,
         .cancelled = lane->cancelled,
-        .side = lane->side,
+        .booked = gm_run_events(lane->run),
     };
 }
 
@@ -73,6 +73,7 @@ static void look_at_start(struct gm_lane *lane)
     before.state = lane->start;
     before.t = lane->t0;
     before.memory = begun ? gm_run_memory(begun) : NULL;
+    before.booked = NULL;
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         const struct gm_observable *observable = before.observable = &lane->scene->observables[i];
         const double terms = observable->terms ? observable->terms(&before) : 0;
@@ -212,117 +213,16 @@ static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
     }
 }
 
-static int side_of(double value)
-{
-    return (value > 0) - (value < 0);
-}
-
-bool gm_lane_stopped(const struct gm_lane *lane)
-{
-    const struct gm_view view = gm_lane_view(lane);
-    return gm_view_stopped(&view);
-}
-
-/* Returns true if the lane has stopped, and shortens the last step to end there. */
-static bool land(struct gm_lane *lane)
-{
-    const struct gm_view view = gm_lane_view(lane);
-    const double least = 1e-6; /* fraction of the first step: a start on the surface, up to round-off */
-    const bool stopped = gm_lane_stopped(lane);
-    if (lane->scene->stop && lane->side == 0) {
-        lane->side = side_of(lane->scene->stop(&view));
-    }
-    if (stopped && gm_behind_is_before(&lane->behind, &view)) {
-        double *there = lane->behind.state + 3 * gm_active_count(&lane->problem);
-        const double share = gm_crossing_find(&view, lane->scene->stop, there);
-        if (share < least && lane->run->steps == 1) {
-            lane->side = -lane->side;
-            return false;
-        }
-        if (!isnan(share)) {
-            gm_run_shorten(lane->run, share);
-        }
-    }
-    return stopped;
-}
-
 /* Takes the current state into tracks only, and follows angles: after every scene->follow steps that are not
-   recorded. Returns true if the lane has stopped. */
-static bool follow(struct gm_lane *lane)
+   recorded. */
+static void follow(struct gm_lane *lane)
 {
     const unsigned long refusals = gm_memory_refusals();
-    const bool stopped = land(lane);
     const struct gm_view view = gm_lane_view(lane);
     lane->followed = lane->run->steps;
     follow_angles(lane, &view);
     record_tracks(lane, &view);
     settle(lane, refusals);
-    return stopped;
-}
-
-/* Returns true if many steps may be followed at once: only the stop needs them, and they can be repeated. */
-static bool follows_together(const struct gm_lane *lane)
-{
-    const struct gm_family *family = lane->scheme->family;
-    if (!lane->scene->stops) { /* the stop is tested at every recorded step */
-        return false;
-    }
-    bool alone = lane->side != 0 && !family->adaptive && !family->memory && !family->workspace_reset;
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        alone = alone && !(lane->scene->observables[i].period > 0);
-    }
-    for (size_t i = 0; i < lane->scene->track_count; i++) {
-        alone = alone && !lane->scene->tracks[i].section;
-    }
-    return alone;
-}
-
-/* Makes `count` steps; false if the lane stops in one of them, or a step fails. `states` has room for the
-   states, and `count` times and values. */
-static bool make_together(struct gm_lane *lane, size_t count, double *states)
-{
-    struct gm_run *run = lane->run;
-    const size_t m = lane->problem.m, n = gm_active_count(&lane->problem) / m;
-    double *times = states + n * count, *values = times + count;
-    for (size_t k = 0; k < count; k++) {
-        if (gm_run_advance(run, 1) != GM_OK) {
-            return false;
-        }
-        const double *state = gm_run_state(run);
-        for (size_t c = 0; c < n; c++) {
-            states[c * count + k] = state[c * m + m - 1];
-        }
-        times[k] = run->t;
-    }
-    const struct gm_view view = gm_lane_view(lane);
-    bool stopped = false;
-    lane->scene->stops(&view, states, times, count, values);
-    for (size_t k = 0; k < count; k++) {
-        stopped = stopped || (values[k] < 0) != (lane->side < 0);
-    }
-    return !stopped;
-}
-
-/* Makes blocks of steps until a block contains the stop, whose steps are then followed one by one: to test
-   each step takes longer than a short step. */
-static void follow_together(struct gm_lane *lane, int64_t steps)
-{
-    enum { TOGETHER = 64 };
-    struct gm_run *run = lane->run;
-    const size_t n = gm_active_count(&lane->problem) / lane->problem.m;
-    double *states = malloc((n + 2) * TOGETHER * sizeof *states);
-    void *before = malloc(gm_run_snapshot_size(run));
-    bool goes_on = states && before;
-    while (goes_on && run->status == GM_OK && steps - run->steps >= TOGETHER) {
-        gm_run_save(run, before);
-        goes_on = make_together(lane, TOGETHER, states);
-        if (!goes_on) {
-            gm_run_load(run, before); /* cannot fail: a snapshot of this run */
-        }
-    }
-    free(states);
-    free(before);
-    follow(lane);
 }
 
 enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
@@ -332,18 +232,14 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     }
     /* one adaptive step may be as long as many others */
     const int64_t most = lane->scheme->family->adaptive ? 1 : lane->scene->follow;
-    bool stopped = gm_lane_stopped(lane);
     if (lane->followed > lane->run->steps) { /* the lane was set back */
         lane->followed = lane->run->steps;
     }
-    if (!stopped && follows_together(lane)) {
-        follow_together(lane, steps);
-    }
-    while (!stopped && gm_run_goes_on(lane->run, steps, until)) {
+    while (gm_run_goes_on(lane->run, steps, until)) {
         const int64_t due = lane->followed + most;
         gm_run_to(lane->run, due < steps ? due : steps, until);
-        if (lane->run->steps >= due || lane->run->status != GM_OK) {
-            stopped = follow(lane);
+        if (lane->run->steps >= due || lane->run->status != GM_OK || lane->run->stopped) {
+            follow(lane);
         }
     }
     return lane->run->status;
@@ -400,7 +296,6 @@ void gm_lane_record(struct gm_lane *lane)
 {
     double values[GM_MOST_OBSERVABLES];
     const unsigned long refusals = gm_memory_refusals();
-    land(lane);
     const struct gm_view view = gm_lane_view(lane);
     lane->followed = lane->run->steps;
     follow_angles(lane, &view);
@@ -630,6 +525,24 @@ static void open_records(struct gm_arena *arena, struct gm_lane *lane)
     }
 }
 
+/* Takes an event of a run that is followed into the tracks. */
+static void see_event(void *data, const struct gm_event_part *part)
+{
+    struct gm_lane *lane = data;
+    struct gm_view before = gm_lane_view(lane), after = before;
+    if (lane->unfollowed) {
+        return;
+    }
+    before.state = part->before;
+    after.state = part->after;
+    before.t = after.t = part->before[lane->problem.n];
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        gm_entries_event(&lane->entries[i], &lane->scene->tracks[i], part->event, &before, &after,
+                         &lane->behind);
+    }
+    gm_behind_note(&lane->behind, &after);
+}
+
 static void open_lane(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -656,12 +569,8 @@ static void open_lane(struct gm_arena *arena, void *data)
     gm_arena_need(arena, lane->run);
     open_records(arena, lane);
     look_at_start(lane);
-    if (scene->stop) {
-        lane->run->looks_back = true;
-        const struct gm_view view = gm_lane_view(lane);
-        lane->side = side_of(scene->stop(&view));
-        gm_behind_open(arena, &lane->behind, &lane->problem);
-    }
+    lane->run->ends = true;
+    lane->run->witness = (struct gm_event_witness){see_event, lane};
     gm_lane_record(lane);
 }
 

@@ -43,10 +43,9 @@ struct gm_lane {
     double *angles;               /* last value of each observable, to unwrap angles */
     struct gm_worked *worked;     /* [GM_WORKED] */
     double *initials, *cancelled; /* per observable, as in struct gm_view; one block of memory */
-    struct gm_behind behind;      /* state for sections and for the stop */
-    int side;         /* sign of the scene's stop at the start; 0: on it, until the first step leaves it */
-    int64_t followed; /* number of steps when it was last followed */
-    bool unfollowed;  /* intermediate steps are not needed: gm_lane_to makes all steps at once */
+    struct gm_behind behind;      /* state for sections */
+    int64_t followed;             /* number of steps when it was last followed */
+    bool unfollowed;              /* intermediate steps are not needed: gm_lane_to makes all steps at once */
 };
 
 /* Opens a lane at its start, with the start recorded. Returns NULL with a sentence (GM_MESSAGE bytes) if
@@ -90,10 +89,7 @@ void gm_lane_record(struct gm_lane *lane);
 /* Draws the picture of lanes of one scene: the one of observables on request, or the usual one. */
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
-/* True if the run has ended at its scene's stop (gm_scene.stop). */
-bool gm_lane_stopped(const struct gm_lane *lane);
-
-/* Advances to an end (gm_run_to), or to the stop, and follows the steps as the scene requires; records
+/* Advances to an end (gm_run_to), or to an event that ends the run, and follows the steps as the scene requires; records
    nothing. */
 enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until);
 

@@ -118,8 +118,6 @@ static void walk_lane(struct walk *walk, struct gm_lane *lane)
 {
     pass_run(walk, lane->run);
     const int64_t last = lane->run->steps;
-    pass(walk, &lane->side, sizeof lane->side);
-    walk->damaged |= lane->side < -1 || lane->side > 1;
     pass_history(walk, &lane->history, last);
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         pass_entries(walk, &lane->entries[i], &lane->scene->tracks[i], last);

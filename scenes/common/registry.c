@@ -31,11 +31,6 @@ bool gm_observables_clash(const char *key, const char *other)
     return strcmp(key, other) == 0 || is_largest_of(key, other) || is_largest_of(other, key);
 }
 
-bool gm_view_stopped(const struct gm_view *view)
-{
-    return view->scene->stop && view->side != 0 && (view->scene->stop(view) < 0) != (view->side < 0);
-}
-
 double gm_observe(const struct gm_observable *observable, const struct gm_view *view)
 {
     struct gm_view asked = *view;

@@ -47,7 +47,7 @@ struct gm_view {
     struct gm_worked *worked;               /* [GM_WORKED], of the lane */
     const double *initials;                 /* [observable] with `error`: x at the start */
     const double *cancelled;                /* [observable]: its terms, or 0; or NULL */
-    int side;                               /* sign of the stop at the start, as in struct gm_lane */
+    const double *booked; /* the memory of events (core/events.h); NULL at the start, and without any */
 };
 
 /* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate, and |x -
@@ -88,6 +88,9 @@ struct gm_track {
     double (*interval)(const void *parameters);    /* interval of model time; NULL: each observed step */
     double (*section)(const struct gm_view *view); /* reads active components only */
     bool (*admits)(const struct gm_view *view);
+    /* Returns true if the section is at this event, and nowhere else; NULL: at none. */
+    bool (*at_event)(const struct gm_view *view, size_t event);
+    bool jumps; /* entries before and after each event, both at its time */
     bool again; /* uses the scheme to find the crossing, if it can repeat the step, of one member */
     bool each;  /* one section per member: these three functions read that of view->member alone */
     size_t bound;
@@ -230,13 +233,6 @@ struct gm_scene {
        sentence. */
     bool (*start_with)(const void *parameters, const struct gm_problem *problem,
                        const struct gm_scheme *scheme, double *y, char *sentence);
-    /* A function whose change of sign since the start ends the run well: just beyond its zero, if the scheme
-       can repeat its last step, shorter, else after that step. With it, `follow` is 1. NULL: no stop. */
-    double (*stop)(const struct gm_view *view);
-    /* The values of `stop`, to the same bits, for `count` states of a view's last member at these times:
-       component c of the k-th is states[c * count + k]. */
-    void (*stops)(const struct gm_view *view, const double *states, const double *times, size_t count,
-                  double *values);
     /* Writes one sentence, or "", on the step after a view, which led to a state that is not finite. NULL:
        never. */
     void (*failure)(const struct gm_view *view, char *text, size_t size);
@@ -263,8 +259,6 @@ double gm_observe(const struct gm_observable *observable, const struct gm_view *
 /* True if two observables would share a name: they are equal, or one is KEY_max, as --max names the maximum
    of the other. */
 bool gm_observables_clash(const char *key, const char *other);
-/* True if the scene's stop has changed its sign. */
-bool gm_view_stopped(const struct gm_view *view);
 /* The natural scale of an error. */
 double gm_observable_scale(const struct gm_observable *observable, const struct gm_view *view);
 

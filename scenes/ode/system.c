@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/events.h"
 #include "core/linear/eigenvalues.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
@@ -108,6 +109,9 @@ static double section(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
+    if (system_scene->at_event) {
+        return NAN;
+    }
     gm_system_values(&system_scene->where, view, view->member, values);
     if (system_scene->stroboscopic) {
         return sin(2 * M_PI * (view->t - view->t0) / values[0]);
@@ -125,6 +129,14 @@ static bool is_admitted(const struct gm_view *view)
         holds = holds && values[1 + i] > 0;
     }
     return holds;
+}
+
+/* True if the section is at this event. */
+static bool is_at_event(const struct gm_view *view, size_t event)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0);
+    return system_scene->at_event && strcmp(view->problem->events->names[event], item->name) == 0;
 }
 
 static void record_crossing(const struct gm_view *view, double *entry)
@@ -195,6 +207,10 @@ static bool open_problem(const struct gm_system_lane *lane, double *values, stru
     }
     problem->m =
         system_scene->hook ? system_scene->hook->members : (size_t)lane->members + system_scene->centre;
+    if (problem->m > 1 && problem->events && problem->events->changes) {
+        gm_user_problem_close(problem);
+        return gm_refuse(sentence, "events change the state of one motion at a time: members=1, or a sweep");
+    }
     return true;
 }
 
@@ -352,7 +368,7 @@ static size_t on_section(const struct gm_system_lane *lane, const struct gm_sigh
                          struct gm_choice *choice)
 {
     const struct gm_system_scene *system_scene = lane->owner;
-    if (sight != &system_scene->section || system_scene->stroboscopic) {
+    if (sight != &system_scene->section || system_scene->stroboscopic || system_scene->at_event) {
         return 0;
     }
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_SECTION, 0);
@@ -492,8 +508,10 @@ static void make_shows(struct gm_system_scene *system_scene)
 static void make_tracks(struct gm_system_scene *system_scene)
 {
     static const struct gm_track tracks[GM_SYSTEM_TRACKS] = {
-        [GM_TRACK_PAST] = {.key = "past", .interval = step_of, .bound = 8192, .record = record_state},
-        [GM_TRACK_TRAIL] = {.key = "trail", .bound = 2048, .recent = true, .record = record_state},
+        [GM_TRACK_PAST] =
+            {.key = "past", .interval = step_of, .bound = 8192, .jumps = true, .record = record_state},
+        [GM_TRACK_TRAIL] =
+            {.key = "trail", .bound = 2048, .recent = true, .jumps = true, .record = record_state},
         [GM_TRACK_SHAPES] = {.key = "shapes",
                              .width = shape_width,
                              .interval = shape_interval,
@@ -508,6 +526,7 @@ static void make_tracks(struct gm_system_scene *system_scene)
                               .numbers = 2,
                               .section = section,
                               .admits = is_admitted,
+                              .at_event = is_at_event,
                               .again = true,
                               .bound = CROSSINGS,
                               .record = record_crossing},
@@ -634,7 +653,6 @@ static void make(struct gm_arena *arena, void *data)
         .point = point,
         .failure = gm_system_tell_failure,
     };
-    const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
     gm_system_open_items(system_scene);
     make_timing(system_scene);
     make_shows(system_scene);
@@ -646,12 +664,6 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, &making->problem, close_made_problem);
     make_tracks(system_scene);
     system_scene->scene.parameter_count += system_scene->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
-    if (end) {
-        gm_system_open_tape(system_scene, &system_scene->stop, end->nodes, 1);
-        system_scene->scene.stop = gm_system_stop;
-        system_scene->scene.stops = gm_system_stops;
-        system_scene->scene.follow = 1;
-    }
     gm_system_make_observables(system_scene, &making->problem);
     gm_system_check_exact(system_scene, &making->problem);
     make_schemes(system_scene, &making->problem);

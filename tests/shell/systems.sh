@@ -721,6 +721,96 @@ for start in 'q = 0, p = 1' 'q = 1e-17, p = -1'; do
     "$geomint" run on.system until=20 --continue on.check >parts || fail 'gone on with'
     [ "$(grep -v seconds whole)" = "$(grep -v seconds parts)" ] || fail "gone on with, it stops elsewhere: $(cat parts)"
 done
+# an event changes the state, all at once, and the energy is measured against what it leaves; closed forms are parabolas
+printf 'parameter: r = 0.8\ncoordinates: y\nmomenta: v\nH: v^2/2 + 9.8*y\nevent: y = 0, v < 0; v = -r*v\nstart: y = 50, v = 0\ndt: 0.1\n' >ball.system
+"$geomint" run ball.system scheme=gauss4 until=10 --json --state >out || fail 'a ball'
+python3 -c '
+import json, math
+end, r, g, t, v = json.load(open("out")), 0.8, 9.8, math.sqrt(100/9.8), math.sqrt(2*9.8*50)
+n = 0
+while t + 2*r*v/g < 10:
+    v, n, t = r*v, n + 1, t + 2*r*v/g
+v, n = r*v, n + 1
+height = v*(10 - t) - g*(10 - t)**2/2
+kept = end["observables"]
+assert abs(end["state"][0] - height) < 1e-9 and abs(end["state"][1] - (v - g*(10 - t))) < 1e-9, (end, height)
+assert kept["events"] == n == 2 and kept["energy_error"] < 1e-12, kept
+assert abs(kept["event_work"] - 490*(r**4 - 1)) < 1e-9, kept
+' || fail "a ball: $(cat out)"
+"$geomint" run ball.system scheme=explicit-euler until=10 --json >out || fail 'a ball of Euler'
+python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] > 1e-2' || fail "a ball of Euler: $(cat out)"
+"$geomint" run ball.system scheme=gauss4 until=40 --json >out
+[ $? = 2 ] && value out status | grep -q events-accumulate || fail "bounces accumulate: $(cat out)"
+python3 -c 'import json, math; t = json.load(open("out"))["t"]; assert abs(t - math.sqrt(100/9.8)*(1 + 2*.8/.2)) < 1e-9, t' || fail "bounces accumulate at $(value out t)"
+"$geomint" run ball.system scheme=gauss4 until=9 --checkpoint ball.check >/dev/null || fail 'a checkpoint of a ball'
+"$geomint" run ball.system scheme=gauss4 until=10 >whole && "$geomint" run ball.system scheme=gauss4 until=10 --continue ball.check >parts || fail 'a ball goes on'
+[ "$(grep -v seconds whole)" = "$(grep -v seconds parts)" ] || fail "a ball that goes on: $(cat parts)"
+# tangents go through events: det S = r^2 whatever the potential; pieces of sines for the whole map
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2 + 2*q\nevent: q = 0, p < 0; p = -0.9*p\nstart: q = 1, p = 0.3\ntangents: 2\ndt: 0.02\nuntil: 5\n' >impact.system
+"$geomint" run impact.system scheme=gauss8 --json --state >out || fail 'an impact'
+python3 -c '
+import json
+end = json.load(open("out"))
+wanted = [0.47375955955696814, 1.9082277, 0.4458932, -0.7652112985970044, 4.0853731, 1.2331238]
+assert all(abs(a - b) < 1e-7 for a, b in zip(end["state"], wanted)), end
+assert abs(end["observables"]["area_tangent"] - 0.9**6) < 1e-10 and end["observables"]["events"] == 3, end
+' || fail "an impact: $(cat out)"
+sed '/^tangents/d' impact.system >plain.system
+"$geomint" run plain.system scheme=gauss8 --measure log_volume,lyapunov --json >out || fail 'the volume of an impact'
+python3 -c 'import json, math; assert abs(json.load(open("out"))["observables"]["log_volume"] - 6*math.log(.9)) < 1e-9' || fail "the volume of an impact: $(cat out)"
+printf 'rate: s = 1, y = 0\nevent: wrap; s = 1; s = 0, y = mod(3*y, 1)\nsection: at wrap; t, y\nstart: s = 0, y = 0.3141592\ndt: 0.1\nuntil: 99.95\n' >map.system
+"$geomint" run map.system scheme=rk4 --measure events_wrap,log_volume,lyapunov --json --save-tracks map.npz >out || fail 'a map as events'
+python3 - <<'END' || fail "a map as events: $(cat out)"
+import array, json, math, zipfile
+end = json.load(open("out"))["observables"]
+assert end["events_wrap"] == 99 and abs(end["log_volume"] - 99*math.log(3)) < 1e-9, end
+assert abs(end["lyapunov"] - 0.99*math.log(3)) < 2e-3, end # but for the part of the first vector that does not grow
+with zipfile.ZipFile("map.npz") as tracks:
+    times = array.array("d", tracks.read("section_t.npy")[128:])
+assert len(times) == 99 and all(abs(t - k - 1) < 1e-12 for k, t in enumerate(times)), times
+END
+"$geomint" certify rk4 --on plain.system >out || fail "certify across events: $(cat out)"
+grep -q 'order 4, measured [34]\.[09]' out || fail "order across events: $(cat out)"
+# without conditions a wall is reversible, and symplectic
+sed '/^tangents/d; s/, p < 0; p = -0.9\*p/; p = -p/' impact.system >wall.system
+"$geomint" certify gauss4 --on wall.system >out || fail 'certify at a wall'
+for claim in symplectic symmetric reversible; do
+    grep -q "$claim  *holds" out || fail "a wall is not $claim: $(cat out)"
+done
+# one that never happens changes no bit, nor does one whose conditions never hold
+sed '/^event/d' plain.system >calm.system
+for line in 'q = 1e9; p = 0' 'q = 0.5, p > 1e9; q = 0' 'q = 1e9; stop'; do
+    { cat calm.system; echo "event: $line"; } >never.system
+    for scheme in verlet gauss4 rk4; do
+        for file in calm never; do
+            "$geomint" run $file.system scheme=$scheme --json --state | grep -o '"state".*' >$file.state
+        done
+        cmp -s calm.state never.state || fail "$line changes what never comes to it by $scheme"
+    done
+done
+# several at one time, in the order of the file, each once; a reset that does not leave the surface is no endless loop
+printf 'rate: x = 1, y = 0\nstart: x = 0, y = 0\nevent: x = 1; y = y + 1\nevent: x = 1; y = 2*y\nevent: x = 1, y > 1.5; y = y + 10\n' >three.system
+"$geomint" run three.system scheme=rk4 dt=0.3 until=2 --json --state >out || fail 'three at once'
+grep -q '"state":\[2,12\]' out || fail "three at once: $(cat out)"
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\nevent: q = 0; q = 0\n' >same.system
+"$geomint" run same.system scheme=rk4 until=20 --json >out && grep -q '"events":6,' out || fail "nothing changes: $(cat out)"
+wrong() {
+    { sed '/^event/d' ball.system; printf '%s\n' "$1"; } >wrong.system
+    refused 1 "$2" run ./wrong.system ${3:-}
+}
+wrong 'event: y = 0; r = 1' 'r is a parameter.*rate: r = 0'
+wrong 'event: y; v = -v' 'an event needs an ='
+wrong 'event: y = 0' 'what happens'
+wrong 'event: 3 = r; v = 1' 'never changes'
+wrong 'event: y = 0, v; v = -v' 'a condition compares'
+wrong 'section: at bounce; y, v' 'there is no event bounce'
+wrong 'event: y = 0; v = -v' 'events need a scheme of one step; rk4 and gauss4 are' scheme=dopri5
+wrong 'event: y = 0; v = -v' 'events need a scheme of one step; rk4 and gauss4 are' scheme=gsl-msbdf
+wrong 'event: y = 0; v = -v' 'members=1' members=5
+printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nconstraint: x^2 + y^2 - 1\nstart: x = 1, y = 0, p_x = 0, p_y = 0\nevent: x = 0; p_x = 0\n' >held.system
+refused 1 'constraint' run ./held.system
+printf 'field: u\nrate: u = -u_x\nstart: u = sin(x)\nevent: u = 0; u = 1\n' >sea.system
+refused 1 'a field' run ./sea.system
 # a quotient that is infinite on the way to a finite rate
 # rates and brackets stand in one line or in several
 printf 'rate: x = y, y = -mu*max(x, 0)\nparameter: mu = 2\nstart: x = 1, y = 0\n' >one.system

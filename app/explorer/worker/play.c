@@ -297,6 +297,7 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_STEP_COLLAPSE] = "found no time step",
             [GM_OUT_OF_MEMORY] = "found no memory",
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
+            [GM_EVENTS_ACCUMULATE] = "has events without end",
         };
         gm_play_say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
                     sentences[latest->run->status], latest->run->t,

@@ -140,7 +140,7 @@ static void watch(const struct gm_grid *grid, struct gm_lane *lane, struct gm_mo
             gm_grid_advance(grid, lane, step, INFINITY);
         }
         /* stopped by the user, or by a shorter step, which has another H~ */
-        if (gm_lane_stopped(lane) || gm_listener_stops(grid->listener)) {
+        if (lane->run->stopped || gm_listener_stops(grid->listener)) {
             break;
         }
         look(lane, energy, y, terms);

@@ -370,7 +370,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     struct gm_lane *lane =
         gm_lane_in(grid->arena, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
-    lane->unfollowed = !lane->scene->stop;
+    lane->unfollowed = true;
     for (int percent = 0; percent < 100 && !gm_listener_stops(grid->listener); percent++) {
         char what[32];
         snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
@@ -507,12 +507,11 @@ static double error_behind(const struct gm_grid *grid, const struct gm_lane *lan
     return error;
 }
 
-/* Makes a run and returns its time, INFINITY if it was given up. A run that its scene may stop is observed
-   in any case. */
+/* Makes a run and returns its time, INFINITY if it was given up. */
 static double time_run(const struct gm_grid *grid, struct gm_lane *lane)
 {
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
-    lane->unfollowed = !lane->scene->stop;
+    lane->unfollowed = true;
     const double seconds = gm_grid_advance(grid, lane, steps, most_seconds);
     return gm_grid_goes_on(grid, lane, steps) ? INFINITY : seconds;
 }

@@ -17,7 +17,7 @@
 #include "core/schemes.h"
 
 const char gm_sweep_statuses[] =
-    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, step-too-small, out-of-memory, refused, warning";
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, step-too-small, events-accumulate, out-of-memory, refused, warning";
 
 /* Returns true if a word determines the list of runs and is not a key of a run. */
 static bool is_of_the_list(const struct gm_word *word)
@@ -309,7 +309,7 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
 /* Returns true if all chosen observables follow from the last state alone. */
 static bool is_of_the_end(const struct gm_sweep *sweep)
 {
-    bool end = !sweep->scene->stop;
+    bool end = true;
     for (size_t i = 0; i < sweep->chosen.count; i++) {
         const struct gm_observable *observable =
             gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i]);

@@ -299,6 +299,9 @@ static double decide(const struct gm_subject *subject, enum gm_claim claim, doub
         if (here.size <= tolerance) {
             return here.size;
         }
+        if (subject->problem.events) { /* a shorter step does not meet the event */
+            return here.clear ? here.size : NAN;
+        }
         if (here.clear) {
             const struct defect next = defect_at(subject, claim, dt / 4, tolerance);
             if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
@@ -329,7 +332,8 @@ static double change_of(const struct gm_kept *kept, const double *from, const do
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     double end[MOST];
-    return go_on(subject, end) ? change_of(kept, subject->start, end) : NAN;
+    const struct gm_subject between = gm_subject_between_events(subject);
+    return go_on(&between, end) ? change_of(kept, subject->start, end) : NAN;
 }
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)

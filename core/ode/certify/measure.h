@@ -35,6 +35,14 @@ size_t gm_subject_components(const struct gm_subject *subject);
 /* Writes the start of the components that a scheme maps. */
 void gm_subject_start(const struct gm_subject *subject, double *whole);
 
+/* Returns the subject without events. */
+static inline struct gm_subject gm_subject_between_events(const struct gm_subject *subject)
+{
+    struct gm_subject between = *subject;
+    between.problem.events = NULL;
+    return between;
+}
+
 /* Returns the rate c of a friction -c p; 0: no friction. */
 double gm_subject_friction(const struct gm_subject *subject);
 

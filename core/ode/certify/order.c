@@ -10,6 +10,7 @@
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
+#include "core/schemes.h"
 
 /* The error is summed over several times: at a single one it may happen to vanish. */
 enum { TIMES = 4 };
@@ -21,10 +22,28 @@ static int field_for_gsl(double t, const double y[], double f[], void *problem)
     return GSL_SUCCESS;
 }
 
+/* The same by short steps of a high order, which meet the events. */
+static bool solve_with_events(const struct gm_problem *problem, double until, double *y)
+{
+    enum { STEPS = 400 };
+    const struct gm_settings settings = {.compensated = 1};
+    struct gm_run *run =
+        gm_run_open(problem, gm_scheme_find_for("gauss8", problem), &settings, 0, until / STEPS, y);
+    const bool good = run && gm_run_advance(run, STEPS) == GM_OK;
+    if (good) {
+        memcpy(y, gm_run_state(run), problem->n * sizeof *y);
+    }
+    gm_run_close(run);
+    return good;
+}
+
 /* y := the solution at `until`, from y */
 static bool solve_by_gsl(const struct gm_problem *problem, double until, double *y)
 {
     struct gm_problem copy = *problem;
+    if (problem->events && problem->events->changes) {
+        return solve_with_events(problem, until, y);
+    }
     return gm_certify_solve(&(gsl_odeiv2_system){field_for_gsl, NULL, problem->n, &copy}, 1e-15, until, y);
 }
 

@@ -230,6 +230,11 @@ bool gm_growth_to(struct gm_growth *growth, int64_t steps)
     return !growth->failed;
 }
 
+bool gm_growth_grazes(const struct gm_growth *growth)
+{
+    return gm_tangent_grazes(growth->tangent);
+}
+
 const struct gm_run *gm_growth_run(const struct gm_growth *growth)
 {
     return growth->run;

@@ -42,6 +42,9 @@ bool gm_growth_follow_volume(struct gm_growth *growth);
    before. */
 bool gm_growth_to(struct gm_growth *growth, int64_t steps);
 
+/* Returns true if the orbit only touches the surface of an event: it has no derivative there. */
+bool gm_growth_grazes(const struct gm_growth *growth);
+
 /* Returns the run along the orbit. */
 const struct gm_run *gm_growth_run(const struct gm_growth *growth);
 

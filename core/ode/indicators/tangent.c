@@ -23,7 +23,9 @@
 struct gm_tangent {
     struct gm_arena *arena; /* owns all memory but the runs */
     struct gm_run *run;
-    struct gm_run *probe; /* a second run for differences; NULL: not needed yet */
+    struct gm_problem between; /* the problem without events */
+    struct gm_run *probe;      /* a second run for differences; NULL: not needed yet */
+    double h;                  /* the length of the step or part */
     size_t n, memory;
     size_t stages;         /* number of stages; 0: differences only */
     double *a[GM_SIDES];   /* stages * stages by rows */
@@ -39,6 +41,11 @@ struct gm_tangent {
     double *scratch;       /* scratch of Newton's method */
     double *kicked, *kick; /* n each: the last stage's state and k, if it was a kick */
     double *before, *plus, *minus, *slope, *far_slope; /* n + memory each */
+    double *v;                                         /* the vector, while a step with events is made */
+    double t;       /* where its next part begins; `before` is the state there */
+    size_t events;  /* events of the step so far */
+    bool grazes;    /* the motion only touches the surface of an event */
+    bool broken;    /* a part has no derivative */
     bool together;  /* the stages have reproduced the scheme to the last bit so far */
     void *snapshot; /* the run's state before these steps, restored if not */
 };
@@ -169,6 +176,8 @@ static void open_all(struct gm_arena *arena, void *data)
     struct gm_tangent *tangent = opening->tangent = gm_arena_take(arena, 1, sizeof *tangent);
     tangent->arena = arena;
     tangent->run = run;
+    tangent->between = *run->problem;
+    tangent->between.events = NULL;
     tangent->n = run->problem->n;
     tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
     const size_t size = gm_tangent_size(tangent);
@@ -219,7 +228,7 @@ size_t gm_tangent_size(const struct gm_tangent *tangent)
 static struct gm_run *open_run(const struct gm_tangent *tangent, const double *y)
 {
     const struct gm_run *run = tangent->run;
-    return gm_run_open(run->problem, run->scheme, &run->settings, run->t, run->dt, y);
+    return gm_run_open(&tangent->between, run->scheme, &run->settings, run->t, run->dt, y);
 }
 
 /* Returns the multiple of v by which states are moved: beyond it the terms of order 5 count, below it
@@ -251,6 +260,9 @@ static bool move(const struct gm_tangent *tangent, const double *v, double facto
     struct gm_run *probe = tangent->probe;
     for (size_t i = 0; i < gm_tangent_size(tangent); i++) {
         to[i] = tangent->before[i] + factor * v[i];
+    }
+    if (probe->dt != tangent->h) {
+        gm_run_set_step(probe, tangent->h);
     }
     gm_run_set_state(probe, to, tangent->memory > 0 ? to + tangent->n : NULL);
     const bool good = gm_run_advance(probe, 1) == GM_OK;
@@ -362,8 +374,8 @@ static void add_slopes(const struct gm_tangent *tangent, double *const weights[G
 {
     const size_t n = tangent->n;
     for (size_t j = first; j < end; j++) {
-        const double factors[GM_SIDES] = {tangent->run->dt * weights[GM_SIDE_Q][j],
-                                          tangent->run->dt * weights[GM_SIDE_P][j]};
+        const double factors[GM_SIDES] = {tangent->h * weights[GM_SIDE_Q][j],
+                                          tangent->h * weights[GM_SIDE_P][j]};
         for (size_t c = tangent->from[j]; c < tangent->to[j]; c++) {
             const double factor = factors[tangent->side[c]];
             y[c] += factor * tangent->k[j * n + c];
@@ -384,7 +396,7 @@ static bool linear(void *data, const double *states, double *residual, double *m
     const struct block *block = data;
     const struct gm_tangent *tangent = block->tangent;
     const size_t n = tangent->n, s = tangent->stages, first = block->first, count = block->count;
-    const double h = tangent->run->dt;
+    const double h = tangent->h;
     for (size_t j = 0; j < count; j++) {
         evaluate(tangent, states + j * n, tangent->k + (first + j) * n, tangent->jacobians + j * n * n);
     }
@@ -492,11 +504,11 @@ static bool by_stages(const struct gm_tangent *tangent, const double *v)
     return true;
 }
 
-/* Returns true if the stages' result is the scheme's state; equations with several solutions may give
+/* Returns true if the stages' result is the scheme's state y; equations with several solutions may give
    another. */
-static bool is_there(const struct gm_tangent *tangent)
+static bool is_there(const struct gm_tangent *tangent, const double *y)
 {
-    const double *y = gm_run_state(tangent->run), close = 1e-9;
+    const double close = 1e-9;
     double difference = 0, size = 0;
     for (size_t c = 0; c < tangent->n; c++) {
         difference += fabs(y[c] - tangent->y[c]);
@@ -505,17 +517,55 @@ static bool is_there(const struct gm_tangent *tangent)
     return difference <= close * size;
 }
 
-bool gm_tangent_step(struct gm_tangent *tangent, double *v)
+/* v := the derivative of a step or part of length h from `before` to y, times v. */
+static bool carry(struct gm_tangent *tangent, double h, const double *y, double *v)
 {
-    take_before(tangent);
-    if (gm_run_advance(tangent->run, 1) != GM_OK) {
-        return false;
-    }
-    if (tangent->stages > 0 && by_stages(tangent, v) && is_there(tangent)) {
+    tangent->h = h;
+    if (tangent->stages > 0 && by_stages(tangent, v) && is_there(tangent, y)) {
         memcpy(v, tangent->dy, tangent->n * sizeof *v);
         return true;
     }
     return by_differences(tangent, v);
+}
+
+/* Carries the vector to an event, and through it. */
+static void see_event(void *data, const struct gm_event_part *part)
+{
+    struct gm_tangent *tangent = data;
+    const struct gm_problem *problem = tangent->run->problem;
+    const size_t n = tangent->n;
+    const double t = part->before[n];
+    tangent->events++;
+    tangent->broken =
+        tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before, tangent->v));
+    if (!tangent->broken &&
+        !problem->events->carry(problem, part->event, part->before, part->after, tangent->v)) {
+        tangent->grazes = tangent->broken = true;
+    }
+    memcpy(tangent->before, part->after, n * sizeof *tangent->before);
+    tangent->t = t;
+}
+
+bool gm_tangent_step(struct gm_tangent *tangent, double *v)
+{
+    struct gm_run *run = tangent->run;
+    take_before(tangent);
+    tangent->v = v;
+    tangent->t = run->t;
+    tangent->events = 0;
+    run->witness = (struct gm_event_witness){see_event, tangent};
+    const bool good = gm_run_advance(run, 1) == GM_OK;
+    run->witness = (struct gm_event_witness){0};
+    if (!good || tangent->broken) {
+        return false;
+    }
+    const double h = tangent->events > 0 ? run->t - tangent->t : run->dt;
+    return h == 0 || carry(tangent, h, gm_run_state(run), v);
+}
+
+bool gm_tangent_grazes(const struct gm_tangent *tangent)
+{
+    return tangent->grazes;
 }
 
 /* ---- many steps ---- */
@@ -545,6 +595,7 @@ static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, s
     const size_t bytes = tangent->n * sizeof *v;
     bool good = true;
     take_before(tangent);
+    tangent->h = run->dt;
     for (size_t i = 0; good && i < steps; i++) {
         good = by_stages(tangent, v);
         memcpy(tangent->before, tangent->y, bytes);

@@ -27,9 +27,12 @@ size_t gm_tangent_size(const struct gm_tangent *tangent);
    at its start. Returns false if the run cannot start, or when out of memory. */
 bool gm_tangent_begin(struct gm_tangent *tangent, double *v);
 
-/* Makes one step of the run, with v := its derivative times v. Returns false, with v undefined, if the run or
+/* Makes one step of the run, with v := its derivative times v, also through events (S of core/events.h). Returns false, with v undefined, if the run or
    a step beside it failed; the run holds the reason if its own step failed. */
 bool gm_tangent_step(struct gm_tangent *tangent, double *v);
+
+/* Returns true if a step failed since the motion only touched the surface of an event. */
+bool gm_tangent_grazes(const struct gm_tangent *tangent);
 
 /* The run's time after a step, and the factor by which v has grown. */
 struct gm_stretch {

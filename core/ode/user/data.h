@@ -3,6 +3,7 @@
 #ifndef GM_CORE_ODE_USER_DATA_H
 #define GM_CORE_ODE_USER_DATA_H
 
+#include "core/events.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/user/formulas.h"
 #include "core/ode/user/kernel.h"
@@ -25,6 +26,8 @@ enum gm_user_formula {
     GM_USER_ACTION_SLOPES,
     GM_USER_CONSTRAINTS,
     GM_USER_ONE_FORM,
+    GM_USER_SURFACES, /* of components and the time: where events happen, and what is conserved between them */
+    GM_USER_BOOKED,
     GM_USER_FORMULAS
 };
 
@@ -49,6 +52,8 @@ struct gm_user_data {
     struct gm_poisson poisson;
     struct gm_degenerate degenerate;
     struct gm_late_tape tapes[GM_USER_FORMULAS];
+    struct gm_events events;
+    struct gm_late_tape *changes, *event_slopes; /* of each event: conditions and new values; slopes */
     struct gm_late_tape *rates;  /* one by one, where each component alone has an exact flow; else NULL */
     struct gm_late_tape *pieces; /* of the energy of a bracket: rates and slopes of each */
     double *frequencies;         /* one per coordinate */
@@ -91,6 +96,9 @@ void gm_user_lagrangian_energy(const struct gm_problem *problem, const double *y
 /* gm_action.motion, of at most GM_NEWTON_LARGEST components */
 void gm_user_lagrangian_motion(const struct gm_problem *problem, const double *at,
                                const struct gm_motion *motion);
+
+/* Opens the events of a problem, if it has any. */
+void gm_user_events_open(struct gm_problem *problem);
 
 /* Opens the facet of schemes for brackets, whose flow is NaN where the motion is too fast for its exponential. */
 void gm_user_bracket_open(const struct gm_problem *problem);

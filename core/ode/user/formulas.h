@@ -48,6 +48,16 @@ struct gm_user_bracket {
     struct gm_linear_flow *pieces;
 };
 
+/* An event, as formulas. */
+struct gm_user_event {
+    const struct gm_system_item *item;
+    size_t conditions, changed; /* numbers of these */
+    size_t *components;         /* [changed] */
+    gm_node_id *nodes;          /* conditions, then new values of these components */
+    struct gm_sparse slopes;    /* of g, row 0, and of the new values over components and t */
+    gm_node_id *slope_nodes;
+};
+
 /* The formulas of a system, for all values of its parameters. They do not change after opening: runs and
    threads share them. */
 struct gm_user_model {
@@ -63,7 +73,10 @@ struct gm_user_model {
         one_form;                /* theta, n functions, and H; none if the system is timed, or too large */
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
     struct gm_user_bracket bracket;
-    const char *names; /* the components' names, in the format of struct gm_ode */
+    struct gm_user_event *events; /* in the order of the file */
+    size_t event_count;
+    gm_node_id *surfaces; /* [event_count], the g that become 0 */
+    const char *names;    /* the components' names, in the format of struct gm_ode */
     struct gm_arena *arena;
 };
 

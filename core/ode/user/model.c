@@ -167,6 +167,49 @@ static void open_one_form(struct gm_arena *arena, const struct opening *opening)
     }
 }
 
+static void open_event(struct gm_arena *arena, const struct opening *opening,
+                       const struct gm_system_item *item, struct gm_user_event *event)
+{
+    struct gm_user_system *system = opening->system;
+    const size_t n = system->n, first = item->ends ? 1 : 1 + n;
+    bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked);
+    gm_node_id *nodes = gm_arena_take(arena, n + 1, sizeof *nodes);
+    memset(marked, true, (n + 1) * sizeof *marked);
+    event->item = item;
+    event->conditions = item->count - first;
+    event->components = gm_arena_take(arena, n + 1, sizeof *event->components);
+    nodes[0] = item->nodes[0];
+    for (size_t c = 0; c < n && !item->ends; c++) {
+        const struct gm_node *node = &system->graph.nodes[item->nodes[1 + c]];
+        if (node->operation != GM_VARIABLE || node->a != c) {
+            event->components[event->changed++] = c;
+            nodes[event->changed] = item->nodes[1 + c];
+        }
+    }
+    event->nodes = gm_arena_take(arena, event->conditions + event->changed + 1, sizeof *event->nodes);
+    memcpy(event->nodes, item->nodes + first, event->conditions * sizeof *nodes);
+    memcpy(event->nodes + event->conditions, nodes + 1, event->changed * sizeof *nodes);
+    gm_sparse_keep(arena, &event->slopes,
+                   gm_sparse_jacobian(&system->graph, nodes, 1 + event->changed, marked,
+                                      system->variable_count, &event->slopes));
+    event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
+}
+
+static void open_events(struct gm_arena *arena, const struct opening *opening)
+{
+    struct gm_user_model *model = opening->model;
+    struct gm_user_system *system = opening->system;
+    model->events = gm_arena_take(arena, system->item_count + 1, sizeof *model->events);
+    model->surfaces = gm_arena_take(arena, system->item_count + 1, sizeof *model->surfaces);
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP) {
+            model->surfaces[model->event_count] = item->nodes[0];
+            open_event(arena, opening, item, &model->events[model->event_count++]);
+        }
+    }
+}
+
 static void open_model(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -191,6 +234,7 @@ static void open_model(struct gm_arena *arena, void *data)
         }
     }
     open_slopes(arena, opening);
+    open_events(arena, opening);
     gm_user_bracket_derive(arena, &model->bracket, system);
     for (size_t i = 0; i < model->rate_count && system->kind != GM_LAGRANGIAN; i++) {
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));

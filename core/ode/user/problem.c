@@ -506,6 +506,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     open_degenerate(self);
     open_monitor(self);
     gm_user_bracket_open(problem);
+    gm_user_events_open(problem);
     if (system->tangents == 0 && !constrained) {
         gm_user_parts_open(problem);
     }

@@ -307,5 +307,5 @@ struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *
             points[first * width + i] = values[i % width * count + i / width];
         }
     }
-    return (struct gm_path){points, points && states ? entries->count : 0, width};
+    return (struct gm_path){points, entries->times, points && states ? entries->count : 0, width};
 }

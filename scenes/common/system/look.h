@@ -77,6 +77,8 @@ struct gm_system_scene {
     struct gm_observable *observables;
     struct gm_tape **formulas; /* for each observable; NULL: a function of its own */
     struct gm_tape **terms;    /* for each error: the sum of the magnitudes of its terms; else NULL */
+    size_t
+        *booked; /* for each observable 1 + the number of the quantity whose jumps at events count; else 0 */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
     struct gm_sight *sights; /* the first is the one of show=all; the last pair_count are planes */
@@ -86,8 +88,8 @@ struct gm_system_scene {
     struct gm_sight section;
     struct gm_tape where; /* the function that is 0 in the section, or its period, and positive conditions */
     size_t conditions;
-    bool has_section, stroboscopic, turns; /* `turns`: the function is an angle */
-    struct gm_tape stop, exact, timing[GM_SYSTEM_TIMES];
+    bool has_section, stroboscopic, at_event, turns; /* `turns`: the function is an angle */
+    struct gm_tape exact, timing[GM_SYSTEM_TIMES];
     struct gm_tape surfaces;  /* half axes at the start, three per surface */
     struct gm_tape *of_items; /* for each of the system's items that is a text, a requirement or a level */
     size_t disc[2];           /* the components that members differ in */
@@ -172,7 +174,7 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
 void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values);
 /* The numbers of a sight's bodies in every entry of a track: `width` per entry. */
 struct gm_path {
-    const double *points;
+    const double *points, *times; /* two entries at one time: the state jumps */
     size_t count, width;
 };
 /* Returns the path of a lane's last member in a track of states, or of member `shown` of GM_TRACK_MEMBERS, in the

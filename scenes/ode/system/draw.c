@@ -249,7 +249,7 @@ static void put_points(const struct stage *stage, struct gm_style style, const d
     }
 }
 
-/* Writes the path of a body from entry `first` on, and its current point; broken at a jump of an angle.
+/* Writes the path of a body from entry `first` on, and its current point; broken at jumps, also of an angle.
    Returns the number of points, at most twice the entries and two. */
 static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, size_t body, size_t first,
                       const double *now, double *points)
@@ -261,6 +261,12 @@ static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, 
         memcpy(point, (i < path->count ? path->points + i * path->width : now) + dimensions * body,
                dimensions * sizeof *point);
         wrap(sight, point);
+        if (i > first && i < path->count && path->times[i] == path->times[i - 1]) {
+            for (size_t k = 0; k < dimensions; k++) {
+                points[dimensions * count + k] = NAN;
+            }
+            count++;
+        }
         for (size_t k = 0; k < 2 && count > 0; k++) {
             if (sight->angles[k] && fabs(point[k] - points[2 * count - 2 + k]) > M_PI) {
                 points[2 * count] = points[2 * count + 1] = NAN;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/events.h"
 #include "core/model/scope.h"
 #include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/families.h"
@@ -27,6 +28,14 @@ static double value_of(const struct gm_tape *tape, const struct gm_view *view)
     return value;
 }
 
+/* The jumps that events have made in a conserved quantity; 0 for other observables. */
+static double booked(const struct gm_view *view)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const size_t quantity = system_scene->booked[view->observable - system_scene->observables];
+    return view->booked && quantity > 0 ? gm_events_booked(view->problem, view->booked, quantity - 1) : 0;
+}
+
 /* Returns an observable's formula while its condition, if any, holds; else NaN. */
 static double observed(const struct gm_view *view)
 {
@@ -34,7 +43,7 @@ static double observed(const struct gm_view *view)
     double values[2] = {0, 1};
     gm_system_values(system_scene->formulas[view->observable - system_scene->observables], view,
                      gm_system_centre(view), values);
-    return values[1] > 0 ? values[0] : NAN;
+    return values[1] > 0 ? values[0] - booked(view) : NAN;
 }
 
 static double terms(const struct gm_view *view)
@@ -68,7 +77,7 @@ static double legendre(const struct gm_view *view, bool magnitudes)
 
 static double legendre_energy(const struct gm_view *view)
 {
-    return legendre(view, false);
+    return legendre(view, false) - booked(view);
 }
 
 static double legendre_terms(const struct gm_view *view)
@@ -138,16 +147,25 @@ static double area_tangent(const struct gm_view *view)
     return sum / (double)m;
 }
 
-double gm_system_stop(const struct gm_view *view)
+static const char events_key[] = "events";
+
+/* Returns how often all events have happened, or the one that the observable names. */
+static double happened(const struct gm_view *view)
 {
-    return value_of(&gm_system_scene_of(view)->stop, view);
+    const struct gm_events *events = view->problem->events;
+    const char *name = view->observable->key + strlen(events_key);
+    size_t event = name[0] ? 0 : events->count;
+    while (event < events->count && strcmp(events->names[event], name + 1) != 0) {
+        event++;
+    }
+    return view->booked ? gm_events_happened(view->problem, view->booked, event) : 0;
 }
 
-void gm_system_stops(const struct gm_view *view, const double *states, const double *times, size_t count,
-                     double *values)
+/* Returns the energy that events have added. */
+static double event_work(const struct gm_view *view)
 {
-    gm_system_values_of(&gm_system_scene_of(view)->stop, view,
-                        &(struct gm_states){states, times, count, gm_system_centre(view)}, values);
+    return view->booked ? gm_events_booked(view->problem, view->booked, view->problem->events->quantities - 1)
+                        : 0;
 }
 
 /* ---- the rows of the scene ---- */
@@ -277,6 +295,37 @@ static const char *error_title(struct gm_arena *arena, const char *name)
     return text;
 }
 
+/* Adds the counts of events, and their work. */
+static void add_events(struct gm_system_scene *system_scene, const struct gm_problem *problem)
+{
+    const struct gm_events *events = problem->events;
+    if (!events || !events->changes) {
+        return;
+    }
+    add_function(system_scene, (struct gm_observable)GM_OBSERVABLE(events_key, happened, "number of events"));
+    for (size_t i = 0; i < events->count; i++) {
+        if (events->names[i][0]) {
+            add_function(system_scene,
+                         (struct gm_observable)GM_OBSERVABLE(
+                             gm_arena_print(system_scene->arena, "%s_%s", events_key, events->names[i]),
+                             happened,
+                             gm_arena_print(system_scene->arena, "number of events %s", events->names[i])));
+        }
+    }
+    if (events->has_energy) {
+        add_function(system_scene, (struct gm_observable)GM_OBSERVABLE("event_work", event_work,
+                                                                       "energy that events have added"));
+    }
+}
+
+/* Lets the last observable be measured against the start with the jumps of this quantity. */
+static void book(struct gm_system_scene *system_scene, const struct gm_problem *problem, size_t quantity)
+{
+    if (problem->events && problem->events->changes) {
+        system_scene->booked[system_scene->observable_count - 1] = 1 + quantity;
+    }
+}
+
 static void add_energy(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = &system_scene->system;
@@ -297,6 +346,9 @@ static void add_energy(struct gm_system_scene *system_scene, const struct gm_pro
         energy.terms = kept ? legendre_terms : NULL;
     }
     add_observable(system_scene, energy, lagrangian ? GM_NO_NODE : system->energy, GM_NO_NODE);
+    if (kept && problem->events) {
+        book(system_scene, problem, problem->events->quantities - 1);
+    }
 }
 
 /* Returns a short name of an invariant for formulas: its own or its let's. */
@@ -476,10 +528,11 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     struct gm_arena *arena = system_scene->arena;
     const struct gm_hook *hook = system_scene->hook;
     const size_t of_hook = hook ? hook->observable_count : 0,
-                 most = system_scene->system.item_count + 10 + of_hook;
+                 most = 2 * system_scene->system.item_count + 12 + of_hook;
     system_scene->observables = gm_arena_take(arena, most, sizeof *system_scene->observables);
     system_scene->formulas = gm_arena_take(arena, most, sizeof *system_scene->formulas);
     system_scene->terms = gm_arena_take(arena, most, sizeof *system_scene->terms);
+    system_scene->booked = gm_arena_take(arena, most, sizeof *system_scene->booked);
     for (size_t i = 0; i < of_hook; i++) {
         add_function(system_scene, hook->observables[i]);
     }
@@ -490,6 +543,7 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     add_energy(system_scene, problem);
     add_steps(system_scene);
     add_named(system_scene);
+    add_events(system_scene, problem);
     add_defects(system_scene, problem);
     add_solution_error(system_scene);
     if (!carried) {

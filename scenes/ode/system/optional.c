@@ -98,7 +98,7 @@ static double energy_of(struct energies *energies, struct state *state, const st
    Hamiltonian. */
 static bool is_within_step(const struct gm_view *view)
 {
-    return view->run && view->run->n == 0 && view->run->steps > 0 && gm_view_stopped(view);
+    return view->run && view->run->n == 0 && view->run->stopped;
 }
 
 static double modified_error(const struct gm_view *view)
@@ -164,7 +164,7 @@ static const char *why_no_return(const struct gm_view *view)
 
 static double escape_time(const struct gm_view *view)
 {
-    return gm_view_stopped(view) || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
+    return view->run->stopped || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
 }
 
 static const char *why_no_escape(const struct gm_view *view)
@@ -268,12 +268,15 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
         return NULL;
     }
     const bool left = !isnan(escape_time(view));
-    followed->why = view->run->status != GM_OK               ? gm_status_name(view->run->status)
-                    : left                                   ? "the run was stopped: its orbit has left"
-                    : steps == 0                             ? "no step was made yet"
-                    : !gm_growth_to(followed->growth, steps) ? "a step beside the orbit fails"
-                    : !is_same(view, followed)               ? "the run was changed on its way"
-                                                             : NULL;
+    followed->why = view->run->status != GM_OK ? gm_status_name(view->run->status)
+                    : left                     ? "the run was stopped: its orbit has left"
+                    : steps == 0               ? "no step was made yet"
+                    : !gm_growth_to(followed->growth, steps)
+                        ? gm_growth_grazes(followed->growth)
+                              ? "the motion only touches the surface of an event there: no tangent"
+                              : "a step beside the orbit fails"
+                    : !is_same(view, followed) ? "the run was changed on its way"
+                                               : NULL;
     return followed->why ? NULL : followed->growth;
 }
 

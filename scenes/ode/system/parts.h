@@ -42,12 +42,6 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
 /* Refuses an exact solution in the file that has not the system's start. */
 void gm_system_check_exact(struct gm_system_scene *system_scene, const struct gm_problem *problem);
 
-/* A change of its sign ends a run: the value at a view and at `count` other states of it, struct gm_scene,
-   stops. */
-double gm_system_stop(const struct gm_view *view);
-void gm_system_stops(const struct gm_view *view, const double *states, const double *times, size_t count,
-                     double *values);
-
 /* ---- space.c ---- */
 
 /* The range of a sight up to now. */

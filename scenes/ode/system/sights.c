@@ -236,10 +236,12 @@ void gm_system_make_sights(struct gm_system_scene *system_scene)
         gm_node_id nodes[1 + GM_MOST_CONDITIONS] = {section_item->nodes[0]};
         system_scene->has_section = true;
         system_scene->stroboscopic = section_item->periodic;
+        system_scene->at_event = section_item->at_event;
         system_scene->conditions =
             section_item->count - 3 < GM_MOST_CONDITIONS ? section_item->count - 3 : GM_MOST_CONDITIONS;
         memcpy(nodes + 1, section_item->nodes + 3, system_scene->conditions * sizeof *nodes);
-        system_scene->turns = !system_scene->stroboscopic && is_angle(system_scene, nodes[0]);
+        system_scene->turns =
+            !system_scene->stroboscopic && !system_scene->at_event && is_angle(system_scene, nodes[0]);
         system_scene->section.name = "section";
         open_plane(system_scene, &system_scene->section, section_item->nodes[1], section_item->nodes[2]);
         gm_system_open_tape(system_scene, &system_scene->where, nodes, 1 + system_scene->conditions);

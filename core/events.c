@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The zero of a function along a step, and the events of a step one after the other. */
+#include "core/events.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- the zero along a step ---- */
+
+/* A fraction of the step, and its value. */
+struct place {
+    double s, value;
+};
+
+/* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
+   before. */
+static double next_share(struct place newest, struct place other, struct place third)
+{
+    const double xi = (newest.s - other.s) / (third.s - other.s),
+                 phi = (newest.value - other.value) / (third.value - other.value);
+    if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) {
+        return 0.5;
+    }
+    return newest.value / (other.value - newest.value) * third.value / (other.value - third.value) +
+           (third.s - newest.s) / (other.s - newest.s) * newest.value / (third.value - newest.value) *
+               other.value / (third.value - other.value);
+}
+
+double gm_zero_beyond(double (*value)(void *data, double s), void *data, double low, double at_low,
+                      double at_end)
+{
+    enum { MOST = 60 };
+    const double tolerance = 2.2e-16;
+    struct place other = {low, at_low}, newest = {1, at_end}, third = other;
+    const bool below = at_end < 0;
+    bool failed = isnan(at_low) || isnan(at_end) || (at_low < 0) == below;
+    double t = 0.5;
+    for (int i = 0; i < MOST && !failed && fabs(newest.s - other.s) > 2 * tolerance; i++) {
+        const double s = newest.s + t * (other.s - newest.s);
+        const struct place next = {s, value(data, s)};
+        failed = isnan(next.value);
+        if ((next.value < 0) == (newest.value < 0)) {
+            third = newest;
+        } else {
+            third = other;
+            other = newest;
+        }
+        newest = next;
+        const double least = tolerance / fabs(other.s - newest.s);
+        t = fmin(fmax(next_share(newest, other, third), least), 1 - least);
+    }
+    return failed ? NAN : (newest.value < 0) == below ? newest.s : other.s;
+}
+
+/* ---- the memory ---- */
+
+enum { LAST, SHORT, BEHIND };
+
+static double *signs_of(double *memory)
+{
+    return memory;
+}
+
+static double *counts_of(const struct gm_problem *problem, double *memory)
+{
+    return memory + problem->events->count;
+}
+
+static double *booked_in(const struct gm_problem *problem, double *memory)
+{
+    return memory + 2 * problem->events->count;
+}
+
+/* The last event's time, and the number of short intervals. */
+static double *history_of(const struct gm_problem *problem, double *memory)
+{
+    return booked_in(problem, memory) + problem->events->quantities;
+}
+
+size_t gm_events_memory(const struct gm_problem *problem)
+{
+    return problem->events ? 2 * problem->events->count + problem->events->quantities + BEHIND : 0;
+}
+
+double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event)
+{
+    const double *counts = memory + problem->events->count;
+    double sum = 0;
+    for (size_t i = 0; i < problem->events->count; i++) {
+        sum += i == event || event == problem->events->count ? counts[i] : 0;
+    }
+    return sum;
+}
+
+double gm_events_last(const struct gm_problem *problem, const double *memory)
+{
+    return memory[2 * problem->events->count + problem->events->quantities + LAST];
+}
+
+double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
+{
+    return memory[2 * problem->events->count + quantity];
+}
+
+/* Copies the last member's state, and the time. */
+static void look_at(const struct gm_problem *problem, double t, const double *y, double *look)
+{
+    for (size_t c = 0; c < problem->n; c++) {
+        look[c] = y[c * problem->m + problem->m - 1];
+    }
+    look[problem->n] = t;
+}
+
+static double sign_of(double value)
+{
+    return (value > 0) - (value < 0);
+}
+
+void gm_events_clear(const struct gm_problem *problem, double *memory)
+{
+    memset(memory, 0, gm_events_memory(problem) * sizeof *memory);
+    history_of(problem, memory)[LAST] = -DBL_MAX;
+}
+
+/* The sign of g with which an event waits in this state; on g = 0 the motion decides, by where it leads. */
+static double sign_ahead(const struct gm_problem *problem, size_t event, bool backwards, const double *look,
+                         double value, double nothing)
+{
+    if (fabs(value) > nothing) {
+        return sign_of(value);
+    }
+    const double sign = sign_of(problem->events->rate(problem, event, look));
+    return backwards ? -sign : sign;
+}
+
+void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, const double *y,
+                   double *memory, double *scratch)
+{
+    double *look = scratch, *values = look + problem->n + 1;
+    look_at(problem, t, y, look);
+    problem->events->values(problem, look, 1, values);
+    for (size_t i = 0; i < problem->events->count; i++) {
+        signs_of(memory)[i] = sign_ahead(problem, i, backwards, look, values[i], 0);
+    }
+}
+
+static bool crosses(double sign, double value)
+{
+    return sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
+}
+
+bool gm_events_are_near(const struct gm_problem *problem, const double *memory, bool ends,
+                        const double *values, size_t looks)
+{
+    const struct gm_events *events = problem->events;
+    bool near = false;
+    for (size_t i = 0; i < events->count; i++) {
+        for (size_t k = 0; k < looks && (ends || !events->ends[i]); k++) {
+            near = near || memory[i] == 0 || crosses(memory[i], values[i * looks + k]);
+        }
+    }
+    return near;
+}
+
+/* ---- the events of a step ---- */
+
+/* The remaining part of a step, from `from` at t on for a time `rest`. */
+struct rest {
+    struct gm_event_step *step;
+    double t, rest;
+    size_t event;
+    double *from, *to;                  /* states with their carries; `to`: room for a trial */
+    double *look, *before, *after;      /* looks */
+    double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
+    double *places; /* for each event the fraction of `rest` where it happens; NaN: it does not */
+};
+
+static void find_values(struct rest *rest, double t, const double *y, double *values)
+{
+    const struct gm_problem *problem = rest->step->problem;
+    look_at(problem, t, y, rest->look);
+    problem->events->values(problem, rest->look, 1, values);
+}
+
+/* Writes the state after a fraction of the rest to rest->to. */
+static bool make_part(struct rest *rest, double s, bool counted)
+{
+    const struct gm_event_step *step = rest->step;
+    if (s == 0) {
+        memcpy(rest->to, rest->from, step->size * sizeof *rest->to);
+        return true;
+    }
+    return step->part(step->data, rest->from, rest->t, s * rest->rest, rest->to, counted);
+}
+
+/* g of rest->event after a fraction of the rest; NaN if it cannot be made. */
+static double value_after(void *data, double s)
+{
+    struct rest *rest = data;
+    if (!make_part(rest, s, false)) {
+        return NAN;
+    }
+    find_values(rest, rest->t + s * rest->rest, rest->to, rest->values);
+    return rest->values[rest->event];
+}
+
+/* The fraction of the rest just beyond which an event's g passes 0; 0: at once, within the finder's accuracy; NaN: it
+   cannot be found. */
+static double place_of(struct rest *rest, size_t event)
+{
+    const double sign = signs_of(rest->step->memory)[event], at_begin = rest->at_begin[event],
+                 least = 0x1p-51;
+    double low = 0, at_low = at_begin;
+    rest->event = event;
+    /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
+    for (double s = 0.5; sign_of(at_low) != sign && s > least && !isnan(at_low); s /= 2) {
+        at_low = value_after(rest, low = s);
+    }
+    if (!isnan(at_low) && sign_of(at_low) != sign) {
+        low = 0;
+        at_low = at_begin;
+    }
+    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
+}
+
+/* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
+   infinity: nothing happens, and all wait with the signs at the end; NaN: it cannot be found. */
+static double first_place(struct rest *rest)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_events *events = step->problem->events;
+    double *signs = signs_of(step->memory), first = INFINITY;
+    const double least = 1e-6;
+    for (size_t i = 0; i < events->count; i++) {
+        rest->places[i] = NAN;
+        if ((events->ends[i] && !step->ends) || !crosses(signs[i], rest->at_end[i])) {
+            continue;
+        }
+        const double place = place_of(rest, i);
+        if (isnan(place) || !make_part(rest, place, false)) {
+            return NAN;
+        }
+        if (step->first && rest->t == step->t && place < least) {
+            signs[i] = -signs[i];
+            continue;
+        }
+        look_at(step->problem, rest->t + place * rest->rest, rest->to, rest->look);
+        const bool happens = place == 0 || events->happens(step->problem, i, rest->look);
+        rest->places[i] = place;
+        first = happens ? fmin(first, place) : first;
+    }
+    for (size_t i = 0; i < events->count && first > 1; i++) {
+        signs[i] = signs[i] == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
+    }
+    return first;
+}
+
+/* Adds the jumps of conserved quantities. */
+static void book(struct rest *rest)
+{
+    const struct gm_problem *problem = rest->step->problem;
+    const struct gm_events *events = problem->events;
+    double *booked = booked_in(problem, rest->step->memory), *values = rest->values;
+    if (events->quantities == 0) {
+        return;
+    }
+    events->conserved(problem, rest->before, values);
+    for (size_t i = 0; i < events->quantities; i++) {
+        booked[i] -= values[i];
+    }
+    events->conserved(problem, rest->after, values);
+    for (size_t i = 0; i < events->quantities; i++) {
+        booked[i] += values[i];
+    }
+}
+
+/* Lets an event change the state rest->to at t. `scale`: of g, to know round-off from a change. */
+static void change(struct rest *rest, double t, size_t event)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_problem *problem = step->problem;
+    const struct gm_events *events = problem->events;
+    const double roundoff = 1e-12;
+    double *after = rest->values + events->count;
+    find_values(rest, t, rest->to, rest->values);
+    memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
+    events->change(problem, event, rest->before, rest->to);
+    memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
+    look_at(problem, t, rest->to, rest->after);
+    events->values(problem, rest->after, 1, after);
+    for (size_t i = 0; i < events->count; i++) {
+        const double nothing =
+            fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
+        if (i == event || after[i] != rest->values[i]) {
+            signs_of(step->memory)[i] =
+                sign_ahead(problem, i, step->dt < 0, rest->after, after[i], i == event ? nothing : 0);
+        }
+    }
+    counts_of(problem, step->memory)[event]++;
+    look_at(problem, rest->t, rest->from, rest->look);
+    if (step->witness.see) {
+        const struct gm_event_part part = {event, rest->look, rest->before, rest->after};
+        step->witness.see(step->witness.data, &part);
+    }
+    book(rest);
+}
+
+/* Returns true if the intervals between events have become too short to end. */
+static bool are_too_short(struct gm_event_step *step, double t)
+{
+    enum { MOST_SHORT = 50 };
+    double *history = history_of(step->problem, step->memory);
+    const double interval = fabs(t - history[LAST]);
+    history[SHORT] = interval < 1e-9 * fabs(step->dt) ? history[SHORT] + 1 : 0;
+    history[LAST] = t;
+    return history[SHORT] >= MOST_SHORT;
+}
+
+/* Makes the rest up to the first events, and their changes; *place: its fraction. */
+static enum gm_event_outcome pass_first(struct rest *rest, double place)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_events *events = step->problem->events;
+    const double together = 4e-15, t = rest->t + place * rest->rest;
+    bool many = false;
+    size_t made = 0;
+    if (!make_part(rest, place, true)) {
+        return GM_EVENTS_FAILED;
+    }
+    step->reached = t;
+    if (place == 0) {
+        return GM_EVENTS_MANY; /* back on g = 0 within the accuracy of the finder */
+    }
+    for (size_t i = 0; i < events->count; i++) {
+        if (!(rest->places[i] <= place + together)) {
+            continue;
+        }
+        look_at(step->problem, t, rest->to, rest->look);
+        if (rest->places[i] < place - together || !events->happens(step->problem, i, rest->look)) {
+            double *sign = &signs_of(step->memory)[i]; /* passed without its conditions */
+            *sign = rest->places[i] <= place ? -*sign : *sign;
+            continue;
+        }
+        if (events->ends[i]) {
+            counts_of(step->problem, step->memory)[i]++;
+            return GM_EVENTS_ENDED;
+        }
+        if (made++ == 0) {
+            many = are_too_short(step, t);
+        }
+        change(rest, t, i);
+        memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
+        rest->t = t;
+    }
+    return many ? GM_EVENTS_MANY : GM_EVENTS_HAPPENED;
+}
+
+/* Ends a run after a step that cannot be made in parts. */
+static enum gm_event_outcome end_whole(struct rest *rest, double end)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_events *events = step->problem->events;
+    double *signs = signs_of(step->memory);
+    bool ended = false;
+    for (size_t i = 0; i < events->count; i++) {
+        ended = ended || (events->ends[i] && step->ends && crosses(signs[i], rest->at_end[i]) &&
+                          events->happens(step->problem, i, rest->look));
+        signs[i] = sign_of(rest->at_end[i]);
+    }
+    step->reached = end;
+    return ended ? GM_EVENTS_ENDED : GM_EVENTS_NONE;
+}
+
+static size_t aligned(size_t numbers)
+{
+    const size_t line = 16; /* doubles */
+    return (numbers + line - 1) / line * line;
+}
+
+size_t gm_events_scratch(const struct gm_problem *problem, size_t size)
+{
+    const size_t count = problem->events->count, quantities = problem->events->quantities;
+    return 2 * aligned(size) + 3 * (problem->n + 1) + 5 * count + 2 * quantities;
+}
+
+enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
+{
+    enum { MOST_IN_A_STEP = 1000 };
+    const struct gm_problem *problem = step->problem;
+    const size_t count = problem->events->count, width = problem->n + 1;
+    double *next = step->scratch + 2 * aligned(step->size);
+    struct rest rest = {.step = step,
+                        .t = step->t,
+                        .rest = step->dt,
+                        .from = step->scratch,
+                        .to = step->scratch + aligned(step->size),
+                        .look = next,
+                        .before = next + width,
+                        .after = next + 2 * width,
+                        .at_begin = next + 3 * width,
+                        .at_end = next + 3 * width + count,
+                        .places = next + 3 * width + 2 * count,
+                        .values = next + 3 * width + 3 * count};
+    enum gm_event_outcome outcome = GM_EVENTS_NONE;
+    const double end = step->t + step->dt;
+    find_values(&rest, end, step->end, rest.at_end);
+    if (!gm_events_are_near(problem, step->memory, step->ends, rest.at_end, 1)) {
+        return GM_EVENTS_NONE;
+    }
+    if (!step->part) {
+        return end_whole(&rest, end);
+    }
+    find_values(&rest, step->t, step->begin, rest.at_begin);
+    memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
+    for (int made = 0; made <= MOST_IN_A_STEP; made++) {
+        const double place = first_place(&rest);
+        if (place > 1) {
+            return outcome;
+        }
+        outcome = isnan(place) ? GM_EVENTS_FAILED : pass_first(&rest, place);
+        outcome = outcome == GM_EVENTS_HAPPENED && made == MOST_IN_A_STEP ? GM_EVENTS_MANY : outcome;
+        if (outcome == GM_EVENTS_FAILED) {
+            return outcome;
+        }
+        if (outcome != GM_EVENTS_HAPPENED || place == 1) {
+            memcpy(step->end, rest.to, step->size * sizeof *rest.to);
+            return outcome;
+        }
+        rest.rest = end - rest.t;
+        if (!step->part(step->data, rest.from, rest.t, rest.rest, step->end, true)) {
+            return GM_EVENTS_FAILED;
+        }
+        find_values(&rest, rest.t, rest.from, rest.at_begin);
+        find_values(&rest, end, step->end, rest.at_end);
+    }
+    return outcome;
+}

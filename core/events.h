@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Events: changes of a motion where a function g of its state and the time passes 0; a stop is the change that
+   ends the run. */
+#ifndef GM_CORE_EVENTS_H
+#define GM_CORE_EVENTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/problem.h"
+
+/* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
+struct gm_events {
+    size_t count;
+    const char *const *names; /* [count]; "": none */
+    const bool *ends;         /* [count]: the event ends the run, and changes no state */
+    bool changes, ends_runs;  /* some event changes the state; some ends the run */
+    /* Writes g of all events for `looks` looks: component c of the k-th is look[c * looks + k], g of event i
+       values[i * looks + k]. NaN when out of memory. */
+    void (*values)(const struct gm_problem *problem, const double *look, size_t looks, double *values);
+    /* Returns true if the conditions of an event hold. */
+    bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
+    /* Writes the n components after an event. */
+    void (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
+    /* Returns dg/dt along the motion. */
+    double (*rate)(const struct gm_problem *problem, size_t event, const double *look);
+    /* v := S v, n numbers, for a small error v of the state before the event,
+           S = DR + (f+ - DR f- - dR/dt) grad g' / (grad g . f- + dg/dt)
+       with the change y+ = R(y-, t) and the fields f- and f+ before and after it. Returns false where the motion
+       only touches g = 0. M. A. Aizerman & F. R. Gantmacher, Quart. J. Mech. Appl. Math. 11 (1958) 225. */
+    bool (*carry)(const struct gm_problem *problem, size_t event, const double *before, const double *after,
+                  double *v);
+    /* Conserved quantities, whose jumps are added up; the last is the energy, if there is one. */
+    size_t quantities;
+    bool has_energy;
+    void (*conserved)(const struct gm_problem *problem, const double *look, double *values);
+};
+
+/* A part of a step that ends with an event. */
+struct gm_event_part {
+    size_t event;
+    const double *begin, *before, *after; /* looks: where the part begins, before and after the change */
+};
+/* Sees every event, in order. */
+struct gm_event_witness {
+    void (*see)(void *data, const struct gm_event_part *part);
+    void *data;
+};
+
+/* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not
+   known) and how often it happened, the jumps of the quantities, the time of the last event, and the number of
+   successive intervals that were too short. */
+size_t gm_events_memory(const struct gm_problem *problem);
+/* Clears counts and jumps. */
+void gm_events_clear(const struct gm_problem *problem, double *memory);
+/* Begins the waiting of all events at this state of the last member; counts and jumps stay. `backwards`: the time
+   falls. */
+void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, const double *y,
+                   double *memory, double *scratch);
+/* The number of times that an event happened; all of them for event `count`. */
+double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
+/* The time of the last event, after one has happened. */
+double gm_events_last(const struct gm_problem *problem, const double *memory);
+/* The sum of the jumps of a quantity. */
+double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
+/* Returns true if some g of `looks` looks has another sign than its event waits with, or waits with none. */
+bool gm_events_are_near(const struct gm_problem *problem, const double *memory, bool ends,
+                        const double *values, size_t looks);
+
+/* A step that is made in parts if events happen in it. */
+struct gm_event_step {
+    const struct gm_problem *problem;
+    double t, dt;
+    bool first;               /* of the run: a start on g = 0, up to round-off, does not pass it */
+    bool ends;                /* events that end the run do so */
+    size_t size, state;       /* numbers of a state with its carry, and without */
+    const double *begin;      /* the state before */
+    double *end;              /* the state after the whole step; then the one after the events */
+    double *memory, *scratch; /* scratch: gm_events_scratch */
+    /* Writes the state after a part of a step, of length dt from `from` at t. `counted` if it is one that the
+       run takes. Returns false if it fails. NULL: steps cannot be made in parts. */
+    bool (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
+    void *data;
+    struct gm_event_witness witness;
+    double reached; /* the time of the end */
+};
+enum gm_event_outcome {
+    GM_EVENTS_NONE,
+    GM_EVENTS_HAPPENED,
+    GM_EVENTS_ENDED,
+    GM_EVENTS_FAILED,
+    GM_EVENTS_MANY
+};
+
+size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
+/* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
+   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there. */
+enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
+
+/* The zero of a function along a step, from `low` to 1, between values of different sign there: the place just
+   beyond it, to 2e-16. NaN if a value is NaN. T. R. Chandrupatla, Adv. Eng. Software 28 (1997) 145: inverse
+   quadratic interpolation if it is safe, else bisection. */
+double gm_zero_beyond(double (*value)(void *data, double s), void *data, double low, double at_low,
+                      double at_end);
+
+#endif

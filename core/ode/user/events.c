@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The events of a user-defined system, by tapes of its components and the time. */
+#include "core/events.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/user/data.h"
+
+/* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
+   components and the time. */
+static void values(const struct gm_problem *problem, const double *look, size_t looks, double *g)
+{
+    gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
+}
+
+static const struct gm_user_event *event_of(const struct gm_problem *problem, size_t event)
+{
+    return &gm_user_data_of(problem)->model->events[event];
+}
+
+/* Writes the conditions and the new values; NULL when out of memory, which is noted. The caller frees. */
+static double *outcome_of(const struct gm_problem *problem, size_t event, const double *look)
+{
+    struct gm_late_tape *tape = &gm_user_data_of(problem)->changes[event];
+    double *outcome = malloc((tape->count + 1) * sizeof *outcome);
+    if (outcome && tape->count > 0) {
+        gm_late_tape_values(tape, look, outcome, 1);
+    }
+    return outcome;
+}
+
+static bool happens(const struct gm_problem *problem, size_t event, const double *look)
+{
+    double *outcome = outcome_of(problem, event, look);
+    bool all = outcome != NULL;
+    for (size_t i = 0; all && i < event_of(problem, event)->conditions; i++) {
+        all = outcome[i] > 0;
+    }
+    free(outcome);
+    return all;
+}
+
+/* The slopes of g, and of the new values, along a vector of components and the time, and the sum of the magnitudes of
+   the terms of the first. */
+static void slopes_along(const struct gm_problem *problem, size_t event, const double *slopes,
+                         const double *v, double *along, double *size)
+{
+    const struct gm_user_event *formulas = event_of(problem, event);
+    *size = 0;
+    memset(along, 0, (1 + formulas->changed) * sizeof *along);
+    for (size_t i = 0; i < formulas->slopes.count; i++) {
+        const struct gm_sparse_entry *entry = &formulas->slopes.entries[i];
+        const double term = slopes[i] * v[entry->column];
+        along[entry->row] += term;
+        *size += entry->row == 0 ? fabs(term) : 0;
+    }
+}
+
+/* Writes the rates of all components, and 1 for the time. */
+static void field_at(const struct gm_problem *problem, const double *look, double *rates)
+{
+    gm_field(problem, look, rates, 1);
+    rates[gm_user_data_of(problem)->model->system->n] = 1;
+}
+
+/* The parts of S. */
+struct saltation {
+    double *slopes, *before, *after,
+        *v;                        /* slopes of an event; f-, f+ and an error, of components and the time */
+    double *along_rates, *along_v; /* slopes_along f- and the error */
+    double *memory;
+};
+
+static bool open_saltation(const struct gm_problem *problem, size_t event, struct saltation *saltation)
+{
+    const struct gm_user_event *formulas = event_of(problem, event);
+    const size_t width = problem->n + 1, rows = 1 + formulas->changed;
+    double *next = saltation->memory =
+        malloc((formulas->slopes.count + 3 * width + 2 * rows) * sizeof *saltation->memory);
+    saltation->slopes = next;
+    saltation->before = next ? next + formulas->slopes.count : NULL;
+    saltation->after = next ? saltation->before + width : NULL;
+    saltation->v = next ? saltation->after + width : NULL;
+    saltation->along_rates = next ? saltation->v + width : NULL;
+    saltation->along_v = next ? saltation->along_rates + rows : NULL;
+    return next != NULL;
+}
+
+static double rate(const struct gm_problem *problem, size_t event, const double *look)
+{
+    struct saltation saltation;
+    double sum = NAN, size;
+    if (open_saltation(problem, event, &saltation)) {
+        gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], look, saltation.slopes, 1);
+        field_at(problem, look, saltation.before);
+        slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
+        sum = saltation.along_rates[0];
+    }
+    free(saltation.memory);
+    return sum;
+}
+
+/* to := S from, for an error, or with `of_state` for every tangent that the state holds. Returns false where the motion
+   only touches g = 0, or when out of memory. */
+static bool carry_all(const struct gm_problem *problem, size_t event, const double *before,
+                      const double *after, const double *from, double *to, bool of_state)
+{
+    const struct gm_user_event *formulas = event_of(problem, event);
+    const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
+    const size_t vectors = of_state ? system->tangents : 1,
+                 motion = of_state ? gm_system_motion(system) : system->n;
+    struct saltation saltation;
+    double size;
+    if (!open_saltation(problem, event, &saltation)) {
+        return false;
+    }
+    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation.slopes, 1);
+    field_at(problem, before, saltation.before);
+    field_at(problem, after, saltation.after);
+    slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
+    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * size;
+    for (size_t k = 1; k <= vectors && passes; k++) {
+        double *v = saltation.v, unused;
+        memset(v, 0, (problem->n + 1) * sizeof *v);
+        for (size_t c = 0; c < motion; c++) {
+            const size_t place = of_state ? gm_system_component(system, c, k) : c;
+            v[of_state ? gm_system_component(system, c, 0) : c] = from[place];
+        }
+        v[system->n] = !of_state && problem->n > system->n ? from[system->n] : 0;
+        slopes_along(problem, event, saltation.slopes, v, saltation.along_v, &unused);
+        const double late = saltation.along_v[0] / saltation.along_rates[0];
+        for (size_t c = 0, row = 0; c < system->n; c++) {
+            const bool changes = row < formulas->changed && formulas->components[row] == c;
+            row += changes;
+            v[c] = changes ? saltation.along_v[row] + (saltation.after[c] - saltation.along_rates[row]) * late
+                           : v[c] + (saltation.after[c] - saltation.before[c]) * late;
+        }
+        for (size_t c = 0; c < motion; c++) {
+            const size_t place = of_state ? gm_system_component(system, c, k) : c;
+            to[place] = v[of_state ? gm_system_component(system, c, 0) : c];
+        }
+    }
+    free(saltation.memory);
+    return passes;
+}
+
+static bool carry(const struct gm_problem *problem, size_t event, const double *before, const double *after,
+                  double *v)
+{
+    return gm_user_data_of(problem)->model->system->tangents == 0 &&
+           carry_all(problem, event, before, after, v, v, false);
+}
+
+/* Tangents among the components are carried; NaN where the motion only touches g = 0. */
+static void change(const struct gm_problem *problem, size_t event, const double *look, double *y)
+{
+    const struct gm_user_event *formulas = event_of(problem, event);
+    const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
+    double *outcome = outcome_of(problem, event, look);
+    memcpy(y, look, problem->n * sizeof *y);
+    for (size_t i = 0; i < formulas->changed; i++) {
+        y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
+    }
+    free(outcome);
+    double *after = system->tangents > 0 ? malloc((problem->n + 1) * sizeof *after) : NULL;
+    if (after) {
+        memcpy(after, y, problem->n * sizeof *y);
+        after[problem->n] = look[problem->n];
+    }
+    if (system->tangents > 0 && !(after && carry_all(problem, event, look, after, look, y, true))) {
+        for (size_t c = 0; c < gm_system_motion(system); c++) {
+            y[gm_system_component(system, c, 1)] = NAN;
+        }
+    }
+    free(after);
+}
+
+static void conserved(const struct gm_problem *problem, const double *look, double *quantities)
+{
+    const struct gm_user_data *self = gm_user_data_of(problem);
+    const size_t formulas = self->tapes[GM_USER_BOOKED].count;
+    if (formulas > 0) {
+        gm_user_values(problem, GM_USER_BOOKED, look, quantities, 1);
+    }
+    if (formulas < self->events.quantities) {
+        quantities[formulas] = gm_energy(problem, look);
+    }
+}
+
+void gm_user_events_open(struct gm_problem *problem)
+{
+    struct gm_user_data *self = gm_user_data_of(problem);
+    const struct gm_user_model *model = self->model;
+    const struct gm_user_system *system = model->system;
+    const size_t count = model->event_count, inputs = system->n + 1;
+    if (count == 0) {
+        return;
+    }
+    const char **names = gm_arena_take(self->arena, count, sizeof *names);
+    bool *ends = gm_arena_take(self->arena, count, sizeof *ends);
+    gm_node_id *booked = gm_arena_take(self->arena, system->item_count + 1, sizeof *booked);
+    size_t quantities = 0;
+    self->changes = gm_arena_take(self->arena, count, sizeof *self->changes);
+    self->event_slopes = gm_arena_take(self->arena, count, sizeof *self->event_slopes);
+    self->events = (struct gm_events){.count = count,
+                                      .names = names,
+                                      .ends = ends,
+                                      .values = values,
+                                      .happens = happens,
+                                      .change = change,
+                                      .rate = rate,
+                                      .carry = carry,
+                                      .conserved = conserved};
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_user_event *event = &model->events[i];
+        names[i] = event->item->name;
+        ends[i] = event->item->ends;
+        self->events.ends_runs |= ends[i];
+        self->events.changes |= !ends[i];
+        gm_user_compile(self, &self->changes[i], event->nodes, event->conditions + event->changed, inputs);
+        gm_user_compile(self, &self->event_slopes[i], event->slope_nodes, event->slopes.count, inputs);
+    }
+    for (size_t i = 0; i < system->item_count && self->events.changes; i++) {
+        const gm_node_id node = gm_system_conserved(system, &system->items[i]);
+        if (node != GM_NO_NODE) {
+            booked[quantities++] = node;
+        }
+    }
+    const bool formula = system->kind == GM_CANONICAL || system->kind == GM_POISSON;
+    self->events.has_energy =
+        self->events.changes && (formula || (system->kind == GM_LAGRANGIAN && self->ode.hamiltonian));
+    if (self->events.has_energy && formula) {
+        booked[quantities] = system->energy;
+    }
+    self->events.quantities = quantities + self->events.has_energy;
+    gm_user_compile(self, &self->tapes[GM_USER_SURFACES], model->surfaces, count, inputs);
+    gm_user_compile(self, &self->tapes[GM_USER_BOOKED], booked,
+                    quantities + (self->events.has_energy && formula), inputs);
+    problem->events = &self->events;
+    problem->exact = self->events.changes ? NULL : problem->exact;
+}
