@@ -23,7 +23,7 @@ enum gm_command {
 #include "app/commands/commands.def"
 #undef GM_COMMAND
     /* the commands that draw a measurement */
-    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
+    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_ORBIT | GM_CERTIFY,
     /* the commands that paint pixels */
     GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };

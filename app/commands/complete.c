@@ -104,6 +104,9 @@ static void offer_observables(const struct stem *stem, const struct gm_scene *sc
     for (size_t i = 0; scene && (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
         char title[GM_MESSAGE];
         offer(stem, observable->key, gm_observable_title(observable, title, sizeof title));
+        if (observable->group && !gm_scene_observable_at(scene, i + 1)) {
+            offer(stem, observable->group, "all Lyapunov exponents");
+        }
     }
 }
 

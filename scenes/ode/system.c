@@ -657,11 +657,12 @@ static void make(struct gm_arena *arena, void *data)
     gm_system_check_exact(system_scene, &making->problem);
     make_schemes(system_scene, &making->problem);
     gm_system_make_studies(system_scene, &making->problem, radian_time);
-    gm_arena_drop(arena, &making->problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
-    system_scene->scene.asked = gm_ode_asked + skipped;
-    system_scene->scene.asked_count = GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
-                                      (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0);
+    gm_ode_ask(arena, &system_scene->scene, gm_ode_asked + skipped,
+               GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
+                   (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0),
+               making->problem.n);
+    gm_arena_drop(arena, &making->problem);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
     for (size_t i = 0; i < system->choices.count; i++) {
