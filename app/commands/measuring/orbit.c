@@ -81,7 +81,8 @@ static void check_lane(const struct work *work)
                       "%s does not fit %s; scheme= names another", scheme->name, work->lane->scene->name);
     gm_command_end_if(
         options, strcmp(gm_tangent_word(scheme), "none") == 0 || scheme->family->adaptive, GM_EXIT_USAGE,
-        "%s chooses its steps or hides its state: its map has no derivative; take gauss8", scheme->name);
+        "the step size of %s varies or its state is hidden, so its map has no derivative; take gauss8",
+        scheme->name);
 }
 
 /* Sets the period and the steps, before they are refined. */

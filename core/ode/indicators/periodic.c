@@ -109,7 +109,7 @@ static void leave_out(double *matrix, const double *direction, size_t n)
     }
 }
 
-/* Fills the matrix and the right side, and solves for the change. Returns false if there is none. */
+/* Fills the matrix and the right side, and solves for the change. Returns false if that fails. */
 static bool solve(struct search *search)
 {
     const struct gm_periodic *orbit = search->orbit;

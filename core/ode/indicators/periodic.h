@@ -39,7 +39,7 @@ struct gm_periodic {
 };
 
 /* Returns the time of the first return to the plane through y normal to f(y), in the direction of f and within half of
-   the largest distance from y so far, with steps of dt; NAN if there is none in `steps` steps. */
+   the largest distance from y so far, with steps of dt; NAN if `steps` steps have none. */
 double gm_first_return(const struct gm_periodic *orbit, double dt, int64_t steps);
 
 /* Finds the orbit; returns false when out of memory. */

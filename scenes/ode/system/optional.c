@@ -337,7 +337,7 @@ static double volume_error(const struct gm_view *view)
     return expm1(values.log_volume - values.divergence);
 }
 
-/* Writes the Lyapunov exponents in descending order, and returns their number; 0: there are none. */
+/* Writes the Lyapunov exponents in descending order, and returns their number; 0: not known. */
 static size_t exponents_of(const struct gm_view *view, double exponents[GM_NEWTON_LARGEST])
 {
     const struct gm_growth *growth = followed_to(view, GM_WORKED_VOLUME);
