@@ -104,6 +104,10 @@ const struct gm_option gm_option_rows[] = {
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv",
      "write the rows to FILE.csv; the same command resumes"},
     {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one per core)"},
+    {"--values", TEXT, GM_SWEEP, AT(values), "NAME:K",
+     "rows and a picture of the last K values of a component or an observable"},
+    {"--at", TEXT, GM_SWEEP, AT(place), "step|section|maximum",
+     "the places of --values (section, if there is one; a map of dt = 1: step)"},
     {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS",
      "recompute the rows with this status, or with a warning"},
     {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)(GM_CERTIFY | GM_ORBIT)), AT(yes), "",
@@ -437,7 +441,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
         {"--list", "the first only lists steps", "--movie --out "},
         {"--join", "the first makes no run", "--table --shard --retry "},
         {"--region", "a region has no error", "--judge "},
-        {"--join", "the tables have the columns that they have", "--measure "},
+        {"--join", "the tables have the columns that they have", "--measure --values --at "},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {
         const struct gm_option *one = gm_option_find(pairs[i].one, command);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Lyapunov spectra and periodic orbits against numbers that are known: orbits.sh PROGRAM
+# Lyapunov spectra, periodic orbits and orbit diagrams against numbers that are known: orbits.sh PROGRAM
 set -u
 . "$(dirname "$0")/answers.sh"
 
@@ -130,6 +130,68 @@ refused 1 "not a .system file" orbit ./vdp.system --save cycle.npz
 refused 2 "does not return" orbit system 'rate=x=-x' x=1
 refused 1 "orbit does not follow burgers" orbit burgers
 [ ! -e cycle.npz ] || fail "a refused command wrote a file"
+
+# ---- many values a run ----
+
+# the logistic map: its cycles of 2 and 4, which solve polynomials (R. M. May, Nature 261 (1976) 459), and its window of 3
+logistic='rate=x = r*x*(1 - x) - x'
+cat >tree.py <<'END'
+import csv, sys
+rows = list(csv.DictReader(open("tree.csv")))
+assert len(rows) == 36 and [int(row["index"]) for row in rows] == 3 * list(range(12))
+assert open("tree.csv").readline().endswith(",seconds,index,t,x\n")
+assert float(rows[11]["t"]) == 2000
+cycles = [[float(row["x"]) for row in rows[12 * k:12 * k + 12]] for k in range(3)]
+for cycle, known in zip(cycles, [[.5130445095, .7994554905], [.3828196831, .5008842103, .8269407066, .8749972636]]):
+    assert len({round(x, 9) for x in cycle}) == len(known) and all(min(abs(x - y) for y in known) < 1e-9 for x in cycle), cycle
+assert len({round(x, 9) for x in cycles[2]}) == 3
+END
+# tree OPTION...: the table of three runs with twelve values each
+tree() {
+    status 0 sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:12 "$@"
+}
+tree --table tree.csv
+python3 tree.py || fail "the cycles of the logistic map: $(head -3 tree.csv)"
+# resumed after it was cut within a run or within a row, made of shards, and made again: the same values
+cp tree.csv whole.csv
+for lines in 1 14 20 25 30; do
+    head -n "$lines" whole.csv >tree.csv
+    [ "$lines" = 20 ] && printf 'system-' >>tree.csv
+    tree --table tree.csv
+    [ "$(wc -l <tree.csv)" = 37 ] && python3 tree.py || fail "a table that was cut after line $lines"
+done
+tree --table shards.csv --shard 1/2
+tree --table shards.csv --shard 2/2
+status 0 sweep --join shards.csv
+mv shards.csv tree.csv
+python3 tree.py || fail "the table of two shards"
+tree --table tree.csv --retry ok
+python3 tree.py || fail "a table whose runs were made again"
+# at a section and at maxima: x = cos(w t), v = -sin(w t) passes v = 0 upwards at x = -1; x has its maxima at whole turns
+printf 'rate: x = w*v, v = -w*x\nparameter: w = 1\nstart: x = 1, v = 0\nsection: v = 0, x < 0; x, v\ndt: 0.01\nuntil: 40\n' >turn.system
+for place in section maximum; do
+    status 0 sweep ./turn.system w=1,2 scheme=gauss8 --values x:5 --at $place --measure escape_time
+    python3 - out "$place" <<'END' || fail "values at each $place: $(head -3 out)"
+import csv, math, sys
+rows = list(csv.DictReader(open(sys.argv[1])))
+assert len(rows) == 10 and "escape_time" in rows[0]
+for row in rows:
+    x, turns = float(row["x"]), float(row["t"]) * float(row["w"]) / (2 * math.pi)
+    at, most = (.5, 1e-11) if sys.argv[2] == "section" else (0, 2e-8)
+    assert abs(x - (-1 if at else 1)) < most and abs(turns - at - round(turns - at)) < 1e-5, row
+END
+done
+# a run that fails has one row; a second key makes panels
+status 0 sweep system "$logistic" r=3.2,5 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:3
+[ "$(grep -c ',ok,' out)" = 3 ] && grep -q ',blow-up,.*,,,$' out || fail "a run that fails: $(cat out)"
+status 0 sweep system "$logistic" r=3..4:30 x=.3,.5 scheme=explicit-euler dt=1 steps=300 --values x:20 -o panels.svg
+status 0 again panels.svg
+refused 1 "give a key a range" sweep lorenz --values x:10
+refused 1 "is not NAME:K" sweep lorenz rho=1,2 --values x
+refused 1 "did you mean z" sweep lorenz rho=1,2 --values zz:3
+refused 1 "has no section" sweep system "$logistic" r=3,4 x=.5 scheme=explicit-euler dt=1 --values x:3 --at section
+refused 1 "is none of: step, section, maximum" sweep lorenz rho=1,2 --values x:3 --at nowhere
+refused 1 "place of --values" sweep lorenz rho=1,2 --at step
 
 [ "$failures" = 0 ] && echo "orbits: all passed"
 exit "$failures"
