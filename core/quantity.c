@@ -2,6 +2,7 @@
 /* The named arrays of a state, from its kind. */
 #include "core/quantity.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "core/kind.h"
@@ -41,6 +42,21 @@ size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *q
         }
     }
     return count;
+}
+
+void gm_component_name(const struct gm_run *run, size_t component, char *name, size_t size)
+{
+    struct gm_quantity quantities[GM_QUANTITIES];
+    const size_t count = gm_quantities(run, quantities);
+    snprintf(name, size, "y[%zu]", component + 1);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_quantity *quantity = &quantities[i];
+        const size_t number = component - quantity->first;
+        if (!quantity->derive && component >= quantity->first && number < quantity->count) {
+            snprintf(name, size, quantity->support == GM_ON_RUN ? "%s" : "%s[%zu]", quantity->name,
+                     number + 1);
+        }
+    }
 }
 
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity)

@@ -51,6 +51,9 @@ size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 /* The quantities without a system's time, for rows that have their own. Returns their number. */
 size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
 
+/* Writes the name of a component of a run's state, "q1", or "x[3]" of a list. */
+void gm_component_name(const struct gm_run *run, size_t component, char *name, size_t size);
+
 /* The number of values of a quantity, over all members. */
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity);
 

@@ -23,7 +23,7 @@ enum gm_command {
 #include "app/commands/commands.def"
 #undef GM_COMMAND
     /* the commands that draw a measurement */
-    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
+    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_ORBIT | GM_CERTIFY,
     /* the commands that paint pixels */
     GM_PAINTS = GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR | GM_AGAIN | GM_TUI | GM_TERMINAL,
 };
@@ -39,8 +39,8 @@ struct gm_options {
     enum gm_engine engine; /* auto, if it is not given */
     enum gm_format format; /* the pictures' format: png, unless the two options before give another one */
     const char *name;      /* the name of a chart's files, set only by `again`; NULL: the command's */
-    const char *table, *retry, *join; /* options of sweep */
-    struct gm_pace pace;              /* frames; also --every of run, --fps of tour and --shard of sweep */
+    const char *table, *retry, *join, *values, *place; /* options of sweep; the last is --at */
+    struct gm_pace pace; /* frames; also --every of run, --fps of tour and --shard of sweep */
     long jobs, degree;
     double interval;               /* NAN: not given */
     struct gm_appearance look;     /* 1280 x 720, light */

@@ -104,6 +104,9 @@ static void offer_observables(const struct stem *stem, const struct gm_scene *sc
     for (size_t i = 0; scene && (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
         char title[GM_MESSAGE];
         offer(stem, observable->key, gm_observable_title(observable, title, sizeof title));
+        if (observable->group && !gm_scene_observable_at(scene, i + 1)) {
+            offer(stem, observable->group, "all Lyapunov exponents");
+        }
     }
 }
 
@@ -156,7 +159,8 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         offer_schemes(stem, NULL);
     } else if (strcmp(option->name, "--on") == 0) {
         offer_scenes(stem);
-    } else if (strcmp(option->name, "--format") == 0) {
+    } else if (strcmp(option->name, "--format") == 0 ||
+               (strcmp(option->name, "--at") == 0 && option->commands & GM_SWEEP)) {
         offer_named(stem, option->value);
     } else if (strcmp(option->name, "--graphics") == 0 || strcmp(option->name, "--colours") == 0) {
         offer_named(stem, option->help);

@@ -43,8 +43,8 @@ enum kind {
 
 const struct gm_option gm_option_rows[] = {
     {"--json", FLAG,
-     GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_BACKWARD | GM_WORK_PRECISION | GM_FIGURES, AT(json),
-     "", "one JSON object per line"},
+     GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_BACKWARD | GM_WORK_PRECISION | GM_ORBIT | GM_FIGURES,
+     AT(json), "", "one JSON object per line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
@@ -61,6 +61,8 @@ const struct gm_option gm_option_rows[] = {
     {"--interval", RATE, GM_RUN, AT(interval), "T",
      "a row at the steps next to multiples of T in model time"},
     {"--save", TEXT, GM_RUN, AT(save), "FILE", "write the states to FILE: .npz, .csv, .pvd or .xdmf"},
+    {"--save", TEXT, GM_ORBIT, AT(save), "FILE.system",
+     "write the system with the start and the period of the orbit"},
     {"--save-tracks", TEXT, GM_RUN, AT(tracks), "FILE", "write trails, sections ... to FILE.npz"},
     {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE",
      "write the state to FILE, from which --continue resumes"},
@@ -102,9 +104,13 @@ const struct gm_option gm_option_rows[] = {
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv",
      "write the rows to FILE.csv; the same command resumes"},
     {"--jobs", WHOLE, GM_SWEEP | GM_STABILITY | GM_BACKWARD, AT(jobs), "N", "N runs at once (one per core)"},
+    {"--values", TEXT, GM_SWEEP, AT(values), "NAME:K",
+     "rows and a picture of the last K values of a component or an observable"},
+    {"--at", TEXT, GM_SWEEP, AT(place), "step|section|maximum",
+     "the places of --values (section, if there is one; a map of dt = 1: step)"},
     {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS",
      "recompute the rows with this status, or with a warning"},
-    {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY), AT(yes), "",
+    {"--yes", FLAG, GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)(GM_CERTIFY | GM_ORBIT)), AT(yes), "",
      "also with more than a million runs or 1e11 steps"},
     {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv", "join the shards' tables, and list the missing rows"},
     {"--shard", SHARD, GM_RENDER, AT(pace.shard), "I/N", "only the I-th of N shards of the frames"},
@@ -435,7 +441,7 @@ static bool check_pairs(const struct gm_options *options, enum gm_command comman
         {"--list", "the first only lists steps", "--movie --out "},
         {"--join", "the first makes no run", "--table --shard --retry "},
         {"--region", "a region has no error", "--judge "},
-        {"--join", "the tables have the columns that they have", "--measure "},
+        {"--join", "the tables have the columns that they have", "--measure --values --at "},
     };
     for (size_t i = 0; i < GM_COUNT(pairs); i++) {
         const struct gm_option *one = gm_option_find(pairs[i].one, command);

@@ -32,6 +32,9 @@ void gm_terminal_listener_clear(void);
    storage. The table has this order: a row's position is its key, and its cells up to `status`, in full
    precision, must be those of the run with this number. */
 
+/* The places of a run that have a value (--at). */
+enum gm_sweep_place { GM_AT_STEP, GM_AT_SECTION, GM_AT_MAXIMUM };
+
 struct gm_sweep {
     struct gm_arena *arena; /* owns the texts */
     const struct gm_scene *scene;
@@ -42,12 +45,40 @@ struct gm_sweep {
     size_t count;            /* runs */
     size_t shard, shards;    /* the shard to make: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
     struct gm_chosen chosen; /* observables, one column each */
+    /* --values: a run has a row for each of its last `kept` values, else one row */
+    const char *values, *at; /* "x:100", and the word of `place`; NULL: one row */
+    const char *name;        /* "x" */
+    size_t number, kept;     /* a component or, after these, an observable */
+    enum gm_sweep_place place;
 };
 
-/* Reads a scene and its key=value, and a list of observables, or NULL for all. Called in a body of the arena, which
-   closes the sweep; leaves it with a sentence and an exit status. */
+/* The options of a sweep; NULL: not given. */
+struct gm_sweep_options {
+    const char *measure, *values, *at;
+};
+
+/* Reads a scene and its key=value, and the list of observables, by default all, or none with values. Called in a body
+   of the arena, which closes the sweep; leaves it with a sentence and an exit status. */
 void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
-                   const char *measure, int *status);
+                   const struct gm_sweep_options *options, int *status);
+
+/* The values of a run, of which the last are kept in a ring: pairs of t and value. */
+struct gm_sweep_series {
+    double *pairs; /* malloc'ed */
+    size_t count;  /* all of them */
+};
+
+struct gm_drive;
+
+/* Reads --values and --at for runs such as the one of a lane; leaves the body of the sweep's arena with a sentence. */
+void gm_sweep_read_values(struct gm_sweep *sweep, const char *values, const char *at,
+                          const struct gm_lane *lane);
+/* Makes a run, and takes its values. Returns false when out of memory; the caller frees the pairs. */
+bool gm_sweep_follow(const struct gm_sweep *sweep, struct gm_drive *drive, int64_t steps,
+                     struct gm_sweep_series *series);
+
+/* The number of the cell with the index of a value, for gm_csv_lines; 0: a run has one row. */
+size_t gm_sweep_index_cell(const struct gm_sweep *sweep);
 
 /* The number of runs of the shard, and the number of its k-th run. */
 size_t gm_sweep_shard_runs(const struct gm_sweep *sweep);
@@ -59,7 +90,7 @@ size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line
 /* The arguments of `geomint run` for this run. malloc'ed. Returns NULL when out of memory. */
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 
-/* A run's row, malloc'ed; NULL if it was interrupted, or when out of memory. */
+/* A run's row, or its rows, malloc'ed; NULL if it was interrupted, or when out of memory. */
 struct gm_sweep_row {
     char *text;
     bool ok;

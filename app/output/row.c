@@ -163,11 +163,51 @@ const char *gm_csv_cell(const char *row, size_t index)
     return row;
 }
 
+/* Appends the lines that belong to the last one, whose length it is. Returns false when out of memory. */
+static bool take_group(struct gm_csv_lines *lines, size_t length)
+{
+    for (ssize_t more; (more = getline(&lines->ahead, &lines->ahead_room, lines->stream)) > 0;) {
+        if (lines->ahead[more - 1] != '\n') {
+            return true; /* it ends the table, as if it were not there */
+        }
+        if (!(strtod(gm_csv_cell(lines->ahead, lines->group), NULL) > 0)) {
+            lines->is_ahead = true;
+            return true;
+        }
+        const size_t whole = length + (size_t)more + 1;
+        char *longer = whole > lines->room ? realloc(lines->line, 2 * whole) : lines->line;
+        if (!longer) {
+            return false;
+        }
+        lines->room = whole > lines->room ? 2 * whole : lines->room;
+        lines->line = longer;
+        memcpy(longer + length, lines->ahead, (size_t)more + 1);
+        length += (size_t)more;
+    }
+    return true;
+}
+
+/* Reads a line, or takes the one that was read ahead. Returns its length; -1: none. */
+static ssize_t take_line(struct gm_csv_lines *lines)
+{
+    if (!lines->is_ahead) {
+        return lines->stream ? getline(&lines->line, &lines->room, lines->stream) : -1;
+    }
+    char *line = lines->ahead;
+    const size_t room = lines->ahead_room;
+    lines->ahead = lines->line;
+    lines->ahead_room = lines->room;
+    lines->line = line;
+    lines->room = room;
+    lines->is_ahead = false;
+    return (ssize_t)strlen(line);
+}
+
 const char *gm_csv_next(struct gm_csv_lines *lines)
 {
-    const ssize_t length = lines->stream ? getline(&lines->line, &lines->room, lines->stream) : -1;
+    const ssize_t length = take_line(lines);
     if (length > 0 && lines->line[length - 1] == '\n') {
-        return lines->line;
+        return lines->group == 0 || take_group(lines, (size_t)length) ? lines->line : NULL;
     }
     if (length <= 0 && lines->line) {
         lines->line[0] = '\0';
@@ -181,5 +221,6 @@ void gm_csv_close(struct gm_csv_lines *lines)
         fclose(lines->stream);
     }
     free(lines->line);
+    free(lines->ahead);
     *lines = (struct gm_csv_lines){0};
 }

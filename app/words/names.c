@@ -112,13 +112,31 @@ bool gm_row_is_offered(const struct gm_parameter *row)
     return row->type != GM_BOOLEAN || !row->admits || row->admits(row, "yes", sentence);
 }
 
+/* Adds the observables with this key, or with this group of keys. Returns false with a sentence. */
+static bool add_chosen(struct gm_chosen *chosen, const struct gm_scene *scene, const char *key, char *message)
+{
+    const struct gm_observable *observable;
+    bool found = false;
+    for (size_t i = 0; (observable = gm_scene_observable_at(scene, i)); i++) {
+        if (strcmp(observable->key, key) != 0 &&
+            !(observable->group && strcmp(observable->group, key) == 0)) {
+            continue;
+        }
+        for (size_t k = 0; k < chosen->count; k++) {
+            if (chosen->numbers[k] == i) {
+                return gm_refuse(message, "%.60s is named twice", observable->key);
+            }
+        }
+        chosen->numbers[chosen->count++] = i;
+        found = true;
+    }
+    return found || gm_chosen_refuse(scene, key, message);
+}
+
 bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, const char *keys, char *message)
 {
-    size_t most = scene->observable_count + 1;
-    for (const char *at = keys; at && *at; at++) {
-        most += *at == ',';
-    }
-    *chosen = (struct gm_chosen){.numbers = calloc(most, sizeof *chosen->numbers)};
+    const size_t most = scene->observable_count + scene->asked_count;
+    *chosen = (struct gm_chosen){.numbers = calloc(most + 1, sizeof *chosen->numbers)};
     if (!chosen->numbers) {
         return gm_refuse(message, "not enough memory");
     }
@@ -128,16 +146,9 @@ bool gm_chosen_open(struct gm_chosen *chosen, const struct gm_scene *scene, cons
     for (const char *at = keys; at && *(at += strspn(at, ",")); at += strcspn(at, ",")) {
         char key[GM_TEXT_SIZE];
         snprintf(key, sizeof key, "%.*s", (int)strcspn(at, ","), at);
-        const int found = gm_scene_observable(scene, key);
-        if (found < 0) {
-            return gm_chosen_refuse(scene, key, message);
+        if (!add_chosen(chosen, scene, key, message)) {
+            return false;
         }
-        for (size_t i = 0; i < chosen->count; i++) {
-            if (chosen->numbers[i] == (size_t)found) {
-                return gm_refuse(message, "%.60s is named twice", key);
-            }
-        }
-        chosen->numbers[chosen->count++] = (size_t)found;
     }
     return true;
 }

@@ -4,6 +4,8 @@
 #ifndef GM_CORE_ODE_ODE_H
 #define GM_CORE_ODE_ODE_H
 
+#include <string.h>
+
 #include "core/expression/graph.h"
 #include "core/kind.h"
 
@@ -234,6 +236,13 @@ extern const struct gm_kind gm_kind_ode;
 static inline const struct gm_ode *gm_ode_of(const struct gm_problem *problem)
 {
     return problem->facets;
+}
+
+/* Returns true if the last component is the time: neighbouring orbits have the same. */
+static inline bool gm_has_time(const struct gm_problem *problem)
+{
+    const char *names = gm_ode_of(problem)->components, *last = names ? strrchr(names, ' ') : NULL;
+    return last && strcmp(last, " t") == 0;
 }
 
 /* The weight w of its Hamiltonian. */

@@ -69,10 +69,11 @@ struct gm_observable {
        reason, or NULL. */
     const char *missing;
     const char *(*why)(const struct gm_view *view);
-    bool of_members;  /* without further members it has no meaning, and is printed only on request */
-    double period;    /* period of an angle, which is printed unwrapped; 0: none */
-    bool recalls;     /* computed from the record of earlier steps */
-    bool logarithmic; /* drawn on a log axis */
+    bool of_members;   /* without further members it has no meaning, and is printed only on request */
+    double period;     /* period of an angle, which is printed unwrapped; 0: none */
+    bool recalls;      /* computed from the record of earlier steps */
+    bool logarithmic;  /* drawn on a log axis */
+    const char *group; /* a key that requests all observables that have it; NULL: none */
 };
 
 /* A bounded record of the past: an entry of `numbers` numbers per interval of model time; or, with `section`,
@@ -157,7 +158,7 @@ struct gm_choice {
 enum { GM_CHOICES = 4 };
 
 /* The greatest number of observables of a scene, with those on request. */
-enum { GM_MOST_OBSERVABLES = 128 };
+enum { GM_MOST_OBSERVABLES = 160 };
 
 struct gm_scene {
     const char *name, *title, *blurb, *watch;

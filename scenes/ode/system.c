@@ -18,6 +18,7 @@
 #include "core/linear/eigenvalues.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
+#include "core/ode/indicators/stiffness.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
@@ -36,6 +37,7 @@ enum { DT, UNTIL };
 enum {
     MOST_OBSERVED = 60,
     MOST_LINEARISED = 200,
+    STIFF_STEPS = 200,
     MOST_FOLLOWED = 32,
     CROSSINGS = 1 << 14,
     REMEMBERED = 256,
@@ -348,6 +350,26 @@ static double shortest_radian(const struct gm_system_lane *lane, int looks)
     return radian;
 }
 
+/* Returns true if the system at its defaults is stiff (core/ode/indicators/stiffness.h). */
+static bool is_stiff(const struct gm_system_lane *lane, double until)
+{
+    struct gm_problem problem;
+    char sentence[GM_MESSAGE];
+    if (lane->owner->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
+        return false;
+    }
+    double *values = gm_system_start_values(lane, NULL), *y = calloc(problem.n, sizeof *y);
+    if (values && y) {
+        memcpy(y, values, lane->owner->system.n * sizeof *y);
+    }
+    problem.m = 1;
+    const bool stiff = values && y && gm_stiffness_of(&problem, y, until).is_stiff;
+    free(values);
+    free(y);
+    gm_user_problem_close(&problem);
+    return stiff;
+}
+
 static double radian_time(const void *parameters)
 {
     return shortest_radian(parameters, 0);
@@ -482,7 +504,11 @@ static void make_timing(struct gm_system_scene *system_scene)
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
-    gm_written_timing(system_scene->arena, system, dt, until, system_scene->rows);
+    system_scene->is_stiff = !(numbers[0] > 0) && !(numbers[2] >= 0) && !system->texts[GM_WORD_SCHEMES] &&
+                             is_stiff(system_scene->initial, until);
+    gm_written_timing(system_scene->arena, system,
+                      system_scene->is_stiff ? gm_written_rounded(until / STIFF_STEPS) : dt, until,
+                      system_scene->rows);
 }
 
 /* Makes the sights of the state, and the one of the modified energy. */
@@ -546,8 +572,9 @@ static void make_tracks(struct gm_system_scene *system_scene)
 /* Chooses the schemes that the file names, or the best known ones that fit. */
 static void make_schemes(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
-    static const char *const usual[] = {"rattle2", "verlet",           "midpoint", "rk4",
-                                        "gauss4",  "symplectic-euler", "yoshida4"};
+    static const char *const usual[] = {"gsl-msbdf", "radau5", "rattle2",          "verlet",  "midpoint",
+                                        "rk4",       "gauss4", "symplectic-euler", "yoshida4"};
+    enum { STIFF = 2 }; /* the first are for stiff systems */
     const char *lacks = gm_user_model_lacks(&system_scene->model);
     if (lacks[0]) {
         gm_arena_refuse(system_scene->arena, "%s", lacks);
@@ -555,7 +582,7 @@ static void make_schemes(struct gm_system_scene *system_scene, const struct gm_p
     size_t count = gm_written_schemes(system_scene->arena, system_scene->system.texts[GM_WORD_SCHEMES],
                                       problem, system_scene->schemes);
     const bool named = count > 0;
-    for (size_t i = 0; i < GM_COUNT(usual) && !named; i++) {
+    for (size_t i = system_scene->is_stiff ? 0 : STIFF; i < GM_COUNT(usual) && !named; i++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(usual[i], problem);
         if (gm_scheme_fits(scheme, problem)) {
             system_scene->schemes[count++] = scheme->name;
@@ -668,11 +695,12 @@ static void make(struct gm_arena *arena, void *data)
     gm_system_check_exact(system_scene, &making->problem);
     make_schemes(system_scene, &making->problem);
     gm_system_make_studies(system_scene, &making->problem, radian_time);
-    gm_arena_drop(arena, &making->problem);
     const size_t skipped = system->kind == GM_RATES ? GM_MODIFIED_OBSERVABLES : 0;
-    system_scene->scene.asked = gm_ode_asked + skipped;
-    system_scene->scene.asked_count = GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
-                                      (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0);
+    gm_ode_ask(arena, &system_scene->scene, gm_ode_asked + skipped,
+               GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
+                   (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0),
+               making->problem.n);
+    gm_arena_drop(arena, &making->problem);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     system_scene->scene.draw_asked = gm_draw_modified;
     for (size_t i = 0; i < system->choices.count; i++) {

@@ -87,7 +87,7 @@ static double defect_of(const struct gm_problem *problem, const struct gm_scheme
     }
     bool good = gm_tangent_begin(tangent, v);
     for (int i = 0; good && i < STEPS; i++) {
-        good = gm_tangent_step(tangent, v);
+        good = gm_tangent_step(tangent, v, 1);
     }
     gm_tangent_close(tangent);
     gm_run_close(run);
@@ -231,7 +231,7 @@ static void steps_at_once(void **unused)
         whole += count == ALL;
         for (size_t step = 0; step < count; step++) {
             double square = 0;
-            assert_true(gm_tangent_step(tangents[1], v[1]));
+            assert_true(gm_tangent_step(tangents[1], v[1], 1));
             for (size_t c = 0; c < N; c++) {
                 square += v[1][c] * v[1][c];
             }
@@ -240,7 +240,7 @@ static void steps_at_once(void **unused)
             }
             assert_true(made[step].length == sqrt(square) && made[step].t == runs[1]->t);
         }
-        assert_true(count == ALL || !gm_tangent_step(tangents[1], v[1]));
+        assert_true(count == ALL || !gm_tangent_step(tangents[1], v[1], 1));
         assert_true(count < ALL || memcmp(v[0], v[1], sizeof v[0]) == 0);
         assert_int_equal(runs[0]->status, runs[1]->status);
         assert_int_equal(runs[0]->steps, runs[1]->steps);

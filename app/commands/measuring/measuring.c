@@ -21,7 +21,11 @@ static const char *command_line(const char *command, const struct gm_options *op
     struct gm_arena *arena = options->arena;
     const struct {
         const char *name, *value;
-    } rows[] = {{"--measure", options->measure}, {"--region", options->region}, {"--judge", options->judge}};
+    } rows[] = {{"--measure", options->measure},
+                {"--region", options->region},
+                {"--judge", options->judge},
+                {"--values", options->values},
+                {"--at", options->place}};
     struct gm_arguments *all = gm_arguments_in(arena);
     if (options->on) {
         gm_arguments_append(all, (char *[]){GM_ON, (char *)options->on}, 2);

@@ -108,6 +108,8 @@ static int paint(const struct gm_sweep *sweep, const struct gm_options *options,
     struct gm_options told = *options;
     told.arguments = *words;
     told.measure = sweep->measure;
+    told.values = sweep->values;
+    told.place = sweep->at;
     return gm_command_chart(
         &told, "sweep",
         &(struct gm_chart){.name = gm_arena_print(options->arena, "%.80s-sweep", sweep->scene->name),
@@ -176,7 +178,9 @@ int gm_command_sweep(const struct gm_options *options)
         return gm_finish(join(options, sweep));
     }
     check(options);
-    gm_sweep_open(options->arena, sweep, &options->arguments, options->measure, options->end);
+    gm_sweep_open(options->arena, sweep, &options->arguments,
+                  &(struct gm_sweep_options){options->measure, options->values, options->place},
+                  options->end);
     sweep->shard = options->pace.shards ? (size_t)options->pace.shard : 1;
     sweep->shards = options->pace.shards ? (size_t)options->pace.shards : 1;
     const char *path = options->table || is_drawn(options) ? path_of(options, sweep) : NULL;

@@ -19,11 +19,18 @@ enum {
     GRAPH_BINS = 1024, /* across */
     MAP_BINS = 256,    /* across, and up */
     MOST_PANELS = 9,
+    MOST_POINTS = 1 << 18, /* of many values a run; more are thinned */
 };
 
 struct bin {
     double sum;
     size_t runs;
+};
+
+/* Points of a line: every `every`-th of those that came. */
+struct dots {
+    double *points;
+    size_t count, came, every;
 };
 
 struct gm_sweep_chart {
@@ -33,15 +40,22 @@ struct gm_sweep_chart {
     size_t lines;              /* lines per observable: the combinations of all other words */
     size_t shown;              /* observables: the first of the sweep's */
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
+    struct dots *dots;         /* per line, of many values a run; else NULL */
     size_t failed;             /* runs, which are left out */
     size_t status;             /* the number of its cell in a row */
 };
 
+/* Returns true if a word is along an axis; of many values a run only the first key is. */
 static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
 {
     const struct gm_parameter *row = gm_word_parameter(sweep->scene, word->key);
     const bool number = gm_word_is_number(sweep->scene, word->key) && !(row && row->automatic);
-    return number && word->count > 1;
+    bool first = true;
+    for (const struct gm_word *before = sweep->words.list; sweep->values && before < word && first;
+         before++) {
+        first = !is_axis(sweep, before);
+    }
+    return number && word->count > 1 && first;
 }
 
 /* Plans the picture's axes and lines; returns false with a sentence if the sweep has none. */
@@ -59,11 +73,11 @@ static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, cha
         }
     }
     chart->key_count = axes;
-    chart->shown = sweep->measure || sweep->chosen.count < 1 ? sweep->chosen.count : 1;
+    chart->shown = sweep->values ? 1 : sweep->measure || sweep->chosen.count < 1 ? sweep->chosen.count : 1;
     if (chart->shown == 0) {
         return gm_refuse(message, "%s has no observable that a picture could show", sweep->scene->name);
     }
-    const size_t panels = chart->shown * (axes == 2 ? chart->lines : 1);
+    const size_t panels = chart->shown * (axes == 2 || sweep->values ? chart->lines : 1);
     if (axes < 1 || axes > 2 || (axes == 2 && sweep->words.zip)) {
         return gm_refuse(message,
                          "a picture is made of one key with several numbers, or of two, and not of %zu%s",
@@ -73,7 +87,7 @@ static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, cha
         return gm_refuse(message, "a picture has up to %d %s, and these are %zu", MOST_PANELS,
                          axes == 1 ? "graphs" : "maps", panels);
     }
-    if (axes == 1 && chart->lines > GM_LANE_COLOURS) {
+    if (axes == 1 && chart->lines > GM_LANE_COLOURS && !sweep->values) {
         return gm_refuse(message, "a picture has up to %d lines, and these are %zu", GM_LANE_COLOURS,
                          chart->lines);
     }
@@ -121,11 +135,54 @@ static struct bin *bins_of(const struct gm_sweep_chart *chart, size_t observable
     return &chart->cells[(observable * chart->lines + line) * chart->bins[0] * chart->bins[1]];
 }
 
+static size_t most_points(const struct gm_sweep_chart *chart)
+{
+    return MOST_POINTS / chart->lines;
+}
+
+static void add_dot(struct dots *dots, size_t most, double x, double y)
+{
+    if (dots->count == most) {
+        dots->count = 0;
+        for (size_t i = 0; i < most; i += 2) {
+            memmove(dots->points + 2 * dots->count++, dots->points + 2 * i, 2 * sizeof x);
+        }
+        dots->every *= 2;
+    }
+    if (dots->came++ % dots->every == 0) {
+        dots->points[2 * dots->count] = x;
+        dots->points[2 * dots->count++ + 1] = y;
+    }
+}
+
+/* Takes the rows of a run with many values. */
+static void take_values(struct gm_sweep_chart *chart, size_t run, const char *rows)
+{
+    char text[GM_TEXT_SIZE];
+    const struct gm_words *words = &chart->sweep->words;
+    const struct gm_word *word = &words->list[chart->keys[0]];
+    const size_t value = gm_sweep_index_cell(chart->sweep) + 2;
+    double x = NAN;
+    gm_number_parse(gm_word_value(word, gm_words_choice(words, chart->keys[0], run), text), &x);
+    for (const char *row = rows; *row; row = strchr(row, '\n') + 1) {
+        char *end = NULL;
+        const char *cell = gm_csv_cell(row, value);
+        const double y = strtod(cell, &end);
+        if (end != cell && isfinite(y)) {
+            add_dot(&chart->dots[line_of(chart, run)], most_points(chart), x, y);
+        }
+    }
+}
+
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
     enum { OBSERVABLES = 7 }; /* cells after the status: warning, t, steps, evaluations, solves, seconds */
     if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
+        return;
+    }
+    if (chart->dots) {
+        take_values(chart, run, row);
         return;
     }
     for (size_t i = 0; i < chart->shown; i++) {
@@ -149,6 +206,11 @@ struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct 
     for (const char *at = strstr(sweep->head, ",status,"); at > sweep->head; at--) {
         chart->status += *at == ',';
     }
+    chart->dots = sweep->values ? gm_arena_take(arena, chart->lines, sizeof *chart->dots) : NULL;
+    for (size_t line = 0; chart->dots && line < chart->lines; line++) {
+        chart->dots[line] = (struct dots){.every = 1};
+        chart->dots[line].points = gm_arena_take(arena, most_points(chart), 2 * sizeof(double));
+    }
     chart->cells = gm_arena_take(arena, chart->shown * chart->lines * chart->bins[0] * chart->bins[1],
                                  sizeof *chart->cells);
     return chart;
@@ -161,6 +223,7 @@ bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *m
         return gm_refuse(message, "%.360s could not be read: %s", path, strerror(errno));
     }
     gm_csv_next(&table);
+    table.group = gm_sweep_index_cell(chart->sweep);
     for (size_t run = 0; run < chart->sweep->count && gm_csv_next(&table); run++) {
         gm_sweep_chart_take(chart, run, table.line);
     }
@@ -335,6 +398,28 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
     }
 }
 
+/* The values of a line's runs as points over the key, which are darker where they lie closer. */
+static void draw_values(const struct gm_sweep_chart *chart, size_t line, struct gm_picture *picture)
+{
+    const struct dots *dots = &chart->dots[line];
+    struct gm_axis axes[] = {{.label = key_label(chart, 0, picture),
+                              .scale = is_logarithmic(chart, 0) ? GM_LOG : GM_LINEAR,
+                              .low = 1,
+                              .high = 0},
+                             {.label = chart->sweep->name, .low = 1, .high = 0}};
+    for (size_t other = 0; other < chart->lines; other++) { /* all panels have one scale */
+        for (size_t i = 0; i < 2 * chart->dots[other].count; i++) {
+            gm_range_add(&axes[i % 2].low, &axes[i % 2].high, chart->dots[other].points[i]);
+        }
+    }
+    gm_range_round(&axes[1].low, &axes[1].high, GM_LINEAR);
+    struct gm_panel *panel =
+        gm_chart_panel(picture, GM_PLACE_STATE, line_name(chart, line, picture), &axes[0], &axes[1]);
+    panel->note = dots->count == 0 ? "no run has a value" : "";
+    gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(0), .alpha = 0.35, .width = 1.3},
+                   dots->points, dots->count);
+}
+
 /* The corners of a map's cells, four for each, and its two triangles. */
 struct cells {
     double *points, *values;
@@ -468,8 +553,10 @@ void gm_sweep_chart_draw(const void *data, struct gm_picture *picture)
     const struct gm_sweep_chart *chart = data;
     const struct gm_sweep *sweep = chart->sweep;
     const size_t last = chart->key_count - 1;
-    picture->title = gm_picture_text(picture, "%s: %s over %s%s%s", sweep->scene->title,
-                                     chart->shown == 1 ? short_title(chart, 0, picture) : "what comes out",
+    const char *shown = sweep->values       ? sweep->name
+                        : chart->shown == 1 ? short_title(chart, 0, picture)
+                                            : "what comes out";
+    picture->title = gm_picture_text(picture, "%s: %s over %s%s%s", sweep->scene->title, shown,
                                      key_label(chart, 0, picture), last > 0 ? " and " : "",
                                      last > 0 ? key_label(chart, last, picture) : "");
     picture->subtitle = gm_picture_text(picture, "%zu run%s%s", sweep->count, gm_plural((double)sweep->count),
@@ -478,11 +565,18 @@ void gm_sweep_chart_draw(const void *data, struct gm_picture *picture)
                         (last > 0 && sweep->words.list[chart->keys[last]].count > chart->bins[last]);
     picture->clock = "";
     picture->caption = gm_picture_text(
-        picture, "%s%s", binned ? "What lies closer together is shown by its mean. " : "",
+        picture, "%s%s",
+        sweep->values ? gm_picture_text(picture, "The last %zu values of each run, one for each %s. ",
+                                        sweep->kept, sweep->at)
+        : binned      ? "What lies closer together is shown by its mean. "
+                      : "",
         chart->failed > 0
             ? gm_picture_text(picture, "%zu of the runs gave no numbers and are left out.", chart->failed)
             : "");
-    for (size_t i = 0; i < chart->shown; i++) {
+    for (size_t line = 0; chart->dots && line < chart->lines; line++) {
+        draw_values(chart, line, picture);
+    }
+    for (size_t i = 0; i < chart->shown && !chart->dots; i++) {
         for (size_t line = 0; line < chart->lines && chart->key_count == 2; line++) {
             draw_map(chart, i, line, picture);
         }

@@ -13,6 +13,7 @@
 #include "app/output/folder.h"
 #include "app/output/row.h"
 #include "core/arena.h"
+#include "core/basics.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 
@@ -24,8 +25,11 @@ void gm_sweep_note(const struct gm_sweep *sweep, const char *path)
     char reason[GM_REGULAR_REASON], message[GM_MESSAGE];
     const char *note = gm_arena_print(sweep->arena, "%s.sweep", path);
     /* the words as gm_arguments_split reads them */
-    const char *text = gm_arena_print(sweep->arena, "geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n",
-                                      sweep->arguments, sweep->measure ? sweep->measure : "", sweep->shards);
+    const char *text = gm_arena_print(
+        sweep->arena, "geomint: 1\nsweep: %s\nmeasure: %s\nshares: %zu\n%s%s%s%s%s", sweep->arguments,
+        sweep->measure ? sweep->measure : "", sweep->shards, sweep->values ? "values: " : "",
+        sweep->values ? sweep->values : "", sweep->values ? "\nat: " : "", sweep->values ? sweep->at : "",
+        sweep->values ? "\n" : "");
     gm_arena_check(sweep->arena, gm_folder_make_for(path, message), message);
     if (access(note, F_OK) != 0) {
         const int error = gm_temporary_write(note, text, strlen(text));
@@ -63,9 +67,18 @@ void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char 
                            strtoul(shards, NULL, 10) == 0,
                        "%.300s.sweep, which describes the sweep, could not be read%s%s", path,
                        note ? "" : ": ", note ? "" : reason);
-    words[strcspn(words, "\n")] = measure[strcspn(measure, "\n")] = '\0';
-    gm_sweep_open(arena, sweep, gm_arguments_of(arena, words), measure[0] ? measure : NULL, &status);
-    sweep->shards = strtoul(shards, NULL, 10);
+    char *values = find(note, "\nvalues: "), *at = find(note, "\nat: ");
+    const size_t count = strtoul(shards, NULL, 10);
+    char *const texts[] = {words, measure, values, at};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        if (texts[i]) {
+            texts[i][strcspn(texts[i], "\n")] = '\0';
+        }
+    }
+    gm_sweep_open(arena, sweep, gm_arguments_of(arena, words),
+                  &(struct gm_sweep_options){measure[0] ? measure : NULL, values, values ? at : NULL},
+                  &status);
+    sweep->shards = count;
 }
 
 /* ---- joining ---- */
@@ -100,6 +113,7 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
     gm_csv_next(table);
     gm_arena_refuse_if(arena, table->line && table->line[0] && strcmp(table->line, sweep->head) != 0,
                        "%.360s is %s", path, other);
+    table->group = gm_sweep_index_cell(sweep);
 }
 
 struct joining {

@@ -201,6 +201,9 @@ static void put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
     for (size_t i = 0; i < sweep->chosen.count; i++) {
         fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
     }
+    if (sweep->values) {
+        fprintf(stream, ",index,t,%s", sweep->name);
+    }
     fputc('\n', stream);
 }
 
@@ -211,10 +214,29 @@ static void close_sweep(void *data)
     gm_chosen_close(&sweep->chosen);
 }
 
-void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
-                   const char *measure, int *status)
+/* Reads --values for runs such as the first one or, if that cannot be made, the middle one. */
+static void read_values(struct gm_sweep *sweep, const struct gm_sweep_options *options)
 {
     char message[GM_MESSAGE];
+    struct gm_request *request = gm_arena_take(sweep->arena, 1, sizeof *request);
+    gm_arena_keep(sweep->arena, request, gm_request_close);
+    gm_arena_refuse_if(sweep->arena, sweep->count < 2,
+                       "--values is of several runs: give a key a range, r=2.8..4:400");
+    struct gm_lane *lane = NULL;
+    for (size_t i = 0; i < 2 && !lane; i++) {
+        gm_request_close(request);
+        lane = ask(sweep, i == 0 ? 0 : middle_of(sweep), NULL, NULL, request, message)
+                   ? gm_request_open_lane(request, 0, message)
+                   : NULL;
+    }
+    gm_sweep_read_values(sweep, options->values, options->at, gm_lane_in(sweep->arena, lane, message));
+}
+
+void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
+                   const struct gm_sweep_options *options, int *status)
+{
+    char message[GM_MESSAGE];
+    const char *measure = options->measure;
     *status = GM_EXIT_USAGE;
     *sweep = (struct gm_sweep){.arena = arena,
                                .measure = measure ? gm_arena_print(arena, "%s", measure) : NULL,
@@ -223,16 +245,31 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     gm_arena_keep(arena, sweep, close_sweep);
     gm_arena_refuse_if(arena, arguments->count == 0, "sweep of which scene? See geomint list scenes");
     sweep->scene = gm_request_scene(arguments->count, arguments->words, status, message);
-    gm_arena_check(arena,
-                   sweep->scene &&
-                       gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
-                                     GM_RUN_SCHEMES, message) &&
-                       gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) &&
-                       gm_chosen_open(&sweep->chosen, sweep->scene, measure, message),
-                   message);
+    gm_arena_check(
+        arena,
+        sweep->scene &&
+            gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                          GM_RUN_SCHEMES, message) &&
+            gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) &&
+            gm_chosen_open(&sweep->chosen, sweep->scene, measure || !options->values ? measure : "", message),
+        message);
     check(sweep, status);
+    gm_arena_refuse_if(arena, options->at && !options->values, "--at is the place of --values");
+    if (options->values) {
+        read_values(sweep, options);
+    }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, put_head), free);
+}
+
+size_t gm_sweep_index_cell(const struct gm_sweep *sweep)
+{
+    enum { VALUE = 2 }; /* cells after the index */
+    size_t commas = 0;
+    for (const char *at = sweep->head; *at; at++) {
+        commas += *at == ',';
+    }
+    return sweep->values ? commas - VALUE : 0;
 }
 
 size_t gm_sweep_shard_runs(const struct gm_sweep *sweep)
@@ -303,7 +340,18 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
             fprintf(stream, "%.17g", values[i]);
         }
     }
-    fputc('\n', stream);
+}
+
+/* Puts the rows of a run with many values, each after the same cells; a run without values has one row. */
+static void put_values(const struct gm_sweep *sweep, const char *cells, const struct gm_sweep_series *series,
+                       FILE *stream)
+{
+    const size_t count = series->count < sweep->kept ? series->count : sweep->kept;
+    for (size_t i = 0; i < count; i++) {
+        const double *pair = series->pairs + 2 * ((series->count - count + i) % sweep->kept);
+        fprintf(stream, "%s,%zu,%.17g,%.17g\n", cells, i, pair[0], pair[1]);
+    }
+    fprintf(stream, count == 0 ? "%s,,,\n" : "", cells);
 }
 
 /* Returns true if all chosen observables follow from the last state alone. */
@@ -326,19 +374,26 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     const unsigned long refusals = gm_memory_refusals();
     struct gm_drive drive = {.request = request,
                              .whole_steps = gm_chosen_follows_steps(&sweep->chosen, sweep->scene)};
+    struct gm_sweep_series series = {0};
     drive.lane = status ? NULL : gm_request_open_lane(request, 0, message);
     if (drive.lane) {
         drive.lane->unfollowed = is_of_the_end(sweep);
+    }
+    if (drive.lane && sweep->values) {
+        gm_sweep_follow(sweep, &drive, request->lanes[0].steps, &series);
+    } else if (drive.lane) {
         gm_drive_to(&drive, request->lanes[0].steps, false, message);
     }
     const struct gm_run *ended = drive.lane ? drive.lane->run : NULL;
     const bool interrupted = ended && gm_interrupted && gm_drive_goes_on(&drive, request->lanes[0].steps);
-    double *values = interrupted ? NULL : malloc(sweep->chosen.count * sizeof *values);
+    double *values = interrupted ? NULL : malloc((sweep->chosen.count + 1) * sizeof *values);
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
     }
-    size_t size = 0;
-    FILE *stream = values ? open_memstream(&row->text, &size) : NULL;
+    char *cells = NULL;
+    size_t size = 0, all = 0;
+    FILE *stream = values ? open_memstream(&cells, &size) : NULL;
+    FILE *rows = stream ? open_memstream(&row->text, &all) : NULL;
     if (!status) {
         const bool lost = gm_memory_refusals() != refusals || !ended;
         status = gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status);
@@ -352,6 +407,17 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
         put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, stream);
         fclose(stream);
     }
+    series.count = row->ok ? series.count : 0;
+    if (rows && sweep->values) {
+        put_values(sweep, cells, &series, rows);
+    } else if (rows) {
+        fprintf(rows, "%s\n", cells);
+    }
+    if (rows) {
+        fclose(rows);
+    }
+    free(cells);
+    free(series.pairs);
     free(values);
     gm_lane_close(drive.lane);
 }

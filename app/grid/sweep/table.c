@@ -51,20 +51,40 @@ const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t
 
 /* ---- existing rows ---- */
 
-static size_t commas_of(const char *line)
+/* The commas between the cells of all lines. */
+static size_t commas_of(const char *lines)
 {
     size_t commas = 0;
-    while (*(line = gm_csv_cell(line, 1))) {
+    while (*(lines = gm_csv_cell(lines, 1))) {
         commas++;
     }
     return commas;
 }
 
-/* The length of a line's front if it is the row of a run: its front is the run's, and it has as many cells as
-   the head; else 0. */
-static size_t front_of(const struct gm_sweep *sweep, size_t run, const char *line)
+static size_t lines_of(const char *rows)
 {
-    return commas_of(line) == commas_of(sweep->head) ? gm_sweep_front(sweep, run, line) : 0;
+    size_t lines = 0;
+    for (; *rows; rows++) {
+        lines += *rows == '\n';
+    }
+    return lines;
+}
+
+/* The length of the front of a run's rows: each begins with the run's front, and they have as many cells as that
+   number of heads; 0: they are not that run's. */
+static size_t front_of(const struct gm_sweep *sweep, size_t run, const char *rows)
+{
+    size_t front = commas_of(rows) == lines_of(rows) * commas_of(sweep->head) ? 1 : 0;
+    for (const char *row = rows; *row && front > 0; row = strchr(row, '\n') + 1) {
+        front = gm_sweep_front(sweep, run, row);
+    }
+    return front;
+}
+
+/* Returns true if a run with several rows has all of them, as far as can be seen: a killed program may leave some. */
+static bool is_whole(const struct gm_sweep *sweep, const char *rows, size_t front)
+{
+    return !sweep->values || lines_of(rows) == sweep->kept || strncmp(rows + front, "ok,", 3) != 0;
 }
 
 /* Returns true if the cells after a front have this status, or any warning, which is the next cell. */
@@ -113,6 +133,7 @@ static void read_head(struct gm_sweep_table *table)
     const char *line = gm_csv_next(&table->old), *torn = table->old.line ? table->old.line : "";
     if (line && strcmp(line, head) == 0) {
         table->size = (off_t)strlen(head);
+        table->old.group = gm_sweep_index_cell(table->sweep);
     } else if (line || strncmp(torn, head, strlen(torn)) != 0) {
         gm_arena_refuse(table->arena, "%.360s is not a table of this sweep: %s; it is left as it is",
                         table->path,
@@ -131,6 +152,9 @@ static void read_rows(struct gm_sweep_table *table, const char *retry)
         const size_t front = front_of(table->sweep, gm_sweep_run(table->sweep, table->there), line);
         if (table->there == runs || front == 0) {
             refuse_row(table, line);
+        }
+        if (!table->old.is_ahead && !is_whole(table->sweep, line, front)) {
+            break; /* it is the last one */
         }
         if (retry && has_status(line + front, retry)) {
             table->again =
@@ -177,7 +201,11 @@ static bool begin_anew(struct gm_sweep_table *table, char *message)
     table->fd = part;
     table->size = 0;
     rewind(table->old.stream);
-    return gm_csv_next(&table->old) && append(table, table->sweep->head, message);
+    table->old.is_ahead = false;
+    table->old.group = 0;
+    const bool read = gm_csv_next(&table->old) != NULL;
+    table->old.group = gm_sweep_index_cell(table->sweep);
+    return read && append(table, table->sweep->head, message);
 }
 
 /* The file, locked, read and made ready for the next row. */

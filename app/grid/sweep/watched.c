@@ -30,7 +30,7 @@ static void open_grid(struct gm_grid *grid)
             gm_arena_need(grid->arena, gm_arguments_add(others, typed->words[i]));
         }
     }
-    gm_sweep_open(grid->arena, &grid->sweep, others, measure, &status);
+    gm_sweep_open(grid->arena, &grid->sweep, others, &(struct gm_sweep_options){.measure = measure}, &status);
     grid->chart = gm_sweep_chart_open(grid->arena, &grid->sweep);
     gm_arena_refuse_if(grid->arena, grid->sweep.count > MOST_RUNS,
                        "these are %zu runs, and %d are the most here: `geomint sweep` makes them",

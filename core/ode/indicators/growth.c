@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sums of the exponent and of MEGNO, taken after every step; the vector is given the length 1 again each
-   time. */
+/* The sums of the exponents and of MEGNO, taken after every step, M the derivative of the step: with Q R = M Q by
+   modified Gram-Schmidt the sum of number k grows by ln R_kk, and Q are the vectors of the next step. A vector alone
+   is given the length 1. */
 #include "core/ode/indicators/growth.h"
 
 #include <math.h>
@@ -24,25 +25,19 @@ struct gm_growth {
     struct gm_problem problem;
     struct gm_run *run;
     struct gm_tangent *tangent;
-    double *v;
+    double *v; /* the vectors, orthonormal in their n first numbers */
+    size_t vectors;
     bool failed;
-    double *frame;  /* n vectors, orthonormal in their n first numbers, then a Jacobian; NULL: no volume */
-    void *snapshot; /* the run before a step, which is repeated for each vector */
+    double *logarithms;  /* the sums of all vectors, if they are n */
+    double *jacobian;    /* n * n */
     struct gm_run *half; /* makes steps of half the length */
-    double log_volume, divergence;
-    struct sums sums;
+    double divergence;
+    struct sums sums; /* of the first vector */
     /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
     size_t recorded;
     int64_t every;
 };
-
-/* Returns true if the last component is the time: neighbouring orbits have the same. */
-static bool has_time(const struct gm_problem *problem)
-{
-    const char *names = gm_ode_of(problem)->components, *last = names ? strrchr(names, ' ') : NULL;
-    return last && strcmp(last, " t") == 0;
-}
 
 /* Fills v with a unit vector whose components all differ: fractions of multiples of the golden mean lie
    evenly. */
@@ -73,6 +68,7 @@ struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct 
     growth->problem.m = 1;
     growth->every = 1;
     growth->recorded = 1;
+    growth->vectors = 1;
     growth->run = gm_run_open(&growth->problem, scheme, settings, t0, dt, y0);
     growth->tangent = growth->run ? gm_tangent_open(growth->run) : NULL;
     growth->v = growth->tangent ? calloc(gm_tangent_size(growth->tangent), sizeof *growth->v) : NULL;
@@ -80,7 +76,7 @@ struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct 
         gm_growth_close(growth);
         return NULL;
     }
-    choose_direction(growth->v, growth->problem.n - (has_time(&growth->problem) ? 1 : 0));
+    choose_direction(growth->v, growth->problem.n - (gm_has_time(&growth->problem) ? 1 : 0));
     growth->failed = !gm_tangent_begin(growth->tangent, growth->v);
     return growth;
 }
@@ -91,8 +87,7 @@ void gm_growth_close(struct gm_growth *growth)
         return;
     }
     free(growth->v);
-    free(growth->frame);
-    free(growth->snapshot);
+    free(growth->logarithms);
     gm_run_close(growth->half);
     gm_tangent_close(growth->tangent);
     gm_run_close(growth->run);
@@ -125,83 +120,102 @@ static void add(struct gm_growth *growth, double step, double length)
     sums->average += sums->time > 0 ? 2 * sums->moment / sums->time * step : 0;
 }
 
-/* ---- volume ---- */
+/* ---- all vectors ---- */
 
-bool gm_growth_follow_volume(struct gm_growth *growth)
+/* v := v less its part along the unit vector u. */
+static void remove_part(const double *u, double *v, size_t n, size_t size)
 {
-    const struct gm_run *run = growth->run;
-    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
-    growth->frame = calloc(n * (size + n), sizeof *growth->frame);
-    growth->snapshot = malloc(gm_run_snapshot_size(run));
-    growth->half =
-        gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
-    for (size_t i = 0; growth->frame && i < n; i++) {
-        growth->frame[i * size + i] = 1;
-        growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, growth->frame + i * size);
+    double along = 0;
+    for (size_t c = 0; c < n; c++) {
+        along += u[c] * v[c];
     }
-    return growth->frame && growth->snapshot && growth->half;
+    for (size_t c = 0; c < size; c++) {
+        v[c] -= along * u[c];
+    }
 }
 
-/* Makes the vectors orthonormal, one after the other. Returns the logarithm of the volume that they spanned. */
+/* Makes the vectors orthonormal, one after the other, each twice against round-off, and adds the logarithms of what
+   is left of their lengths. Returns the first of these lengths. */
 static double orthonormalise(const struct gm_growth *growth)
 {
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
-    double logarithm = 0;
-    for (double *v = growth->frame; v < growth->frame + n * size; v += size) {
-        double square = 0;
-        for (const double *u = growth->frame; u < v; u += size) {
-            double along = 0;
-            for (size_t c = 0; c < n; c++) {
-                along += u[c] * v[c];
-            }
-            for (size_t c = 0; c < size; c++) {
-                v[c] -= along * u[c];
-            }
+    double first = 0;
+    for (size_t k = 0; k < growth->vectors; k++) {
+        double *v = growth->v + k * size, square = 0;
+        for (size_t i = 0; i < 2 * k; i++) {
+            remove_part(growth->v + i % k * size, v, n, size);
         }
         for (size_t c = 0; c < n; c++) {
             square += v[c] * v[c];
         }
-        if (square == 0) {
-            return -INFINITY;
-        }
-        for (size_t c = 0; c < size; c++) {
+        for (size_t c = 0; c < size && square > 0; c++) {
             v[c] /= sqrt(square);
         }
-        logarithm += log(square) / 2;
+        growth->logarithms[k] += log(square) / 2;
+        first = k == 0 ? sqrt(square) : first;
     }
-    return logarithm;
+    return first;
+}
+
+bool gm_growth_follow_all(struct gm_growth *growth)
+{
+    const struct gm_run *run = growth->run;
+    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    double *v = calloc(n * size, sizeof *v);
+    growth->logarithms = calloc(n + n * n, sizeof *growth->logarithms);
+    growth->half =
+        gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
+    if (!v || !growth->logarithms || !growth->half) {
+        free(v);
+        return false;
+    }
+    free(growth->v);
+    growth->v = v;
+    growth->vectors = n;
+    growth->jacobian = growth->logarithms + n;
+    for (size_t k = 0; k < n; k++) {
+        v[k * size + k] = 1;
+        growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, v + k * size);
+    }
+    return true;
 }
 
 static double divergence_at(const struct gm_growth *growth, const struct gm_run *run)
 {
     const size_t n = growth->problem.n;
-    double *jacobian = growth->frame + n * gm_tangent_size(growth->tangent), sum = 0;
-    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), jacobian);
+    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), growth->jacobian);
+    double sum = 0;
     for (size_t c = 0; c < n; c++) {
-        sum += jacobian[c * n + c];
+        sum += growth->jacobian[c * n + c];
     }
     return known ? sum : NAN;
 }
 
-/* Makes a step of the run, from the same state for each vector. */
-static bool step_volume(struct gm_growth *growth)
+static double log_volume_of(const struct gm_growth *growth)
+{
+    double sum = 0;
+    for (size_t k = 0; growth->logarithms && k < growth->vectors; k++) {
+        sum += growth->logarithms[k];
+    }
+    return sum;
+}
+
+/* Makes a step with all vectors, and fills what it made of the first one. Returns the number of steps made. */
+static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
 {
     struct gm_run *run = growth->run;
-    const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
-    if (growth->log_volume == -INFINITY) { /* it stays 0 */
-        return gm_run_advance(run, 1) == GM_OK;
+    *made = (struct gm_stretch){.length = NAN};
+    if (log_volume_of(growth) == -INFINITY) { /* it stays 0, and no vectors span it */
+        const bool good = gm_run_advance(run, 1) == GM_OK;
+        made->t = run->t;
+        return good;
     }
     const double t = run->t, before = divergence_at(growth, run);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
     const double middle =
         gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
-    gm_run_save(run, growth->snapshot);
-    bool good = true;
-    for (size_t i = 0; good && i < n; i++) {
-        good = (i == 0 || gm_run_load(run, growth->snapshot)) &&
-               gm_tangent_step(growth->tangent, growth->frame + i * size);
-    }
-    growth->log_volume += orthonormalise(growth);
+    const bool good = gm_tangent_step(growth->tangent, growth->v, growth->vectors);
+    *made = (struct gm_stretch){run->t, orthonormalise(growth)};
     growth->divergence += (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run));
     return good;
 }
@@ -212,14 +226,12 @@ bool gm_growth_to(struct gm_growth *growth, int64_t steps)
 {
     struct gm_stretch made[BLOCK];
     const struct gm_run *run = growth->run;
-    while (growth->frame && !growth->failed && run->steps < steps) {
-        growth->failed = !step_volume(growth);
-    }
     while (!growth->failed && run->steps < steps) {
         const int64_t before = run->steps, left = steps - before;
-        const size_t block = left < BLOCK ? (size_t)left : BLOCK;
+        const size_t block = growth->logarithms ? 1 : left < BLOCK ? (size_t)left : BLOCK;
         double t = run->t;
-        const size_t count = gm_tangent_advance(growth->tangent, growth->v, block, made);
+        const size_t count = growth->logarithms ? step_all(growth, made)
+                                                : gm_tangent_advance(growth->tangent, growth->v, block, made);
         for (size_t i = 0; i < count; i++) {
             add(growth, fabs(made[i].t - t), made[i].length);
             record(growth, before + (int64_t)i + 1);
@@ -242,9 +254,6 @@ const struct gm_run *gm_growth_run(const struct gm_growth *growth)
 
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
 {
-    if (growth->frame) { /* a volume has no records */
-        return (struct gm_growth_values){.log_volume = growth->log_volume, .divergence = growth->divergence};
-    }
     const struct sums *now = &growth->sums;
     const struct sums *half = &growth->records[growth->run->steps / 2 / growth->every];
     const double exponent = now->growth / now->time, megno = now->average / now->time;
@@ -253,5 +262,23 @@ struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
         .megno = megno,
         .exponent_change = exponent - half->growth / half->time,
         .megno_change = megno - half->average / half->time,
+        .log_volume = log_volume_of(growth),
+        .divergence = growth->divergence,
+        .time = now->time,
     };
+}
+
+static int compare_falling(const void *a, const void *b)
+{
+    const double first = *(const double *)a, second = *(const double *)b;
+    return (first < second) - (first > second);
+}
+
+size_t gm_growth_exponents(const struct gm_growth *growth, double *exponents)
+{
+    for (size_t k = 0; k < growth->vectors; k++) {
+        exponents[k] = (growth->logarithms ? growth->logarithms[k] : growth->sums.growth) / growth->sums.time;
+    }
+    qsort(exponents, growth->vectors, sizeof *exponents, compare_falling);
+    return growth->vectors;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The separation of neighbouring orbits: the largest Lyapunov exponent and MEGNO of a scheme's solution of a
-   problem, and the volume between them, from the derivatives of the scheme's steps (tangent.h). */
+/* The separation of neighbouring orbits: the Lyapunov exponents and MEGNO of a scheme's solution of a problem,
+   and the volume between them, from the derivatives of the scheme's steps (tangent.h). */
 #ifndef GM_CORE_ODE_INDICATORS_GROWTH_H
 #define GM_CORE_ODE_INDICATORS_GROWTH_H
 
 #include "core/run.h"
 
-/* An orbit and a vector along it, with a separate run: other runs do not change. */
+/* An orbit and a vector along it, or as many as span the space, with a separate run: other runs do not change. */
 struct gm_growth;
 
 /* The indicators after the time t with |v| = d(t), where s is the time since the start:
@@ -15,7 +15,7 @@ struct gm_growth;
    MEGNO is 2 on a regular orbit (0 if its neighbours do not separate, as for an oscillator), and grows as t
    times half of the exponent on a chaotic one. P.M. Cincotta, C.M. Giordano & C. Simo, Physica D
    182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338.
-   If the volume is followed instead:
+   With all vectors also:
        log_volume   ln |det D y_t/D y_0| of the scheme's map
        divergence   the integral of div f along its solution, NaN without a Jacobian
    The determinant is a product over the steps, each of the lengths that make the moved vectors orthonormal again; the
@@ -26,6 +26,7 @@ struct gm_growth_values {
     double exponent_change,
         megno_change; /* the change since half of the steps, or since the last record before that */
     double log_volume, divergence;
+    double time; /* since the start */
 };
 
 /* Starts at the state y0 (n, one member, without its passive block) at t0. The vector starts in a fixed
@@ -35,8 +36,8 @@ struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct 
                                  const struct gm_settings *settings, double t0, double dt, const double *y0);
 void gm_growth_close(struct gm_growth *growth);
 
-/* Follows the volume instead of the indicators, from the start on. Returns false when out of memory. */
-bool gm_growth_follow_volume(struct gm_growth *growth);
+/* Follows n vectors instead of one, at first the axes, from the start on. Returns false when out of memory. */
+bool gm_growth_follow_all(struct gm_growth *growth);
 
 /* Advances to `steps` steps in all; never back. Returns false if the orbit or a neighbour stops being finite
    before. */
@@ -50,5 +51,9 @@ const struct gm_run *gm_growth_run(const struct gm_growth *growth);
 
 /* Returns the indicators; NaN while no time has passed. */
 struct gm_growth_values gm_growth_values(const struct gm_growth *growth);
+
+/* Writes the exponents of all vectors, in descending order, and returns their number. Their sum is the mean of
+   ln |det M| of the steps. */
+size_t gm_growth_exponents(const struct gm_growth *growth, double *exponents);
 
 #endif

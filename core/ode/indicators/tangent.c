@@ -37,11 +37,13 @@ struct gm_tangent {
     double *y, *dy;        /* n each: the sums over the stages that are done */
     double *base, *d_base; /* n per stage of a block: the sums over the stages before the block */
     double *at;            /* n per stage of a block: the states */
-    double *jacobians;     /* n * n per stage of a block */
+    double *jacobians;     /* n * n per stage */
+    bool again;            /* k and the Jacobians are those of the previous vector, from the same state */
     double *scratch;       /* scratch of Newton's method */
-    double *kicked, *kick; /* n each: the last stage's state and k, if it was a kick */
+    double *kicked, *kick; /* n; n + n * n: the last stage's state, k and Jacobian, if it was a kick */
     double *before, *plus, *minus, *slope, *far_slope; /* n + memory each */
-    double *v;                                         /* the vector, while a step with events is made */
+    double *v;                                         /* the vectors, while a step is made */
+    size_t count;
     double t;       /* where its next part begins; `before` is the state there */
     size_t events;  /* events of the step so far */
     bool grazes;    /* the motion only touches the surface of an event */
@@ -146,13 +148,13 @@ static void open_stages(struct gm_tangent *tangent, const struct gm_coefficients
     tangent->k = doubles(tangent, s * n);
     tangent->w = doubles(tangent, s * n);
     tangent->kicked = doubles(tangent, n);
-    tangent->kick = doubles(tangent, n);
+    tangent->kick = doubles(tangent, n + n * n);
     tangent->y = doubles(tangent, n);
     tangent->dy = doubles(tangent, n);
     tangent->base = doubles(tangent, largest * n);
     tangent->d_base = doubles(tangent, largest * n);
     tangent->at = doubles(tangent, largest * n);
-    tangent->jacobians = doubles(tangent, largest * n * n);
+    tangent->jacobians = doubles(tangent, s * n * n);
     tangent->scratch = doubles(tangent, gm_newton_scratch(largest * n));
     tangent->from = gm_arena_take(tangent->arena, s, sizeof *tangent->from);
     tangent->to = gm_arena_take(tangent->arena, s, sizeof *tangent->to);
@@ -346,19 +348,23 @@ bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
 
 /* ---- by the stages ---- */
 
-/* k, the Jacobian and w of a stage at its state, whose derivative is dy. */
-static void evaluate(const struct gm_tangent *tangent, const double *y, double *k, double *jacobian)
+/* Computes k and the Jacobian of a stage at its state, unless they are those of the previous vector. */
+static void evaluate(const struct gm_tangent *tangent, const double *y, size_t stage)
 {
+    const size_t n = tangent->n;
     const struct gm_problem *problem = tangent->run->problem;
     const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
-    loops->field(problem, y, k, 1);
-    loops->jacobian(problem, y, jacobian);
+    if (!tangent->again) {
+        loops->field(problem, y, tangent->k + stage * n, 1);
+        loops->jacobian(problem, y, tangent->jacobians + stage * n * n);
+    }
 }
 
 /* Computes the needed components of a stage's w. */
-static void multiply(const struct gm_tangent *tangent, const double *jacobian, const double *dy, size_t stage)
+static void multiply(const struct gm_tangent *tangent, const double *dy, size_t stage)
 {
     const size_t n = tangent->n;
+    const double *jacobian = tangent->jacobians + stage * n * n;
     for (size_t row = tangent->from[stage]; row < tangent->to[stage]; row++) {
         double sum = 0;
         for (size_t c = 0; c < n; c++) {
@@ -398,7 +404,7 @@ static bool linear(void *data, const double *states, double *residual, double *m
     const size_t n = tangent->n, s = tangent->stages, first = block->first, count = block->count;
     const double h = tangent->h;
     for (size_t j = 0; j < count; j++) {
-        evaluate(tangent, states + j * n, tangent->k + (first + j) * n, tangent->jacobians + j * n * n);
+        evaluate(tangent, states + j * n, first + j);
     }
     for (size_t r = 0; r < count * n; r++) {
         const size_t c = r % n;
@@ -408,7 +414,7 @@ static bool linear(void *data, const double *states, double *residual, double *m
             slope += weights[j] * tangent->k[(first + j) * n + c];
             for (size_t k = 0; k < n; k++) {
                 matrix[r * count * n + j * n + k] =
-                    (r == j * n + k) - h * weights[j] * tangent->jacobians[(j * n + c) * n + k];
+                    (r == j * n + k) - h * weights[j] * tangent->jacobians[((first + j) * n + c) * n + k];
             }
         }
         residual[r] = tangent->base[r] + h * slope - states[r];
@@ -427,10 +433,11 @@ static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t c
     struct gm_progress ignored = {0};
     const struct gm_implicit_equations equations = {
         .size = all, .data = &block, .linear = linear, .counted = all, .least = 0x1p-40, .roundoff = 0x1p-40};
-    tangent->kicked[0] = NAN; /* the Jacobian there is overwritten */
-    memcpy(tangent->at, tangent->base, all * sizeof(double));
-    if (!gm_newton_solve(&equations, tangent->scratch, tangent->at, &ignored)) {
-        return false;
+    if (!tangent->again) {
+        memcpy(tangent->at, tangent->base, all * sizeof(double));
+        if (!gm_newton_solve(&equations, tangent->scratch, tangent->at, &ignored)) {
+            return false;
+        }
     }
     linear(&block, tangent->at, right, matrix, &unused);
     memcpy(right, tangent->d_base, all * sizeof(double));
@@ -438,7 +445,7 @@ static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t c
         return false;
     }
     for (size_t j = 0; j < count; j++) {
-        multiply(tangent, tangent->jacobians + j * n * n, right + j * n, first + j);
+        multiply(tangent, right + j * n, first + j);
     }
     return true;
 }
@@ -466,16 +473,20 @@ static void find_slopes(const struct gm_tangent *tangent, size_t stage, const do
         memcpy(tangent->w + stage * n, dy + half, half * sizeof *k);
         return;
     }
-    const bool kick = split && n % 2 == 0 && from == half;
+    double *jacobian = tangent->jacobians + stage * n * n;
+    const bool kick = split && n % 2 == 0 && from == half && !tangent->again;
     if (kick && memcmp(y, tangent->kicked, half * sizeof *y) == 0) {
         memcpy(k, tangent->kick, n * sizeof *k);
+        memcpy(jacobian, tangent->kick + n, n * n * sizeof *k);
     } else {
-        evaluate(tangent, y, k, tangent->jacobians);
+        evaluate(tangent, y, stage);
+    }
+    if (kick) {
         memcpy(tangent->kicked, y, n * sizeof *y);
         memcpy(tangent->kick, k, n * sizeof *k);
-        tangent->kicked[0] = kick ? y[0] : NAN; /* the Jacobian is another one now */
+        memcpy(tangent->kick + n, jacobian, n * n * sizeof *k);
     }
-    multiply(tangent, tangent->jacobians, dy, stage);
+    multiply(tangent, dy, stage);
 }
 
 /* y and dy at the end of the step that begins in `before`. */
@@ -517,40 +528,49 @@ static bool is_there(const struct gm_tangent *tangent, const double *y)
     return difference <= close * size;
 }
 
-/* v := the derivative of a step or part of length h from `before` to y, times v. */
-static bool carry(struct gm_tangent *tangent, double h, const double *y, double *v)
+/* Each of the vectors := the derivative of a step or part of length h from `before` to y, times it. */
+static bool carry(struct gm_tangent *tangent, double h, const double *y)
 {
+    const size_t size = gm_tangent_size(tangent);
+    bool staged = tangent->stages > 0, found = true;
+    double *v = tangent->v;
     tangent->h = h;
-    if (tangent->stages > 0 && by_stages(tangent, v) && is_there(tangent, y)) {
-        memcpy(v, tangent->dy, tangent->n * sizeof *v);
-        return true;
+    for (size_t k = 0; k < tangent->count && found; k++, v += size) {
+        tangent->again = k > 0;
+        staged = staged && by_stages(tangent, v) && is_there(tangent, y);
+        if (staged) {
+            memcpy(v, tangent->dy, tangent->n * sizeof *v);
+        } else {
+            found = by_differences(tangent, v);
+        }
     }
-    return by_differences(tangent, v);
+    tangent->again = false;
+    return found;
 }
 
-/* Carries the vector to an event, and through it. */
+/* Carries the vectors to an event, and through it. */
 static void see_event(void *data, const struct gm_event_part *part)
 {
     struct gm_tangent *tangent = data;
     const struct gm_problem *problem = tangent->run->problem;
-    const size_t n = tangent->n;
+    const size_t n = tangent->n, size = gm_tangent_size(tangent);
     const double t = part->before[n];
     tangent->events++;
-    tangent->broken =
-        tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before, tangent->v));
-    if (!tangent->broken &&
-        !problem->events->carry(problem, part->event, part->before, part->after, tangent->v)) {
-        tangent->grazes = tangent->broken = true;
+    tangent->broken = tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before));
+    for (size_t k = 0; k < tangent->count && !tangent->broken; k++) {
+        tangent->grazes = tangent->broken =
+            !problem->events->carry(problem, part->event, part->before, part->after, tangent->v + k * size);
     }
     memcpy(tangent->before, part->after, n * sizeof *tangent->before);
     tangent->t = t;
 }
 
-bool gm_tangent_step(struct gm_tangent *tangent, double *v)
+bool gm_tangent_step(struct gm_tangent *tangent, double *v, size_t count)
 {
     struct gm_run *run = tangent->run;
     take_before(tangent);
     tangent->v = v;
+    tangent->count = count;
     tangent->t = run->t;
     tangent->events = 0;
     run->witness = (struct gm_event_witness){see_event, tangent};
@@ -560,7 +580,7 @@ bool gm_tangent_step(struct gm_tangent *tangent, double *v)
         return false;
     }
     const double h = tangent->events > 0 ? run->t - tangent->t : run->dt;
-    return h == 0 || carry(tangent, h, gm_run_state(run), v);
+    return h == 0 || carry(tangent, h, gm_run_state(run));
 }
 
 bool gm_tangent_grazes(const struct gm_tangent *tangent)
@@ -630,7 +650,7 @@ size_t gm_tangent_advance(struct gm_tangent *tangent, double *v, size_t steps, s
     if (tangent->together) {
         return steps;
     }
-    while (count < steps && gm_tangent_step(tangent, v)) {
+    while (count < steps && gm_tangent_step(tangent, v, 1)) {
         made[count] = (struct gm_stretch){tangent->run->t, normalise(tangent, v)};
         if (!(made[count].length > 0)) {
             break;

@@ -11,10 +11,10 @@
    memory. */
 const char *gm_tangent_word(const struct gm_scheme *scheme);
 
-/* A vector along a run of one member. Not to be shared between threads. */
+/* Vectors along a run of one member. Not to be shared between threads. */
 struct gm_tangent;
 
-/* Opens a vector at the current state of the run, which outlives it; the problem has no passive block, and
+/* Opens vectors at the current state of the run, which outlives it; the problem has no passive block, and
    the scheme's word is not "none". Without a Jacobian, or with too large a one, differences are used. Returns
    NULL when out of memory. */
 struct gm_tangent *gm_tangent_open(struct gm_run *run);
@@ -27,9 +27,10 @@ size_t gm_tangent_size(const struct gm_tangent *tangent);
    at its start. Returns false if the run cannot start, or when out of memory. */
 bool gm_tangent_begin(struct gm_tangent *tangent, double *v);
 
-/* Makes one step of the run, with v := its derivative times v, also through events (S of core/events.h). Returns false, with v undefined, if the run or
-   a step beside it failed; the run holds the reason if its own step failed. */
-bool gm_tangent_step(struct gm_tangent *tangent, double *v);
+/* Makes one step of the run, with v := its derivative times v, also through events (S of core/events.h), for `count`
+   vectors one after the other in v. Returns false, with v undefined, if the run or a step beside it failed; the run
+   holds the reason if its own step failed. */
+bool gm_tangent_step(struct gm_tangent *tangent, double *v, size_t count);
 
 /* Returns true if a step failed since the motion only touched the surface of an event. */
 bool gm_tangent_grazes(const struct gm_tangent *tangent);

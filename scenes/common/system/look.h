@@ -95,6 +95,7 @@ struct gm_system_scene {
     size_t disc[2];           /* the components that members differ in */
     size_t centre;            /* 1: the key of members does not count their centre */
     double radian;            /* 1 / the largest frequency at the start */
+    bool is_stiff;            /* and the file names neither a step size nor schemes */
     struct gm_work work;
     struct gm_stability stability;
     double values[5];

@@ -103,7 +103,7 @@ static bool is_within_step(const struct gm_view *view)
 
 static double modified_error(const struct gm_view *view)
 {
-    const int power = 2 * (int)(view->observable - gm_ode_asked) + 2; /* the first rows */
+    const int power = view->observable->key[strlen("modified_energy")] - '0';
     struct energies *energies = energies_of(view, power);
     if (!energies || !energies->energy || is_within_step(view)) {
         return NAN;
@@ -232,7 +232,7 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
     }
     followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,
                                       followed->start);
-    if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_volume(followed->growth)) {
+    if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_all(followed->growth)) {
         gm_growth_close(followed->growth);
         followed->growth = NULL;
     }
@@ -283,15 +283,16 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
 static struct gm_growth_values values_of(const struct gm_view *view, size_t kind)
 {
     const struct gm_growth *growth = followed_to(view, kind);
-    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN, NAN, NAN};
+    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
-/* The values of the rows from the Lyapunov exponent on. */
+/* lyapunov, megno, or the change of one of them. */
 static double growth(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_GROWTH);
-    const double list[] = {values.exponent, values.exponent_change, values.megno, values.megno_change};
-    return list[view->observable - gm_ode_asked - GM_MODIFIED_OBSERVABLES];
+    const bool megno = view->observable->key[0] == 'm';
+    return strchr(view->observable->key, '_') ? (megno ? values.megno_change : values.exponent_change)
+                                              : (megno ? values.megno : values.exponent);
 }
 
 /* The size that a scheme of this family noted of the last member's last step. */
@@ -337,6 +338,46 @@ static double volume_error(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
     return expm1(values.log_volume - values.divergence);
+}
+
+/* Writes the Lyapunov exponents in descending order, and returns their number; 0: not known. */
+static size_t exponents_of(const struct gm_view *view, double exponents[GM_NEWTON_LARGEST])
+{
+    const struct gm_growth *growth = followed_to(view, GM_WORKED_VOLUME);
+    return growth ? gm_growth_exponents(growth, exponents) : 0;
+}
+
+/* lyapunov1, lyapunov2, ... */
+static double spectrum(const struct gm_view *view)
+{
+    double exponents[GM_NEWTON_LARGEST];
+    const size_t number = strtoul(view->observable->key + strlen("lyapunov"), NULL, 10);
+    return number <= exponents_of(view, exponents) ? exponents[number - 1] : NAN;
+}
+
+static double lyapunov_sum(const struct gm_view *view)
+{
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return values.log_volume / values.time;
+}
+
+static double divergence_mean(const struct gm_view *view)
+{
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return values.divergence / values.time;
+}
+
+/* D = k + (l_1 + ... + l_k) / |l_(k+1)|, with the largest k whose sum is not negative. J. L. Kaplan & J. A. Yorke,
+   Lecture Notes in Mathematics 730 (1979) 204. */
+static double lyapunov_dimension(const struct gm_view *view)
+{
+    double exponents[GM_NEWTON_LARGEST], sum = 0;
+    const size_t count = exponents_of(view, exponents);
+    size_t k = 0;
+    for (; k < count && sum + exponents[k] >= 0; k++) {
+        sum += exponents[k];
+    }
+    return count == 0 ? NAN : (double)k + (k < count ? sum / fabs(exponents[k]) : 0);
 }
 
 static const char *why_no_volume(const struct gm_view *view)
@@ -486,6 +527,32 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
               "relative error of the loop's action"),
     INDICATOR("loop_resolution", loop_resolution, gm_ring_why, "share of short waves in the loop's action"),
 };
+
+static const struct gm_observable spectrum_rows[] = {
+    INDICATOR("lyapunov_sum", lyapunov_sum, why_no_volume, "sum of the Lyapunov exponents"),
+    INDICATOR("divergence_mean", divergence_mean, why_no_volume, "mean of div f"),
+    INDICATOR("lyapunov_dimension", lyapunov_dimension, why_no_volume, "dimension of Kaplan and Yorke"),
+};
+
+void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_observable *rows,
+                size_t count, size_t n)
+{
+    const size_t exponents = n <= GM_NEWTON_LARGEST ? n : 0,
+                 more = exponents > 0 ? exponents + GM_COUNT(spectrum_rows) : 0;
+    struct gm_observable *asked = gm_arena_take(arena, count + more, sizeof *asked);
+    memcpy(asked, rows, count * sizeof *asked);
+    for (size_t k = 0; k < more; k++) {
+        struct gm_observable *row = &asked[count + k];
+        *row = k >= exponents
+                   ? spectrum_rows[k - exponents]
+                   : (struct gm_observable)INDICATOR(gm_arena_print(arena, "lyapunov%zu", k + 1), spectrum,
+                                                     why_no_volume,
+                                                     gm_arena_print(arena, "Lyapunov exponent %zu", k + 1));
+        row->group = "lyapunov_spectrum";
+    }
+    scene->asked = asked;
+    scene->asked_count = count + more;
+}
 
 /* ---- the picture of modified energies ---- */
 

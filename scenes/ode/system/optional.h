@@ -20,6 +20,11 @@ enum {
 };
 extern const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES];
 
+/* Gives a scene of n components these rows, and those of the Lyapunov spectrum if n is at most GM_NEWTON_LARGEST; in a
+   body of the arena. */
+void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_observable *rows,
+                size_t count, size_t n);
+
 /* The signed area within the ring of members, of a plane; NaN without a ring or if its points do not resolve it, and the
    reason. The last member, in the centre, does not belong to it. */
 double gm_ring_area(const struct gm_view *view);

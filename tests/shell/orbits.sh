@@ -1,0 +1,197 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Lyapunov spectra, periodic orbits and orbit diagrams against numbers that are known: orbits.sh PROGRAM
+set -u
+. "$(dirname "$0")/answers.sh"
+
+# holds CONDITION: of the answer's only object, as d; near(a, b, e) if a and b differ by at most e
+holds() {
+    python3 - out "$1" <<'END' || fail "$1: $(head -c 900 out)"
+import cmath, json, math, sys
+d = json.loads(open(sys.argv[1]).readline())
+o = d.get("observables", {})
+near = lambda a, b, e: abs(a - b) <= e
+sys.exit(not eval(sys.argv[2]))
+END
+}
+
+# ---- spectra ----
+
+# Henon's map has the determinant -0.3 everywhere; his exponents, J. C. Sprott, Chaos and Time-Series Analysis (2003)
+henon='rate=x = 1 - 1.4*x^2 + y - x, y = 0.3*x - y'
+status 0 run system "$henon" x=0 y=0 scheme=explicit-euler dt=1 until=300000 --measure lyapunov_spectrum --json
+holds 'near(o["lyapunov_sum"], math.log(.3), 1e-12) and near(o["lyapunov1"], .4192, 2e-3) and near(o["lyapunov2"], -1.6232, 2e-3)'
+holds 'near(o["lyapunov_dimension"], 1 + o["lyapunov1"] / -o["lyapunov2"], 1e-12)'
+# Lorenz: the divergence is -41/3, and rk4 with dt = .005 has 6e-6 less
+status 0 run lorenz scheme=rk4 dt=.005 until=1000 --measure lyapunov_spectrum,lyapunov --json
+holds 'near(o["lyapunov1"], .906, .02) and near(o["lyapunov2"], 0, .005) and near(o["lyapunov3"], -14.572, .03)'
+holds 'near(o["lyapunov_sum"], -13.66666, 2e-6) and near(o["divergence_mean"], -41/3, 1e-9)'
+holds 'near(o["lyapunov_dimension"], 2.062, .003) and near(o["lyapunov"], o["lyapunov1"], .01)'
+holds 'near(o["lyapunov1"] + o["lyapunov2"] + o["lyapunov3"], o["lyapunov_sum"], 1e-10)'
+# of x' = A x: the eigenvalues; a driven system has the 0 of its time
+status 0 run system 'rate=x = -x + y, y = -2*y + z, z = -3*z' x=1 y=1 z=1 scheme=rk4 dt=.01 until=100 --measure lyapunov_spectrum --json
+holds 'all(near(o["lyapunov%d" % k], -k, 1e-3) for k in (1, 2, 3))'
+status 0 run duffing a=0 until=200 --measure lyapunov_spectrum --json
+holds 'near(o["lyapunov1"], 0, 1e-9) and near(o["lyapunov_sum"], -.3, 1e-5)'
+# a symplectic map: the sum is 0, and exponents come in pairs
+status 0 run henon-heiles energy=1/8 q2=-.25 p2=0 scheme=verlet until=5000 --measure lyapunov_spectrum --json
+holds 'near(o["lyapunov_sum"], 0, 1e-9) and near(o["lyapunov1"] + o["lyapunov4"], 0, .004) and o["lyapunov1"] > .02'
+# a scheme whose derivative comes from differences; one without any
+status 0 run disc system=pendulum scheme=avf2 until=20 --measure lyapunov_spectrum --json
+holds 'o["lyapunov1"] is not None'
+status 0 run kepler scheme=gsl-rk4 until=1 --measure lyapunov_spectrum --json
+holds '"no derivative" in d["reasons"]["lyapunov1"]'
+refused 1 "named twice" run lorenz --measure lyapunov_spectrum,lyapunov1
+refused 1 "no observable lyapunov_spectrum" run burgers --measure lyapunov_spectrum
+
+# ---- periodic orbits of a flow ----
+
+# the numbers are of an integrator of order 8 with the tolerance 1e-13, and Newton's method
+printf 'rate: x = y, y = (1 - x^2)*y - x\nstart: x = 2, y = 0\n' >vdp.system
+status 0 orbit ./vdp.system --json
+holds 'd["status"] == "ok" and d["stability"] == "stable" and near(d["period"], 6.663286859323133, 1e-9)'
+holds 'near(d["start"][0], 2.0086198609, 1e-9) and near(d["multipliers"][0][0], 1, 1e-9) and near(d["multipliers"][1][0], 8.5969506360e-4, 1e-12)'
+printf 'rate: x = 1 + x^2*y - 4*x, y = 3*x - x^2*y\nstart: x = 2, y = 1\n' >brusselator.system
+status 0 orbit ./brusselator.system --json
+holds 'near(d["period"], 7.15691992118, 1e-9) and near(d["multipliers"][1][0], 2.516375799e-4, 1e-12)'
+status 0 orbit lorenz x=-13.7636 y=-19.5788 z=27 fix=z --json
+holds 'near(d["period"], 1.5586522107162, 1e-9) and d["start"][2] == 27 and d["stability"] == "unstable"'
+holds 'near(d["multipliers"][0][0], 4.712947273, 1e-8) and near(d["multipliers"][2][0], 1.19e-10, 1e-12)'
+# Arenstorf's, with steps that suffice for nine digits
+cat >arenstorf.system <<'END'
+parameter: mu = 0.012277471
+let: a = ((x + mu)^2 + y^2)^1.5
+let: b = ((x - 1 + mu)^2 + y^2)^1.5
+rate: x = u, y = v
+rate: u = x + 2*v - (1 - mu)*(x + mu)/a - mu*(x - 1 + mu)/b, v = y - 2*u - (1 - mu)*y/a - mu*y/b
+start: x = 0.994, y = 0, u = 0, v = -2.0015851063790825
+END
+status 0 orbit ./arenstorf.system period=17.0652165601580 scheme=gauss8 dt=17.0652165601580/24576 fix=x --json
+holds 'near(d["period"], 17.0652165601580, 1e-9) and d["stability"] == "hyperbolic" and near(d["multipliers"][0][0], 285.4037, 285e-4)'
+holds 'near(d["multipliers"][3][0], .00350381, 3e-7) and all(near(complex(*m), 1, 1.5e-3) for m in d["multipliers"][1:3])'
+# a circle in a field of force has the period 2 pi; its multipliers are 1, three of them by the two invariants
+status 0 orbit kepler --json
+holds 'near(d["period"], 2 * math.pi, 1e-9) and d["by_structure"] >= 2 and all(near(complex(*m), 1, 1e-4) for m in d["multipliers"])'
+# shaken: the period is that of the force, and det M = exp(-.3 T)
+status 0 orbit duffing a=.3 period=2*pi/1.2 --json
+holds 'near(abs(complex(*d["multipliers"][0]) * complex(*d["multipliers"][1])), math.exp(-.3 * 2 * math.pi / 1.2), 1e-10) and d["residual"] < 1e-10'
+
+# ---- of a map ----
+
+# the orbit of Verlet on the pendulum that closes after 16 steps, and its trace by the map written out
+pendulum="system H=p^2/2-cos(q) q=2.1 p=0 scheme=verlet dt=0.5190055055451657"
+# shellcheck disable=SC2086 # words
+status 0 orbit $pendulum steps=16 --json
+holds 'near(d["start"][0], 2, 1e-9) and near(d["start"][1], 0, 1e-9) and near(d["period"], 8.30408808872265, 1e-12) and d["by_structure"] == 0'
+python3 - out <<'END' || fail "the multipliers of Verlet's map: $(cat out)"
+import json, math, sys
+d = json.loads(open(sys.argv[1]).readline())
+h, q, p, m = 0.5190055055451657, 2., 0., [[1, 0], [0, 1]]
+mul = lambda a, b: [[sum(a[i][k] * b[k][j] for k in (0, 1)) for j in (0, 1)] for i in (0, 1)]
+for _ in range(16):
+    kick = lambda q: [[1, 0], [-h / 2 * math.cos(q), 1]]
+    m, p = mul(kick(q), m), p - h / 2 * math.sin(q)
+    m, q = mul([[1, h], [0, 1]], m), q + h * p
+    m, p = mul(kick(q), m), p - h / 2 * math.sin(q)
+trace, first = m[0][0] + m[1][1], d["multipliers"][0][0]
+assert abs(first + 1 / first - trace) < 1e-9 and abs(first * d["multipliers"][1][0] - 1) < 1e-9, (trace, d["multipliers"])
+END
+for K in .5 .97; do
+    status 0 orbit kicked-rotor K=$K q=0 p=0 steps=1 --json
+    holds "near(d['multipliers'][0][0], (2 + $K + math.sqrt($K**2 + 4 * $K)) / 2, 1e-12) and d['stability'] == 'hyperbolic'"
+    status 0 orbit kicked-rotor K=$K q=pi p=0 steps=1 --json
+    holds "near(d['multipliers'][0][0], (2 - $K) / 2, 1e-12) and d['stability'] == 'elliptic'"
+done
+# Henon's: x = (-.7 + sqrt(.49 + 5.6)) / 2.8, and his orbit of two points
+status 0 orbit system "$henon" x=.6 y=.2 scheme=explicit-euler dt=1 steps=1 --json
+holds 'near(d["start"][0], (-.7 + math.sqrt(6.09)) / 2.8, 1e-12) and d["stability"] == "unstable"'
+status 0 orbit system "$henon" x=1 y=-.1 scheme=explicit-euler dt=1 steps=2 --json
+holds 'near(d["start"][0]**2 * 1.96 - .98 * d["start"][0] + .49 - 1.4, 0, 1e-9)'
+
+# ---- files, and what cannot be ----
+
+status 0 orbit ./vdp.system --save cycle.system -o cycle.svg
+grep -q 'multipliers 1, 0.000859695' cycle.svg || fail "the picture does not name its multipliers"
+status 0 run ./cycle.system scheme=gauss8 --state --json
+holds 'near(d["state"][0], 2.0086198608748, 1e-10) and near(d["state"][1], 0, 1e-10)'
+status 0 again cycle.svg
+status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1 --json
+holds 'd["status"] == "an equilibrium"'
+status 2 orbit lorenz period=.3 --json
+holds 'd["status"] == "no-convergence" and d["residual"] > 1e-6'
+refused 1 "fix=zz is not a component; did you mean z" orbit lorenz fix=zz
+refused 1 "period=-1 is not a number above 0" orbit lorenz period=-1
+refused 1 "period= is a word of the flow" orbit lorenz steps=3 period=1
+refused 1 "orbit follows one run" orbit lorenz x=1,2
+refused 1 "has no derivative" orbit lorenz scheme=dopri5
+refused 1 "it has constraints" orbit cartesian-pendulum
+refused 1 "period= gives the period" orbit duffing
+refused 1 "not a .system file" orbit ./vdp.system --save cycle.npz
+refused 2 "does not return" orbit system 'rate=x=-x' x=1
+refused 1 "orbit does not follow burgers" orbit burgers
+[ ! -e cycle.npz ] || fail "a refused command wrote a file"
+
+# ---- many values a run ----
+
+# the logistic map: its cycles of 2 and 4, which solve polynomials (R. M. May, Nature 261 (1976) 459), and its window of 3
+logistic='rate=x = r*x*(1 - x) - x'
+cat >tree.py <<'END'
+import csv, sys
+rows = list(csv.DictReader(open("tree.csv")))
+assert len(rows) == 36 and [int(row["index"]) for row in rows] == 3 * list(range(12))
+assert open("tree.csv").readline().endswith(",seconds,index,t,x\n")
+assert float(rows[11]["t"]) == 2000
+cycles = [[float(row["x"]) for row in rows[12 * k:12 * k + 12]] for k in range(3)]
+for cycle, known in zip(cycles, [[.5130445095, .7994554905], [.3828196831, .5008842103, .8269407066, .8749972636]]):
+    assert len({round(x, 9) for x in cycle}) == len(known) and all(min(abs(x - y) for y in known) < 1e-9 for x in cycle), cycle
+assert len({round(x, 9) for x in cycles[2]}) == 3
+END
+# tree OPTION...: the table of three runs with twelve values each
+tree() {
+    status 0 sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:12 "$@"
+}
+tree --table tree.csv
+python3 tree.py || fail "the cycles of the logistic map: $(head -3 tree.csv)"
+# resumed after it was cut within a run or within a row, made of shards, and made again: the same values
+cp tree.csv whole.csv
+for lines in 1 14 20 25 30; do
+    head -n "$lines" whole.csv >tree.csv
+    [ "$lines" = 20 ] && printf 'system-' >>tree.csv
+    tree --table tree.csv
+    [ "$(wc -l <tree.csv)" = 37 ] && python3 tree.py || fail "a table that was cut after line $lines"
+done
+tree --table shards.csv --shard 1/2
+tree --table shards.csv --shard 2/2
+status 0 sweep --join shards.csv
+mv shards.csv tree.csv
+python3 tree.py || fail "the table of two shards"
+tree --table tree.csv --retry ok
+python3 tree.py || fail "a table whose runs were made again"
+# at a section and at maxima: x = cos(w t), v = -sin(w t) passes v = 0 upwards at x = -1; x has its maxima at whole turns
+printf 'rate: x = w*v, v = -w*x\nparameter: w = 1\nstart: x = 1, v = 0\nsection: v = 0, x < 0; x, v\ndt: 0.01\nuntil: 40\n' >turn.system
+for place in section maximum; do
+    status 0 sweep ./turn.system w=1,2 scheme=gauss8 --values x:5 --at $place --measure escape_time
+    python3 - out "$place" <<'END' || fail "values at each $place: $(head -3 out)"
+import csv, math, sys
+rows = list(csv.DictReader(open(sys.argv[1])))
+assert len(rows) == 10 and "escape_time" in rows[0]
+for row in rows:
+    x, turns = float(row["x"]), float(row["t"]) * float(row["w"]) / (2 * math.pi)
+    at, most = (.5, 1e-11) if sys.argv[2] == "section" else (0, 2e-8)
+    assert abs(x - (-1 if at else 1)) < most and abs(turns - at - round(turns - at)) < 1e-5, row
+END
+done
+# a run that fails has one row; a second key makes panels
+status 0 sweep system "$logistic" r=3.2,5 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:3
+[ "$(grep -c ',ok,' out)" = 3 ] && grep -q ',blow-up,.*,,,$' out || fail "a run that fails: $(cat out)"
+status 0 sweep system "$logistic" r=3..4:30 x=.3,.5 scheme=explicit-euler dt=1 steps=300 --values x:20 -o panels.svg
+status 0 again panels.svg
+refused 1 "give a key a range" sweep lorenz --values x:10
+refused 1 "is not NAME:K" sweep lorenz rho=1,2 --values x
+refused 1 "did you mean z" sweep lorenz rho=1,2 --values zz:3
+refused 1 "has no section" sweep system "$logistic" r=3,4 x=.5 scheme=explicit-euler dt=1 --values x:3 --at section
+refused 1 "is none of: step, section, maximum" sweep lorenz rho=1,2 --values x:3 --at nowhere
+refused 1 "place of --values" sweep lorenz rho=1,2 --at step
+
+[ "$failures" = 0 ] && echo "orbits: all passed"
+exit "$failures"
