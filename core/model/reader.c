@@ -371,7 +371,7 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
         name = piece;
         piece = take_piece(reading, &rest);
     }
-    struct gm_system_item *item = add_item(reading, line, name);
+    struct gm_system_item *item = gm_reading_item(reading, line, name);
     for (size_t i = 0; i + 1 < system->item_count && item->name[0]; i++) {
         gm_system_refuse_if(
             system, system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, item->name) == 0,
@@ -399,7 +399,7 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
 /* stop: g, the event g = 0 that ends the run */
 static void read_stop(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, nameless);
+    struct gm_system_item *item = gm_reading_item(reading, line, nameless);
     item->ends = true;
     add_formula(reading, item, line->value);
 }

@@ -156,7 +156,8 @@ static void follow(struct gm_arena *arena, void *data)
         gm_entries_open(arena, &entries, &track, &start, &behind);
         gm_entries_record(&entries, &track, &start, &behind);
         gm_behind_note(&behind, &start);
-    } else if (sweep->place == GM_AT_STEP && !lane->scheme->family->adaptive && !sweep->scene->stop) {
+    } else if (sweep->place == GM_AT_STEP && !lane->scheme->family->adaptive &&
+               !(lane->problem.events && lane->problem.events->ends_runs)) {
         gm_drive_to(following->drive, following->steps - (int64_t)sweep->kept, false, message);
     }
     following->last[0][0] = lane->run->t;
