@@ -138,40 +138,36 @@ static void add_parameter(struct gm_reading *reading, const struct gm_read_line 
 static void add_key(struct gm_reading *reading, const struct gm_read_line *line)
 {
     struct gm_user_system *system = reading->system;
-    struct gm_span rest = line->value, after, head, piece;
-    gm_span_take(reading->text, &rest, ";", &head);
-    const struct gm_target target = gm_reading_target(reading, &head);
-    head = gm_span_trimmed(reading->text, head);
-    const bool assigned = head.begin < head.end;
+    struct gm_span meaning = line->value, after, value, piece;
+    gm_span_take(reading->text, &meaning, ";", &value);
+    const struct gm_target target = gm_reading_target(reading, &value);
+    const bool assigned = value.begin < value.end && reading->text[value.begin] == '=';
     gm_system_refuse_if(system, target.index.begin < target.index.end, target.index.begin,
                         "a room has no lists");
-    gm_system_refuse_if(system, assigned && reading->text[head.begin] != '=', head.begin, "= was expected");
+    gm_system_refuse_if(system, value.begin < value.end && !assigned, value.begin, "= was expected");
     struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_PARAMETER);
-    struct gm_written_range range = {NAN, NAN, rest, rest};
-    after = rest;
+    entry.number = reading->parameter_count++;
+    struct gm_system_variable *variable = add_name(reading, entry);
+    const char *text = gm_reading_text(reading, (struct gm_span){value.begin + assigned, value.end});
+    for (size_t i = 0; i < reading->value_count; i++) {
+        text = strcmp(reading->values[i].name, variable->name) == 0 ? reading->values[i].text : text;
+    }
+    gm_number_parse(text, &variable->value); /* else it is NaN */
+    variable->text = gm_arena_print(system->arena, "%s", text);
+    variable->start_place = entry.place;
+    struct gm_entry *added = &reading->entries[reading->entry_count - 1];
+    added->node = gm_formula_constant(&system->graph, variable->value);
+    gm_system_need_graph(system);
+    added->read = true;
+    after = meaning;
     if (gm_span_take(reading->text, &after, ";", &piece) &&
         gm_span_until(reading->text, piece, "..") < piece.end) {
-        range = gm_reading_range(reading, piece);
-        range.meaning = after;
+        const struct gm_written_range range = gm_reading_range(reading, piece);
+        variable->low = range.low;
+        variable->high = range.high;
+        meaning = after;
     }
-    const char *text = gm_reading_text(reading, (struct gm_span){head.begin + assigned, head.end});
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", gm_brief_length(entry.length), entry.name);
-    for (size_t i = 0; i < reading->value_count; i++) {
-        text = strcmp(reading->values[i].name, name) == 0 ? reading->values[i].text : text;
-    }
-    double value = NAN;
-    gm_number_parse(text, &value);
-    entry.number = reading->parameter_count++;
-    entry.read = true;
-    entry.node = gm_formula_constant(&system->graph, value);
-    struct gm_system_variable *variable = add_name(reading, entry);
-    variable->value = value;
-    variable->low = range.low;
-    variable->high = range.high;
-    variable->text = gm_arena_print(system->arena, "%s", text);
-    variable->meaning = gm_reading_text(reading, range.meaning);
-    variable->start_place = entry.place;
+    variable->meaning = gm_reading_text(reading, meaning);
 }
 
 /* Replaces values of the file by the given ones. */

@@ -145,7 +145,7 @@ static void tell(const struct gm_user_room *user_room, const struct gm_fault *fa
         gm_refuse(sentence, "%s", fault->sentence);
         return;
     }
-    gm_text_place(user_room->file.text, fault->offset, &line, &column);
+    gm_text_place(user_room->room.system.source, fault->offset, &line, &column);
     gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column, fault->sentence);
 }
 
@@ -171,9 +171,9 @@ static struct gm_room *room_for(const struct gm_user_room *user_room, const stru
         given[i].name = row->key;
         given[i].text = is_outlet ? outlet : gm_parameter_format(row, chosen, texts[i], sizeof texts[i]);
     }
-    const struct gm_room_file *file = &user_room->file;
-    return gm_room_open(&(struct gm_room_input){file->text, file->length, given, scene->parameter_count},
-                        fault);
+    const struct gm_user_system *system = &user_room->room.system;
+    return gm_room_open(
+        &(struct gm_room_input){system->source, system->length, given, scene->parameter_count}, fault);
 }
 
 /* Reads the kind and group of outlets, "soft", "dirichlet", "free", or GROUP, or GROUP:free and so on; *group:
@@ -639,7 +639,8 @@ static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
 static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
-    uint32_t sum = checksum(UINT32_C(2166136261), user_room->file.text, user_room->file.length);
+    uint32_t sum =
+        checksum(UINT32_C(2166136261), user_room->room.system.source, user_room->room.system.length);
     if (complex) {
         sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
         sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
@@ -702,9 +703,7 @@ static void make(struct gm_arena *arena, void *data)
     struct gm_triangulation *mesh = gm_arena_take(arena, 1, sizeof *mesh);
     char sentence[GM_MESSAGE];
     user_room->arena = arena;
-    user_room->file = (struct gm_room_file){.text = gm_arena_print(user_room->arena, "%s", file->text),
-                                            .length = file->length,
-                                            .name = gm_arena_print(user_room->arena, "%s", file->name),
+    user_room->file = (struct gm_room_file){.name = gm_arena_print(user_room->arena, "%s", file->name),
                                             .path = gm_arena_print(user_room->arena, "%s", file->path),
                                             .built_in = file->built_in};
     gm_room_read(arena, &user_room->room, &(struct gm_room_input){file->text, file->length, NULL, 0},
@@ -749,7 +748,7 @@ static void make(struct gm_arena *arena, void *data)
     if (file->word) {
         user_room->words[0] = gm_arena_print(user_room->arena, "%s", file->word);
         user_room->scene.words = user_room->words;
-        user_room->scene.room = user_room->file.text;
+        user_room->scene.room = room->system.source;
         user_room->scene.mark = make_mark(user_room, mesh);
     }
     gm_triangulation_close(mesh);
