@@ -188,30 +188,23 @@ static double *past(double *memory, size_t n, size_t back)
     return memory + MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. The steps k and
-   order - k have the same binomial coefficient, and signs alternate. */
+/* Extrapolates from the last `order` steps, with binomial coefficients whose signs alternate: 1 repeats the last one, 4
+   is cubic, 6 quintic. */
 static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t order)
 {
-    static const double binomial[PAST + 1][PAST / 2 + 1] = {
-        [2] = {0, 2}, [3] = {0, 3}, [4] = {0, 4, 6}, [5] = {0, 5, 10}, [6] = {0, 6, 15, 20}};
     const size_t n = solver->matrix.n;
-    double *out = solver->unknowns;
+    double *out = solver->unknowns, weight = -1;
     if (order == 0) {
         solver->strategy->guess(solver, out);
         return;
     }
     memset(out, 0, n * sizeof *out);
-    for (size_t k = 1; k <= order / 2; k++) {
-        const double weight = k % 2 ? binomial[order][k] : -binomial[order][k];
-        const double mirrored = order % 2 ? -1 : 2 * k < order;
-        const double *near = past(memory, n, k - 1), *far = past(memory, n, order - k - 1);
+    for (size_t k = 1; k <= order; k++) {
+        const double *back = past(memory, n, k - 1);
+        weight *= -(double)(order - k + 1) / (double)k;
         for (size_t i = 0; i < n; i++) {
-            out[i] += weight * (near[i] + mirrored * far[i]);
+            out[i] += weight * back[i];
         }
-    }
-    const double *last = past(memory, n, order - 1);
-    for (size_t i = 0; i < n; i++) {
-        out[i] += order % 2 ? last[i] : -last[i];
     }
 }
 

@@ -145,11 +145,10 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
             continue;
         }
         const double reach = scale * fabs(ellipse.axes[0][1]),
-                     room = fmin(node[0] - node[-2], node[2] - node[0]),
-                     along = scale * fmin(1, room / reach);
+                     part = scale * fmin(1, fmin(node[0] - node[-2], node[2] - node[0]) / reach);
         for (size_t i = 0; i < AROUND; i++) {
-            const double c = along * cos(2 * M_PI * (double)i / AROUND),
-                         s = scale * sin(2 * M_PI * (double)i / AROUND);
+            const double c = part * cos(2 * M_PI * (double)i / AROUND),
+                         s = part * sin(2 * M_PI * (double)i / AROUND);
             around[2 * i] = node[0] + c * ellipse.axes[0][1] + s * ellipse.axes[1][1];
             around[2 * i + 1] = node[1] + c * ellipse.axes[0][0] + s * ellipse.axes[1][0];
         }

@@ -55,6 +55,10 @@ COMMANDS = [
     ("run burgers dx=.05 steps=3 --json --csv OUT/burgers.csv", {}),
     ("run soliton steps=2 points=21 --json --csv OUT/soliton.csv", {}),
     ("run soliton steps=1 points=301 alpha=20 --json", {}),
+    ("run soliton steps=1 points=9 scheme=given-gauss2,free-gauss2 density=sqrt(1+u_x^2+u^2/9) "
+     "mesh=X=x+sin(pi*x/25)*sin(t) cell=(d_t/d)^2/20 --json", {}),
+    ("run soliton steps=1 points=9 scheme=control-radau3 relax=0.3 --json", {}),
+    ("run peakons steps=1 nodes=-8,-2 --json", {}),
     ("run room steps=2 --json", {}),
     ("run room steps=2 --csv OUT/room.csv", {}),
     ("run cavity steps=2 rows=14 columns=10 --profile OUT/cavity.csv", {}),

@@ -510,6 +510,125 @@ static void what_does_not_rest_is_refused(void **unused)
     }
 }
 
+/* A mesh equation of every kind, with a start at rest or not. */
+static const char system_a[] = "field: u\nV: u^2/2 + u^4/16\n"
+                               "start: u = 1.2*exp(-(x - 0.5)^2/3), u_t = 0.2*x*exp(-x^2/2)\n",
+                  nodes_alone[] = "cell: 0\nstart: X_t = exp(-x^2)\n";
+
+static void open_kind(struct typed *typed, bool alone, double relax)
+{
+    struct gm_fault fault;
+    const char *text = alone ? nodes_alone : system_a;
+    assert_true(gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault));
+    assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
+    double *values = gm_equations_start(&typed->system, NULL);
+    const struct gm_user_mesh chosen = {
+        .first = -6,
+        .length = 12,
+        .points = 7,
+        .alpha = 1,
+        .density = alone ? "1 + 1/cosh(x)" : "sqrt(1 + 0.8*u_x^2 + 0.1*u^2)",
+        .map = alone ? NULL : "X = x + 0.7*sin(pi*(x + 6)/12)*sin(1.1*t + 0.3)",
+        .cell = alone ? "m_t^2*tanh(d/2) + d_t^2/(4*tanh(d/2))" : "0.05/2*(d_t/d)^2",
+        .relax = relax,
+    };
+    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, &chosen));
+    free(values);
+    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+}
+
+static struct gm_run *open_kind_run(const struct typed *typed, const char *name)
+{
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    double start[4 * 7];
+    assert_true(gm_mesh_start(&typed->mesh, gm_scheme_mesh(scheme), gm_moving_mesh_of(&typed->problem)->start,
+                              typed->problem.parameters, start));
+    struct gm_run *run = gm_run_open(&typed->problem, scheme, &settings, 0, 0.04, start);
+    assert_non_null(run);
+    return run;
+}
+
+/* Loads a snapshot of the run into a new one, which replaces it. */
+static void resume(const struct typed *typed, struct gm_run **run, const char *name)
+{
+    void *snapshot = malloc(gm_run_snapshot_size(*run));
+    struct gm_run *resumed = open_kind_run(typed, name);
+    assert_non_null(snapshot);
+    gm_run_save(*run, snapshot);
+    assert_true(gm_run_load(resumed, snapshot));
+    free(snapshot);
+    gm_run_close(*run);
+    *run = resumed;
+}
+
+static void change(struct gm_run **run, const char *name)
+{
+    struct gm_run *next = gm_run_switch(*run, gm_scheme_find(name));
+    assert_non_null(next);
+    assert_int_equal(next->status, GM_OK);
+    gm_run_close(*run);
+    *run = next;
+}
+
+/* Runs of every kind that are resumed, stepped back and switched, at t > 0, have the bits of runs that nobody disturbed;
+   and a step back leads to the start if the scheme is symmetric. */
+static void runs_of_every_kind_keep_their_bits(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name, *other; /* a run is switched to the other scheme and back */
+        double relax;
+        bool alone;
+    } list[] = {
+        {"uniform-gauss4", "given-gauss4", 0, false},     {"given-gauss2", "multiplier-lobatto4", 0, false},
+        {"given-lobatto4", "free-gauss4", 0, false},      {"control-gauss4", "given-gauss4", 0, false},
+        {"control-radau3", "free-gauss2", 0.3, false},    {"free-gauss4", "multiplier-lobatto4", 0, false},
+        {"multiplier-lobatto4", "free-gauss2", 0, false}, {"multiplier-trapezoidal", "free-gauss4", 0, false},
+        {"free-gauss4", "free-gauss2", 0, true},
+    };
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
+        struct typed typed;
+        open_kind(&typed, list[i].alone, list[i].relax);
+        struct gm_run *whole = open_kind_run(&typed, list[i].name),
+                      *pieces = open_kind_run(&typed, list[i].name);
+        const size_t size = typed.problem.n * sizeof(double);
+        double start[4 * 7];
+        memcpy(start, gm_run_state(whole), size);
+        for (int part = 0; part < 3; part++) {
+            const char *name = part == 1 ? list[i].other : list[i].name;
+            assert_int_equal(gm_run_advance(whole, 12), GM_OK);
+            assert_int_equal(gm_run_advance(pieces, 7), GM_OK);
+            resume(&typed, &pieces, name);
+            assert_int_equal(gm_run_advance(pieces, 5), GM_OK);
+            assert_memory_equal(gm_run_state(whole), gm_run_state(pieces), size);
+            if (part < 2) {
+                change(&whole, part == 1 ? list[i].name : list[i].other);
+                change(&pieces, part == 1 ? list[i].name : list[i].other);
+            }
+        }
+        /* smoothing is a diffusion, which cannot be run back */
+        const double step = list[i].relax > 0 ? 0.02 : -0.04;
+        gm_run_set_step(whole, step);
+        gm_run_set_step(pieces, step);
+        assert_int_equal(gm_run_advance(whole, 12), GM_OK);
+        assert_int_equal(gm_run_advance(pieces, 6), GM_OK);
+        resume(&typed, &pieces, list[i].name);
+        assert_int_equal(gm_run_advance(pieces, 6), GM_OK);
+        assert_memory_equal(gm_run_state(whole), gm_run_state(pieces), size);
+        gm_run_close(whole);
+        whole = open_kind_run(&typed, list[i].name);
+        assert_int_equal(gm_run_advance(whole, 20), GM_OK);
+        gm_run_set_step(whole, step);
+        assert_int_equal(gm_run_advance(whole, 20), GM_OK);
+        const double back = gm_distance(gm_run_state(whole), start, typed.problem.n);
+        print_message("    %-24s back at the start within %.1e\n", list[i].name, back);
+        assert_true(step > 0 || back < 1e-9);
+        gm_run_close(whole);
+        gm_run_close(pieces);
+        close_typed(&typed);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -524,6 +643,7 @@ int main(void)
         cmocka_unit_test(schemes_are_certified_on_somebodys_potential),
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(what_does_not_rest_is_refused),
+        cmocka_unit_test(runs_of_every_kind_keep_their_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,6 +142,12 @@ static bool read_formula(struct reading *reading, const char *text, gm_node_id *
     return read_span(reading, text, (struct gm_span){0, strlen(text)}, node);
 }
 
+static bool open_tape(const struct reading *reading, struct gm_tape *tape, const gm_node_id *nodes,
+                      size_t count, size_t inputs)
+{
+    return !reading->graph.failed && gm_tape_open(tape, &reading->graph, nodes, count, inputs, NULL);
+}
+
 /* A corner would end Newton's method. */
 static bool is_smooth(struct reading *reading, const char *text, gm_node_id node, const bool *marked,
                       size_t inputs)
@@ -207,9 +213,9 @@ static bool derive_density(struct reading *reading, const char *text, struct gm_
         [GM_P_XX] = of[PLACE][PLACE],
     };
     const bool local = density->density.local = gm_formula_holds(graph, p, at_end, INPUTS);
-    return gm_tape_open(&density->tape, graph, nodes, local ? GM_DENSITY_VALUES : GM_DENSITY_OF_SLOPE,
-                        local ? INPUTS : 1, NULL) &&
-           gm_tape_open(&density->itself, graph, &rho, 1, INPUTS, NULL) && !graph->failed;
+    return open_tape(reading, &density->tape, nodes, local ? GM_DENSITY_VALUES : GM_DENSITY_OF_SLOPE,
+                     local ? INPUTS : 1) &&
+           open_tape(reading, &density->itself, &rho, 1, INPUTS);
 }
 
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
@@ -262,8 +268,7 @@ static bool derive_map(struct reading *reading, const char *text, struct gm_user
         return false;
     }
     nodes[1] = by[TIME];
-    return gm_tape_open(&map->tape, &reading->graph, nodes, GM_COUNT(nodes), OF_MAP, NULL) &&
-           !reading->graph.failed;
+    return open_tape(reading, &map->tape, nodes, GM_COUNT(nodes), OF_MAP);
 }
 
 bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
@@ -325,10 +330,8 @@ static bool derive_cell(struct reading *reading, const char *text, struct gm_use
     for (size_t i = 0; good && i < INPUTS; i++) {
         good = gm_gradient(&reading->graph, first[1 + i], NULL, INPUTS, second[i]);
     }
-    return good && gm_tape_open(&cell->by_first, &reading->graph, first, 1 + INPUTS, INPUTS, NULL) &&
-           gm_tape_open(&cell->by_second, &reading->graph, second[0], (size_t)INPUTS * INPUTS, INPUTS,
-                        NULL) &&
-           !reading->graph.failed;
+    return good && open_tape(reading, &cell->by_first, first, 1 + INPUTS, INPUTS) &&
+           open_tape(reading, &cell->by_second, second[0], (size_t)INPUTS * INPUTS, INPUTS);
 }
 
 bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
@@ -351,7 +354,7 @@ bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *n
         .names = names, .word = GM_WORD_BETWEEN, .inputs = words, .sentence = sentence, .size = size};
     gm_node_id node;
     const bool good = open_reading(&reading, NULL, 0) && read_formula(&reading, text, &node) &&
-                      gm_tape_open(between, &reading.graph, &node, 1, GM_BETWEEN_INPUTS, NULL);
+                      open_tape(&reading, between, &node, 1, GM_BETWEEN_INPUTS);
     close_reading(&reading);
     return good;
 }
