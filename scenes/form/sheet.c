@@ -9,7 +9,7 @@
 
 #include "scenes/form/form.h"
 
-/* Sorts triangles by depth into classes that are much thinner than a picture tells, the farthest first. */
+/* Sorts triangles by classes of depth, the farthest first; one class is 1/16384 of the whole depth. */
 static void sort_by_depth(const double *depths, const size_t *triangles, size_t count, const double range[2],
                           size_t *sorted)
 {
