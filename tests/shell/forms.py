@@ -130,6 +130,15 @@ REFUSED = [
     (STEADY, "= x*y", "= x*y\nequation: u; u = 0", "5:11: u has two equations"),
     (STEADY, "-laplace(u) = x*y", "d(u) = form(x, y)", "4:14: the equation of u, which is a 0-form, is of a 1-form"),
 ]
+for words, sentence in (
+        (["form-poisson", "show=numbers"], "numbers and names are drawn on at most 200 vertices, edges and triangles, and this mesh has 15362"),
+        (["form-cochain", "n=60", "show=mesh"], "this mesh has 243: take a coarser one"),
+        (["form-poisson", "numbers=yes", "level=2"], "this mesh has 962"),
+        (["form-maxwell", "elevation=3"], "the mesh is in the plane"),
+        (["form-cochain", "n=61"], "60"), (["form-heat", "mesh=strip 1 0"], "0 is not a whole number from 1 to 4000")):
+    status, out, err = run(words)
+    check(status == 1 and sentence in err and out == "", f"{words} exits {status}: {out}{err}  not: {sentence}")
+
 with tempfile.TemporaryDirectory() as folder:
     for text, old, new, sentence in REFUSED:
         assert old in text, old
