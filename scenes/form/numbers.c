@@ -3,7 +3,6 @@
    it its sign. Edges run from their lower to their higher vertex, triangles turn counter-clockwise, a dual edge
    crosses its edge from the right to the left. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/form/form.h"

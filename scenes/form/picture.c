@@ -4,7 +4,6 @@
    the middle of triangles. With a (g_j - g_i)/3 for each edge i -> j, g the gradients of barycentric
    coordinates, Whitney's form has that vector there; a dual 1-form u is n x the vector of u over the star. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/linear/cholesky.h"
@@ -318,8 +317,9 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
         view.t = i % 2 ? view.t : view.t0;
         const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
         const bool good = paint(picture, &view, &painted);
-        for (size_t k = 0; k < corners && good; k++) {
-            gm_range_add(&range[0], &range[1], painted.value[k]);
+        for (size_t k = 0; k < corners && good; k++) { /* NaN fails both */
+            range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
+            range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];
         }
         if (good && painted.vector) {
             range[0] = 0;

@@ -5,21 +5,26 @@
    Of closed surfaces the far side is left out; the back of an open one is darker. What lies on a hidden triangle
    is found on a raster of depths. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/form/form.h"
 
-struct placed {
-    double depth;
-    size_t triangle;
-};
-
-static int by_depth(const void *a, const void *b)
+/* Sorts triangles by classes of depth, the farthest first; one class is 1/16384 of the whole depth. */
+static void sort_by_depth(const double *depths, const size_t *triangles, size_t count, const double range[2],
+                          size_t *sorted)
 {
-    const struct placed *p = a, *q = b;
-    const int depth = (p->depth > q->depth) - (p->depth < q->depth);
-    return depth ? depth : (p->triangle > q->triangle) - (p->triangle < q->triangle);
+    enum { CLASSES = 1 << 14 };
+    size_t first[CLASSES + 1] = {0};
+    const double scale = range[1] > range[0] ? (CLASSES - 1) / (range[1] - range[0]) : 0;
+    for (size_t i = 0; i < count; i++) {
+        first[1 + (size_t)((depths[i] - range[0]) * scale)]++;
+    }
+    for (size_t k = 1; k <= CLASSES; k++) {
+        first[k] += first[k - 1];
+    }
+    for (size_t i = 0; i < count; i++) {
+        sorted[first[(size_t)((depths[i] - range[0]) * scale)]++] = triangles[i];
+    }
 }
 
 /* Twice the area of a triangle on the panel: positive of its front. */
@@ -128,14 +133,15 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
 {
     const struct gm_complex *complex = sheet->complex;
     const struct gm_space *sight = &sheet->sight;
-    struct placed *order = gm_picture_memory(picture, complex->triangles * sizeof *order);
+    double *depths = gm_picture_memory(picture, complex->triangles * sizeof *depths);
+    size_t *order = gm_picture_memory(picture, complex->triangles * sizeof *order);
     double *normals = gm_picture_memory(picture, 3 * complex->vertices * sizeof *normals), place[6], p[9];
     sheet->light = gm_picture_memory(picture, 3 * complex->triangles * sizeof *sheet->light);
-    if (!order || !normals || !sheet->light) {
+    if (!depths || !order || !normals || !sheet->light) {
         return;
     }
     /* the scale is the same for all azimuths */
-    double across = 0, along = 0, centre[3], middle[2];
+    double across = 0, along = 0, centre[3], middle[2], range[2] = {INFINITY, -INFINITY};
     for (size_t c = 0; c < 3; c++) {
         centre[c] = (sight->low[c] + sight->high[c]) / 2;
     }
@@ -155,15 +161,18 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
     size_t count = 0;
     for (size_t t = 0; t < complex->triangles; t++) {
         gm_complex_corners_in_space(complex, t, p);
-        order[count] = (struct placed){0, t};
+        order[count] = t;
+        depths[count] = 0;
         for (size_t k = 0; k < 3; k++) {
-            order[count].depth += gm_space_place(sight, p + 3 * k, place + 2 * k);
+            depths[count] += gm_space_place(sight, p + 3 * k, place + 2 * k);
         }
-        count += facing(place) > 0 || complex->closed < complex->pieces;
+        if (facing(place) > 0 || complex->closed < complex->pieces) {
+            gm_range_add(&range[0], &range[1], depths[count++]);
+        }
     }
-    qsort(order, count, sizeof *order, by_depth);
+    sort_by_depth(depths, order, count, range, sheet->triangle);
     for (size_t i = 0; i < count; i++) {
-        const size_t t = sheet->triangle[i] = order[i].triangle;
+        const size_t t = sheet->triangle[i];
         gm_complex_corners_in_space(complex, t, sheet->corners + 9 * i);
         for (size_t k = 0; k < 3; k++) {
             gm_space_place(sight, sheet->corners + 9 * i + 3 * k, sheet->places + 6 * i + 2 * k);

@@ -237,6 +237,14 @@ check(found["u_error"] < 1e-13 and found["v_error"] < 1e-13, f"held values of un
 
 status, out, err = run(["form-wave", "mesh=there/is/none.msh"])
 check(status == 3 and "could not be read" in err, f"a mesh that is not there exits {status}: {err}")
+for words, sentence in (
+        (["form-poisson", "show=numbers"], "numbers and names are drawn on at most 200 vertices, edges and triangles, and this mesh has 15362"),
+        (["form-cochain", "n=60", "show=mesh"], "this mesh has 243: take a coarser one"),
+        (["form-poisson", "numbers=yes", "level=2"], "this mesh has 962"),
+        (["form-maxwell", "elevation=3"], "the mesh is in the plane"),
+        (["form-cochain", "n=61"], "60"), (["form-heat", "mesh=strip 1 0"], "0 is not a whole number from 1 to 4000")):
+    status, out, err = run(words)
+    check(status == 1 and sentence in err and out == "", f"{words} exits {status}: {out}{err}  not: {sentence}")
 
 with tempfile.TemporaryDirectory() as folder:
     for text, old, new, sentence in REFUSED:

@@ -129,7 +129,8 @@ void gm_system_variables(const struct gm_view *view, size_t member, bool exact, 
     for (size_t i = 0; i < system->variable_count; i++) {
         variables[i] = NAN;
     }
-    for (size_t i = 0; i < system->n; i++) {
+    /* unknown forms are not in the state */
+    for (size_t i = 0; i < system->n && i < view->problem->n; i++) {
         variables[i] = view->state[i * m + member];
         variables[system->initial + i] = view->start[i * m + member];
     }
