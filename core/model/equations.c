@@ -240,6 +240,7 @@ static void derive(struct gm_user_system *system)
         gm_formula_dependent(&system->graph, marks_of(system, system->n, 1), system->variable_count), free);
     for (size_t i = 0; i < system->n; i++) {
         system->timed |= system->rates[i] != GM_NO_NODE && timed[system->rates[i]];
+        system->timed |= system->theta && timed[system->theta[i]];
     }
     system->timed |= !rates && timed[system->energy];
     gm_arena_release(system->arena, mark);

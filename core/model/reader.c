@@ -68,6 +68,9 @@ static void assign(struct gm_reading *reading, struct gm_entry *entry, const str
         system->variables[system->n].value = time->value;
         return;
     }
+    gm_system_refuse_if(
+        system, entry->role == GM_ENTRY_VELOCITY && reading->degenerate, target->name.begin,
+        "%.60s follows from the coordinates, as L is linear in the velocities: it has no start", entry->name);
     gm_system_refuse_if(system, entry->role != GM_ENTRY_COMPONENT && !is_velocity, target->name.begin,
                         "%.60s is not a component", entry->name);
     struct gm_system_variable *variable =

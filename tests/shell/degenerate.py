@@ -160,7 +160,7 @@ def refusals():
              "its state is the coordinates alone, and it has no line \"momenta\""),
             ("force", "coordinates: x y\nforce: x = -x\nL: y*v_x - x\nstart: x = 0, y = 1\n", "4:1",
              "it has no line \"force\""),
-            ("velocity", "coordinates: x y\nL: y*v_x - x\nstart: x = 0, v_y = 1\n", "5:15", "v_y is not a component"),
+            ("velocity", "coordinates: x y\nL: y*v_x - x\nstart: x = 0, v_y = 1\n", "5:15", "v_y follows from the coordinates, as L is linear in the velocities: it has no start"),
             ("dense", "coordinates: q[1..14]\nL: sum(i = 1 .. 14, sin(i*sum(j = 1 .. 14, q[j]*j^i/14^i))*v_q[i]) - q[1]\n"
              "start: q[i] = i/7\n", "4:4", "the form of theta has too many entries")):
         path = system(name, text)
