@@ -979,6 +979,46 @@ static int list_invariants(const struct gm_options *options, struct report *repo
     return gm_finish(GM_EXIT_OK);
 }
 
+/* Prints the mesh, and which invariants the equations on it keep. */
+static void print_mesh(struct report *report, const struct gm_form_model *model)
+{
+    const struct gm_user_system *system = &report->system;
+    const char *star = system->texts[GM_WORD_STAR], *const stars[] = {"auto", "circumcentric", "barycentric",
+                                                                      "barycentric", "incentric"};
+    struct gm_form_choice choice = {0};
+    struct gm_fault fault;
+    struct gm_problem problem;
+    double *values = gm_equations_start(system, NULL);
+    for (size_t i = 0; star && i < GM_COUNT(stars); i++) {
+        choice.star = strcmp(stars[i], star) == 0 ? (enum gm_star)i : choice.star;
+    }
+    if (!values || !gm_form_problem_open(&problem, model, choice, values, &fault)) {
+        free(values);
+        return;
+    }
+    const struct gm_complex *complex = gm_form_space_of(&problem)->complex;
+    printf("\nmesh: %zu vertices, %zu edges, %zu triangles; star %s; Betti numbers %ld %ld %ld\n",
+           complex->vertices, complex->edges, complex->triangles, stars[complex->star],
+           gm_form_betti(complex, 0), gm_form_betti(complex, 1), gm_form_betti(complex, 2));
+    if (model->field_count > 0) {
+        printf("rates: %s\n", gm_ode_of(&problem)->stiff
+                                  ? "linear: implicit steps have one Jacobian, which is factorised once"
+                                  : "not linear, or of unknowns");
+    }
+    for (size_t i = 0; i < model->observed_count; i++) {
+        const struct gm_system_item *item = &system->items[model->observed_item[i]];
+        if (item->word == GM_WORD_INVARIANT) {
+            const double drift = gm_form_drift(&problem, i);
+            printf("%s: %s (its rate along them is %.1e of it, at a random state)\n", item->name,
+                   drift < 1e-10 ? "the equations on this mesh keep it"
+                                 : "the equations on this mesh change it",
+                   drift);
+        }
+    }
+    gm_form_problem_close(&problem);
+    free(values);
+}
+
 /* Prints the type of every form and, with --long, how the fields split, and what the equations are made of. */
 static int list_forms(const struct gm_options *options, struct report *report)
 {
@@ -1008,6 +1048,9 @@ static int list_forms(const struct gm_options *options, struct report *report)
         printf("%s%s", i == 0 ? "\nsplits: " : i == model.split ? " | " : " ", system->variables[i].name);
     }
     printf("%s", options->longer && model.split > 0 ? "\n" : "");
+    if (options->longer && !gm_form_reads_mesh(system)) {
+        print_mesh(report, &model);
+    }
     return gm_finish(GM_EXIT_OK);
 }
 

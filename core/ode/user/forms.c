@@ -1229,3 +1229,39 @@ double gm_form_remainder(const struct gm_problem *problem, const double *y, doub
     gm_form_of(problem, y, t, form);
     return own_of(problem)->remainder[form];
 }
+
+double gm_form_drift(const struct gm_problem *problem, size_t observed)
+{
+    const struct own *own = own_of(problem);
+    const size_t n = own->n;
+    double *y = calloc(3 * n, sizeof *y), *f = y ? y + n : NULL, *at = y ? f + n : NULL, size = 0, rate = 0;
+    const double part = 1e-3, weights[5] = {1, -8, 0, 8, -1};
+    double change = 0, value = 0;
+    uint32_t seed = 1;
+    for (size_t i = 0; i < n && y; i++) {
+        size = fmax(size, fabs(own->start[i]));
+    }
+    for (size_t i = 0; i < n && y; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        y[i] = own->start[i] +
+               (own->held[i] || i + own->model->system->timed == n ? 0 : size * (seed / 0x1p33 - 0.25));
+    }
+    if (y) {
+        field(problem, y, f, 1);
+    }
+    for (size_t i = 0; i < n && y; i++) {
+        rate = fmax(rate, fabs(f[i]));
+    }
+    for (int k = 0; k < 5 && y; k++) { /* exact for polynomials of degree 4 */
+        for (size_t i = 0; i < n; i++) {
+            at[i] = y[i] + (k - 2) * part * size / rate * f[i];
+        }
+        const double here =
+            *gm_form_observed(problem, at, own->model->system->timed ? at[n - 1] : 0, observed);
+        change += weights[k] * here / (12 * part);
+        value = k == 2 ? here : value;
+    }
+    const double drift = y ? fabs(change / value) : NAN;
+    free(y);
+    return drift;
+}

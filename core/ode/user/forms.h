@@ -57,4 +57,8 @@ double gm_form_contradiction(const struct gm_problem *problem, const double *y, 
 /* The largest residual of its equations, relative to the largest sum of their terms' magnitudes. */
 double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form);
 
+/* The rate of an observed number along the equations, at the start with random numbers added: relative, in the time in
+   which the state would change by as much as it is. About 1e-13: the mesh keeps it. NaN when out of memory. */
+double gm_form_drift(const struct gm_problem *problem, size_t observed);
+
 #endif
