@@ -196,7 +196,8 @@ refused 1 "place of --values" sweep lorenz rho=1,2 --at step
 # ---- stiff systems without a step size and schemes ----
 
 # van der Pol and the Oregonator: E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.10
-status 0 run system 'rate=x = z, z = ((1 - x^2)*z - x)/1e-6' x=2 z=0 until=2 --json --state
+printf 'rate: x = z, z = ((1 - x^2)*z - x)/1e-6\nstart: x = 2, z = 0\nuntil: 2\n' >pol.system
+status 0 run ./pol.system --json --state
 holds 'd["scheme"] == "gsl-msbdf" and near(d["state"][0], 1.7061677321, 1e-4) and d["steps"] == 200 and d["seconds"] < .5'
 cat >oregonator.system <<'END'
 rate: y1 = 77.27*(y2 + y1*(1 - 8.375e-6*y1 - y2)), y2 = (y3 - (1 + y1)*y2)/77.27, y3 = 0.161*(y1 - y3)
