@@ -193,5 +193,34 @@ refused 1 "has no section" sweep system "$logistic" r=3,4 x=.5 scheme=explicit-e
 refused 1 "is none of: step, section, maximum" sweep lorenz rho=1,2 --values x:3 --at nowhere
 refused 1 "place of --values" sweep lorenz rho=1,2 --at step
 
+# ---- stiff systems without a step size and schemes ----
+
+# van der Pol and the Oregonator: E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.10
+printf 'rate: x = z, z = ((1 - x^2)*z - x)/1e-6\nstart: x = 2, z = 0\nuntil: 2\n' >pol.system
+status 0 run ./pol.system --json --state
+holds 'd["scheme"] == "gsl-msbdf" and near(d["state"][0], 1.7061677321, 1e-4) and d["steps"] == 200 and d["seconds"] < .5'
+cat >oregonator.system <<'END'
+rate: y1 = 77.27*(y2 + y1*(1 - 8.375e-6*y1 - y2)), y2 = (y3 - (1 + y1)*y2)/77.27, y3 = 0.161*(y1 - y3)
+start: y1 = 1, y2 = 2, y3 = 3
+until: 360
+END
+status 0 run ./oregonator.system --json --state
+holds 'd["scheme"] == "gsl-msbdf" and all(near(a / b, 1, 1e-5) for a, b in zip(d["state"], (1.00081487, 1228.17852, 132.055494)))'
+printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2\nstart: a = 1, b = 0, c = 0\nuntil: 40\n' >robertson.system
+status 0 run ./robertson.system --json --state
+holds 'd["scheme"] == "gsl-msbdf" and near(d["state"][0], .7158270688, 1e-5)'
+for scheme in implicit-euler sdirk2 trapezoidal midpoint radau3 radau5; do
+    status 0 run ./robertson.system scheme=$scheme dt=.2,.1,.04,.01 --json
+    [ "$(grep -c '"status":"ok"' out)" = 4 ] || fail "Robertson's reaction with $scheme"
+done
+status 0 run ./robertson.system scheme=implicit-euler dt=1e8 steps=1 --json --state
+holds 'near(d["state"][0], 4.53359916e-3, 1e-10) and near(d["state"][1], 1.82159855e-8, 1e-15)'
+# the same with a step size or schemes in the file, and systems that are not stiff, begin as before
+(cat robertson.system && echo 'dt: 0.01') >other.system
+status 0 run ./other.system --json
+holds 'd["scheme"] != "gsl-msbdf"'
+status 0 run system 'rate=x = 10*(y - x), y = x*(28 - z) - y, z = x*y - 8/3*z' x=1 y=1 z=1 --json
+holds 'd["scheme"] != "gsl-msbdf"'
+
 [ "$failures" = 0 ] && echo "orbits: all passed"
 exit "$failures"

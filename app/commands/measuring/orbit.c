@@ -21,7 +21,7 @@
 #include "core/schemes.h"
 #include "render/files/temporary.h"
 
-enum { MOST_RETURN = 1000000 /* steps until the first return */ };
+enum { MOST_RETURN = 1000000 /* steps until the first return */, MOST_STEPS = 1000000000 };
 
 struct work {
     const struct gm_options *options;
@@ -118,7 +118,7 @@ static void choose_period(struct work *work, struct gm_problem *problem)
                           "the motion does not return to the plane through its start normal to f; start "
                           "closer to the orbit, or give its period=");
     }
-    orbit->steps = (int64_t)fmax(1, round(orbit->period / dt));
+    orbit->steps = (int64_t)fmin(fmax(1, round(orbit->period / dt)), MOST_STEPS);
 }
 
 static size_t structure_of(const struct work *work)
