@@ -320,9 +320,12 @@ static void pass_events(struct gm_run *run)
         step.t = run->t - run->dt;
     }
     run->behind = 0; /* a step in parts is not repeated */
-    const enum gm_event_outcome outcome = gm_events_pass(&step);
+    const unsigned long refusals = gm_memory_refusals();
+    enum gm_event_outcome outcome = gm_events_pass(&step);
+    const bool refused = gm_memory_refusals() != refusals;
+    outcome = refused ? GM_EVENTS_FAILED : outcome;
     if (outcome == GM_EVENTS_FAILED) {
-        run->status = GM_NO_CONVERGENCE;
+        run->status = refused ? GM_OUT_OF_MEMORY : GM_NO_CONVERGENCE;
         run->current = before;
         run->n--;
         run->steps--;
@@ -333,8 +336,10 @@ static void pass_events(struct gm_run *run)
     if (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY) {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY ? GM_EVENTS_ACCUMULATE : run->status;
-        run->t = run->t0 = step.part ? step.reached : run->t;
-        run->n = step.part ? 0 : run->n;
+    }
+    if (step.part && (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY)) {
+        run->t = run->t0 = step.reached;
+        run->n = 0;
     }
 }
 
@@ -348,6 +353,7 @@ static bool make_together(struct gm_run *run)
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
     const double *memory = events_of(run, run->current);
     const size_t bytes = gm_events_memory(problem) * sizeof *memory;
+    const unsigned long refusals = gm_memory_refusals();
     bool good = true;
     gm_run_save(run, snapshot);
     for (size_t k = 0; good && k < TOGETHER; k++) {
@@ -361,7 +367,8 @@ static bool make_together(struct gm_run *run)
     }
     if (good) {
         problem->events->values(problem, looks, TOGETHER, values);
-        good = !gm_events_are_near(problem, events_of(run, run->current), run->ends, values, TOGETHER);
+        good = !gm_events_are_near(problem, events_of(run, run->current), run->ends, values, TOGETHER) &&
+               gm_memory_refusals() == refusals;
     }
     if (!good) {
         gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */

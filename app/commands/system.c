@@ -312,6 +312,14 @@ static void print_equations(const struct report *report)
             k++;
         }
     }
+    for (size_t i = 0, k = 1; i < system->item_count && k <= MOST_EQUATIONS; i++) {
+        const char *text = system->source + system->items[i].place;
+        if (system->items[i].word == GM_WORD_EVENT) {
+            printf("%s  %.*s\n", k == 1 ? "\nevents, as the file has them\n" : "", (int)strcspn(text, "\n"),
+                   text);
+            k++;
+        }
+    }
 }
 
 static void print_kept(const struct report *report)

@@ -43,6 +43,7 @@ COMMANDS = [
     ("run henon-heiles steps=5 scheme=verlet,gauss4 --measure lyapunov,return_time --json", {}),
     ("run oscillator scheme=variational-midpoint steps=5 --measure megno --json", {}),
     ("run abc steps=5 --json", {}),
+    ("run bouncing-ball scheme=gauss4 steps=40 --measure events,log_volume --json", {}),
     ("run oscillator scheme=variational-midpoint steps=5 --json", {}),
     ("run sine-gordon points=101 steps=3 --json", {}),
     ("run kepler steps=5 --save OUT/a.npz", {}),
@@ -131,9 +132,10 @@ COMMANDS = [
 # Of each kind of system, one a day: a child is forked for every allocation, and for every stream into memory that is
 # closed, of these commands.
 SYSTEMS = [
-    ("double-pendulum", "duffing", "kicked-rotor", "klein-gordon", "spherical-pendulum", "kepler-space"),
+    ("double-pendulum", "duffing", "kicked-rotor", "klein-gordon", "spherical-pendulum", "kepler-space",
+     "bouncing-ball"),
     ("bowl", "cartesian-pendulum"),
-    ("lorenz", "bbm"),
+    ("lorenz", "clock", "bbm"),
     ("lotka-volterra", "rigid-body", "heavy-top"),
     ("phi4", "boussinesq", "double-sine-gordon", "camassa-holm"),
     ("driven-pendulum", "charged-particle", "restricted-three-body"),
