@@ -169,6 +169,16 @@ bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_sce
     return follows;
 }
 
+bool gm_chosen_are_of_the_end(const struct gm_chosen *chosen, const struct gm_scene *scene)
+{
+    bool end = true;
+    for (size_t i = 0; i < chosen->count; i++) {
+        const struct gm_observable *observable = gm_scene_observable_at(scene, chosen->numbers[i]);
+        end = end && !observable->recalls && observable->period == 0;
+    }
+    return end;
+}
+
 /* ---- unknown words ---- */
 
 const char *gm_scheme_own_name(const struct gm_scene *scene, const char *word)

@@ -44,6 +44,8 @@ void gm_chosen_close(void *chosen);
 /* Returns true if an observable on request is among them. Such observables follow the steps of a run, which must
    all have the same size. */
 bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_scene *scene);
+/* Returns true if all of them follow from the last state alone: a run needs no look at the states before. */
+bool gm_chosen_are_of_the_end(const struct gm_chosen *chosen, const struct gm_scene *scene);
 
 /* Refuses an observable that is not there, with the nearest that is. Returns false. */
 bool gm_chosen_refuse(const struct gm_scene *scene, const char *key, char *message);

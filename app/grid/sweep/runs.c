@@ -354,18 +354,6 @@ static void put_values(const struct gm_sweep *sweep, const char *cells, const st
     fprintf(stream, count == 0 ? "%s,,,\n" : "", cells);
 }
 
-/* Returns true if all chosen observables follow from the last state alone. */
-static bool is_of_the_end(const struct gm_sweep *sweep)
-{
-    bool end = true;
-    for (size_t i = 0; i < sweep->chosen.count; i++) {
-        const struct gm_observable *observable =
-            gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i]);
-        end = end && !observable->recalls && observable->period == 0;
-    }
-    return end;
-}
-
 /* Reads the run's words as `geomint run` does, and makes it, unless a status gives a reason against it. */
 static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
                      const char *status, struct gm_sweep_row *row)
@@ -377,7 +365,7 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     struct gm_sweep_series series = {0};
     drive.lane = status ? NULL : gm_request_open_lane(request, 0, message);
     if (drive.lane) {
-        drive.lane->unfollowed = is_of_the_end(sweep);
+        drive.lane->unfollowed = gm_chosen_are_of_the_end(&sweep->chosen, sweep->scene);
     }
     if (drive.lane && sweep->values) {
         gm_sweep_follow(sweep, &drive, request->lanes[0].steps, &series);
