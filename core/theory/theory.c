@@ -13,7 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/arena.h"
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
@@ -28,15 +27,26 @@ struct weights {
     } * rows[GM_SIDES];
 };
 
-static struct weights weights_of(struct gm_arena *arena, const struct gm_coefficients *coefficients)
+static void weights_close(struct weights *weights)
+{
+    free(weights->of);
+    free(weights->sums);
+    free(weights->rows[GM_SIDE_Q]);
+    free(weights->rows[GM_SIDE_P]);
+}
+
+/* False: out of memory; to be closed in both cases. */
+static bool weights_open(struct weights *weights, const struct gm_coefficients *coefficients)
 {
     const int stages = coefficients->stages;
-    struct weights weights = {.stages = stages};
-    weights.sums = gm_arena_take(arena, (size_t)stages + 1, sizeof *weights.sums);
-    for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
-        struct row *rows = gm_arena_take(arena, (size_t)stages, sizeof *rows);
-        weights.rows[side] = rows;
-        for (int i = 0; i < stages; i++) {
+    *weights = (struct weights){.stages = stages};
+    weights->sums = malloc(((size_t)stages + 1) * sizeof *weights->sums);
+    bool good = weights->sums != NULL;
+    for (int side = 0; good && side < gm_coefficients_sides(coefficients); side++) {
+        struct row *rows = calloc((size_t)stages, sizeof *rows);
+        weights->rows[side] = rows;
+        good = rows != NULL;
+        for (int i = 0; good && i < stages; i++) {
             const struct gm_ball *row = coefficients->a[side] + i * stages, *before = row - stages;
             while (i > 0 && rows[i].same < stages &&
                    gm_ball_is_same(&row[rows[i].same], &before[rows[i].same])) {
@@ -47,7 +57,7 @@ static struct weights weights_of(struct gm_arena *arena, const struct gm_coeffic
             }
         }
     }
-    return weights;
+    return good;
 }
 
 static struct gm_ball *inner(const struct weights *weights, int tree)
@@ -169,63 +179,54 @@ static int most_orders(enum gm_equations equations)
     return equations == GM_EQUATIONS_PARTITIONED ? 8 : GM_TREES_ORDER;
 }
 
-/* The weights of the last order's trees. */
-static void weigh_order(struct gm_arena *arena, const struct gm_coefficients *coefficients,
-                        const struct gm_trees *trees, struct weights *weights)
+/* The weights of the last order's trees. False: out of memory. */
+static bool weigh_order(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
+                        struct weights *weights)
 {
-    const size_t each = 2 * (size_t)coefficients->stages;
-    weights->of = gm_arena_resize(arena, weights->of, (size_t)trees->first[trees->orders + 1] * each,
-                                  sizeof *weights->of);
+    const size_t each = 2 * (size_t)coefficients->stages * sizeof *weights->of;
+    struct gm_ball *grown = realloc(weights->of, (size_t)trees->first[trees->orders + 1] * each);
+    if (!grown) {
+        return false;
+    }
+    weights->of = grown;
     for (int tree = trees->first[trees->orders]; tree < trees->first[trees->orders + 1]; tree++) {
         weigh(coefficients, trees, weights, tree);
     }
+    return true;
 }
 
-static void close_trees(void *trees)
+/* Order by order to the first failure. False: out of memory. */
+static bool find_order(const struct gm_coefficients *coefficients, struct gm_theory *theory)
 {
-    gm_trees_close(trees);
-}
-
-static struct gm_trees *trees_of(struct gm_arena *arena, enum gm_equations equations)
-{
-    struct gm_trees *trees = gm_arena_take(arena, 1, sizeof *trees);
-    gm_trees_open(trees, equations);
-    return gm_arena_keep(arena, trees, close_trees);
-}
-
-/* A method, and what is found about it. */
-struct finding {
-    const struct gm_coefficients *coefficients;
-    struct gm_theory *theory;
-};
-
-/* Order by order to the first failure. */
-static void find_order(struct gm_arena *arena, void *data)
-{
-    const struct finding *finding = data;
-    const struct gm_coefficients *coefficients = finding->coefficients;
-    struct gm_theory *theory = finding->theory;
-    struct gm_trees *trees = trees_of(arena, coefficients->equations);
+    struct gm_trees trees;
+    const bool plain = coefficients->equations == GM_EQUATIONS_PLAIN;
     const int moved = coefficients->moved_count;
-    struct weights *weights = gm_arena_take(arena, (size_t)moved + 1, sizeof *weights);
-    for (int k = 0; k <= moved; k++) {
-        weights[k] = weights_of(arena, k == 0 ? coefficients : &coefficients->moved[k - 1]);
+    struct weights *weights = calloc((size_t)moved + 1, sizeof *weights);
+    bool good = weights != NULL, searching = true;
+    for (int k = 0; good && k <= moved; k++) {
+        good = weights_open(&weights[k], k == 0 ? coefficients : &coefficients->moved[k - 1]);
     }
     theory->error_constant = NAN;
-    bool searching = true;
-    for (int order = 1; searching && order <= most_orders(coefficients->equations); order++) {
-        gm_arena_need(arena, gm_trees_grow(trees));
-        for (int k = 0; k <= moved; k++) {
-            weigh_order(arena, k == 0 ? coefficients : &coefficients->moved[k - 1], trees, &weights[k]);
+    gm_trees_open(&trees, coefficients->equations);
+    for (int order = 1; good && searching && order <= most_orders(coefficients->equations); order++) {
+        good = gm_trees_grow(&trees) && weigh_order(coefficients, &trees, &weights[0]);
+        for (int k = 1; good && k <= moved; k++) {
+            good = weigh_order(&coefficients->moved[k - 1], &trees, &weights[k]);
         }
-        searching = holds(coefficients, trees, weights, theory);
+        searching = good && holds(coefficients, &trees, weights, theory);
     }
     theory->at_least = searching;
-    bool symplectic = coefficients->equations == GM_EQUATIONS_PLAIN && !theory->symplectic;
-    for (int order = 2; symplectic && order <= trees->orders; order++) {
-        symplectic = is_symplectic_to(coefficients, trees, &weights[0], order);
+    bool symplectic = plain && !theory->symplectic;
+    for (int order = 2; good && symplectic && order <= trees.orders; order++) {
+        symplectic = is_symplectic_to(coefficients, &trees, &weights[0], order);
         theory->pseudo_symplectic = symplectic ? order : theory->pseudo_symplectic;
     }
+    for (int k = 0; weights && k <= moved; k++) {
+        weights_close(&weights[k]);
+    }
+    free(weights);
+    gm_trees_close(&trees);
+    return good;
 }
 
 static struct gm_ball at(const struct gm_coefficients *coefficients, int side, int i, int j)
@@ -503,7 +504,7 @@ static struct gm_theory theory_of_reduced(const struct gm_coefficients *coeffici
         .symmetric = gm_theory_is_symmetric(coefficients),
     };
     theory.digits = digits_of(coefficients);
-    theory.known = gm_arena_run_once(find_order, &(struct finding){coefficients, &theory}) &&
+    theory.known = find_order(coefficients, &theory) &&
                    (coefficients->equations != GM_EQUATIONS_PLAIN || simplify(coefficients, &theory)) &&
                    gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
     return theory;
@@ -521,11 +522,7 @@ struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
     return theory;
 }
 
-/* What is asked of a method, and what has to vanish for it: a block that the caller takes over. */
 struct residuals {
-    const struct gm_coefficients *coefficients;
-    int order;
-    bool symplectic, symmetric;
     struct gm_ball *at;
     size_t count;
 };
@@ -545,34 +542,29 @@ static bool gather(void *data, struct gm_ball residual)
     return true;
 }
 
-static void find_residuals(struct gm_arena *arena, void *data)
-{
-    struct residuals *all = data;
-    const struct gm_coefficients *coefficients = all->coefficients;
-    const bool nystrom = coefficients->nystrom > 0;
-    const int possible = most_orders(coefficients->equations),
-              most = all->order < possible ? all->order : possible;
-    struct weights weights = weights_of(arena, coefficients);
-    struct gm_trees *trees = trees_of(arena, coefficients->equations);
-    while (trees->orders < most) {
-        gm_arena_need(arena, gm_trees_grow(trees));
-        weigh_order(arena, coefficients, trees, &weights);
-        for (int tree = trees->first[trees->orders]; tree < trees->first[trees->orders + 1]; tree++) {
-            gm_arena_need(arena, gather(all, residual(coefficients, trees, &weights, tree)));
-        }
-    }
-    gm_arena_need(arena, !all->symplectic ||
-                             (nystrom ? is_nystrom_symplectic : is_symplectic)(coefficients, gather, all));
-    gm_arena_need(arena, !all->symmetric ||
-                             (nystrom ? is_nystrom_symmetric : is_symmetric)(coefficients, gather, all));
-}
-
 struct gm_ball *gm_theory_residuals(const struct gm_coefficients *coefficients, int order, bool symplectic,
                                     bool symmetric, size_t *count)
 {
-    struct residuals all = {
-        .coefficients = coefficients, .order = order, .symplectic = symplectic, .symmetric = symmetric};
-    if (!gm_arena_run_once(find_residuals, &all)) {
+    struct residuals all = {0};
+    struct gm_trees trees;
+    struct weights weights;
+    const bool nystrom = coefficients->nystrom > 0;
+    const int most = most_orders(coefficients->equations);
+    bool good = weights_open(&weights, coefficients);
+    gm_trees_open(&trees, coefficients->equations);
+    while (good && trees.orders < (order < most ? order : most)) {
+        good = gm_trees_grow(&trees) && weigh_order(coefficients, &trees, &weights);
+        for (int tree = trees.first[trees.orders]; good && tree < trees.first[trees.orders + 1]; tree++) {
+            good = gather(&all, residual(coefficients, &trees, &weights, tree));
+        }
+    }
+    good = good &&
+           (!symplectic || (nystrom ? is_nystrom_symplectic : is_symplectic)(coefficients, gather, &all));
+    good =
+        good && (!symmetric || (nystrom ? is_nystrom_symmetric : is_symmetric)(coefficients, gather, &all));
+    weights_close(&weights);
+    gm_trees_close(&trees);
+    if (!good) {
         free(all.at);
         return NULL;
     }
