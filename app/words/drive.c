@@ -220,6 +220,23 @@ static bool tell_part(const struct gm_lane *lane, const char *how, char *text, s
     return part[0] != '\0';
 }
 
+/* Returns the longest half, quarter and so on of a step without a solution that has one from the same state; 0: not
+   known. */
+static double solvable_step(const struct gm_run *run)
+{
+    enum { HALVINGS = 20 };
+    bool solved = false;
+    double dt = run->dt;
+    for (int i = 0; i < HALVINGS && !solved && !run->scheme->family->adaptive; i++) {
+        dt /= 2;
+        struct gm_run *shorter =
+            gm_run_open(run->problem, run->scheme, &run->settings, run->t, dt, gm_run_state(run));
+        solved = shorter && gm_run_advance(shorter, 1) == GM_OK;
+        gm_run_close(shorter);
+    }
+    return solved ? fabs(dt) : 0;
+}
+
 /* Writes the reason for unsolved implicit equations of a step, and a remedy. */
 static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
 {
@@ -229,7 +246,7 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         [GM_NOT_FINITE] = ": its iteration leaves the numbers",
         [GM_STILL_LARGE] = ": its iteration still changes by",
     };
-    char change[40] = "";
+    char change[40] = "", shorter[40] = "a shorter dt";
     if (run->unsolved.obstacle == GM_STILL_LARGE) {
         snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
     }
@@ -242,10 +259,16 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         return;
     }
     const bool helps = strcmp(name, "radau5") != 0 && strcmp(name, "sdirk2") != 0 &&
-                       gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem);
-    snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s", run->t,
-             obstacles[run->unsolved.obstacle], change, run->scheme->steady ? "" : "; take a shorter dt",
-             helps ? ", or radau5" : "");
+                       gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem),
+               also = gm_scheme_fits(gm_scheme_find("gsl-msbdf"), run->problem);
+    const double dt = run->scheme->steady || !also ? 0 : solvable_step(run);
+    if (dt > 0) {
+        snprintf(shorter, sizeof shorter, "dt below %.2g", dt);
+    }
+    const char *others = !helps ? "" : dt > 0 ? ", radau5 or gsl-msbdf" : ", or radau5";
+    snprintf(text, size, "the implicit step after t = %.6g was not solved%s%s%s%s%s", run->t,
+             obstacles[run->unsolved.obstacle], change, run->scheme->steady ? "" : "; take ",
+             run->scheme->steady ? "" : shorter, others);
 }
 
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)

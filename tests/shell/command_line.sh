@@ -329,9 +329,9 @@ status 0 run kepler scheme=verlet steps=30 --strict
 status 2 run disc scheme=implicit-euler until=60 --strict
 # what was in the way, and the way out
 status 2 run disc system=pendulum scheme=midpoint points=100 dt=40 until=4000 --json
-grep -q 'the implicit step after t = [0-9]* was not solved: its .*; take a shorter dt, or radau5",' out || fail "$(cat out)"
+grep -q 'the implicit step after t = [0-9]* was not solved: its .*; take dt below [0-9.e-]*, radau5 or gsl-msbdf",' out || fail "$(cat out)"
 status 2 run system H='p^2/2 + q^2/2 - q^3/3' q=2 p=1 scheme=midpoint dt=1 steps=9 --json
-grep -q 'its iteration still changes by [0-9.e-]* of the state; take a shorter dt, or radau5",' out || fail "$(cat out)"
+grep -q 'its iteration still changes by [0-9.e-]* of the state; take dt below [0-9.e-]*, radau5 or gsl-msbdf",' out || fail "$(cat out)"
 status 2 run nls scheme=euler-box dt=0.5 until=50 --json # a field, which radau5 does not fit
 grep -q 'the implicit step after t = 1 was not solved to round-off; take a shorter dt",' out || fail "$(cat out)"
 # an explicit scheme has no implicit equations
