@@ -312,7 +312,7 @@ static bool refuse_mesh(const char *name, const struct gm_triangulation_fault *w
                         struct gm_fault *fault)
 {
     char sentence[GM_TRIANGULATION_SENTENCE];
-    return gm_fail(fault, place, "%s", gm_triangulation_explain(name, wrong, sentence));
+    return gm_fail(fault, place, "mesh: %s", gm_triangulation_explain(name, wrong, sentence));
 }
 
 /* Makes or reads the mesh. */
@@ -426,7 +426,7 @@ static void factor(struct own *own)
         gm_arena_keep(own->arena, own->lu, close_lu);
     } else if (!own->factor) {
         const struct gm_form_model *model = own->model;
-        gm_arena_refuse(own->arena, "the equations do not determine %s: their matrix is singular",
+        gm_arena_refuse(own->arena, "equation: the equations do not determine %s: their matrix is singular",
                         model->system->variables[model->unknowns[0]].name);
     }
 }
@@ -803,8 +803,8 @@ static bool correct(const struct gm_problem *problem, const struct gm_stages *st
 
 /* ---- the problem ---- */
 
-/* Leaves the body: there is no part of this name. */
-_Noreturn static void refuse_part(const struct own *own, const char *part)
+/* Leaves the body: there is no part of this name; `line` is the word of its line. */
+_Noreturn static void refuse_part(const struct own *own, const char *line, const char *part)
 {
     const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
     char groups[200];
@@ -816,12 +816,12 @@ _Noreturn static void refuse_part(const struct own *own, const char *part)
             names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
         }
     }
-    gm_arena_refuse(own->arena, "boundary: there is no part %.40s; the parts of %.60s are: %s", part, word,
-                    names);
+    gm_arena_refuse(own->arena, "%s: %.40s is not a part of the boundary; the parts of %.60s are: %s", line,
+                    part, word, names);
 }
 
 /* Marks the edges of the boundary that are on a part. */
-static void mark_part(const struct own *own, const char *part, bool *edges)
+static void mark_part(const struct own *own, const char *line, const char *part, bool *edges)
 {
     const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name;
     const struct gm_complex *complex = own->space.complex;
@@ -833,7 +833,7 @@ static void mark_part(const struct own *own, const char *part, bool *edges)
         there |= strcmp(parts[i], part) == 0;
     }
     if (!there) {
-        refuse_part(own, part);
+        refuse_part(own, line, part);
     }
     memset(edges, 0, complex->edges * sizeof *edges);
     for (size_t b = 0; b < complex->boundary; b++) {
@@ -866,7 +866,7 @@ static void make_closings(struct own *own)
             continue;
         }
         size_t count = 0;
-        mark_part(own, item->name, edges);
+        mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
                 entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
@@ -888,7 +888,7 @@ static void make_around(struct own *own)
     own->around = gm_arena_take(arena, system->boundary_count + 1, sizeof *own->around);
     for (size_t i = 0; i < system->boundary_count; i++) {
         size_t count = 0;
-        mark_part(own, system->boundaries[i], edges);
+        mark_part(own, "observe", system->boundaries[i], edges);
         for (size_t e = 0; e < complex->edges; e++) {
             entries[count] = (struct gm_matrix_entry){0, (int)e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1};
             count += edges[e];
@@ -939,7 +939,7 @@ static void hold(struct own *own, const double *variables)
     for (size_t i = 0; i < model->held.root_count; i++) {
         const struct gm_system_item *item = &system->items[model->held_item[i]];
         const int degree = system->forms[item->variable].degree;
-        mark_part(own, item->name, edges);
+        mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             if (edges[e] && degree == 1) {
                 own_edges[e] = true;
@@ -1018,7 +1018,7 @@ static void take_start(struct own *own, const double *variables)
         memcpy(own->start + own->offset[form], values, size * sizeof *values);
         for (size_t j = 0; j < size; j++) {
             if (!isfinite(values[j])) {
-                gm_arena_refuse(own->arena, "the start of %s is not finite at its number %zu",
+                gm_arena_refuse(own->arena, "start: %s is not finite at its number %zu",
                                 model->system->variables[form].name, j + 1);
             }
         }
