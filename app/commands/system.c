@@ -534,13 +534,15 @@ static void put_equations(struct gm_row *row, const struct report *report)
         put_formula(&equations, name, report, node);
     }
     gm_row_close(&equations);
-    const char *left;
-    gm_node_id part;
-    struct gm_row form = gm_row_open(row, "form", '}');
-    for (size_t i = 0; (part = form_of(report, i, false, &left)) != GM_NO_NODE; i++) {
-        put_formula(&form, left, report, part);
+    if (system->theta) {
+        const char *left;
+        gm_node_id part;
+        struct gm_row form = gm_row_open(row, "form", '}');
+        for (size_t i = 0; (part = form_of(report, i, false, &left)) != GM_NO_NODE; i++) {
+            put_formula(&form, left, report, part);
+        }
+        gm_row_close(&form);
     }
-    gm_row_close(&form);
     struct gm_row constraints = gm_row_open(row, "constraints", ']');
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_CONSTRAINT) {
