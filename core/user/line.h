@@ -4,8 +4,8 @@
 #ifndef GM_CORE_USER_LINE_H
 #define GM_CORE_USER_LINE_H
 
-#include "core/problem.h"
 #include "core/model/system.h"
+#include "core/problem.h"
 #include "core/tape.h"
 
 /* The formulas, with x as variable 0 and t as variable 1. */
