@@ -5,12 +5,12 @@
 /* The status of a run. Any value but GM_OK is final: the run is frozen at its last good step. */
 enum gm_status {
     GM_OK,
-    GM_BLOW_UP,        /* a state that is not finite, or whose norm left the problem's bound */
-    GM_NO_CONVERGENCE, /* an implicit equation was not solved to round-off */
-    GM_MESH_CROSSING,  /* a moving mesh would have tangled */
-    GM_STEP_COLLAPSE,  /* an adaptive scheme found no step */
-    GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
-    GM_STEP_TOO_SMALL, /* step size control led to round-off of the time, or to too many steps */
+    GM_BLOW_UP,           /* a state that is not finite, or whose norm left the problem's bound */
+    GM_NO_CONVERGENCE,    /* an implicit equation was not solved to round-off */
+    GM_MESH_CROSSING,     /* a moving mesh would have tangled */
+    GM_STEP_COLLAPSE,     /* an adaptive scheme found no step */
+    GM_OUT_OF_MEMORY,     /* the system gave no memory: nothing is wrong with the numbers so far */
+    GM_STEP_TOO_SMALL,    /* step size control led to round-off of the time, or to too many steps */
     GM_EVENTS_ACCUMULATE, /* events follow each other in ever shorter times */
 };
 
