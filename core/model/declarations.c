@@ -300,9 +300,10 @@ void gm_declared_kind(struct gm_reading *reading)
                                : rate                        ? GM_RATES
                                : bracket                     ? GM_POISSON
                                                              : GM_CANONICAL;
-    static const char *const called[] = {"with H",         "with L",       "with rates",
-                                         "with a bracket", "with a field", "with a field and its rate",
-                                         "with K-matrix",  "of forms",     "of nodes alone"};
+    static const char *const called[] = {
+        "with H",         "with L",       "with rates",
+        "with a bracket", "with a field", "with a field and its rate",
+        "with K-matrix",  "of forms",     [GM_SYSTEM_KINDS] = "of nodes alone"};
     const unsigned which = system->alone ? GM_SYSTEM_KINDS : kind;
     gm_system_refuse_if(system,
                         !matrix && (gm_reading_line(reading, GM_WORD_L_MATRIX) ||

@@ -63,7 +63,8 @@ static void watch_pfaffian(struct gm_user_system *system)
         const size_t count = system->item_count + 1;
         system->items = gm_arena_resize(system->arena, system->items, count, sizeof *system->items);
         struct gm_system_item *item = &system->items[system->item_count++];
-        *item = (struct gm_system_item){.word = GM_WORD_STOP, .name = "", .place = system->bracket_place};
+        *item = (struct gm_system_item){
+            .word = GM_WORD_STOP, .name = "", .place = system->bracket_place, .ends = true};
         item->nodes = gm_arena_take(system->arena, 1, sizeof *item->nodes);
         item->nodes[item->count++] = node;
     }

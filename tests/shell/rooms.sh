@@ -330,7 +330,7 @@ wrong 'no more enters by the profile' 'inlet: vent flow = 0.05 speed = sin(2*pi*
 wrong 'wrong.room:5:8: no more enters by the profile' 'inlet: vent speed = -0.01'
 wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
 wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
-wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
+wrong 'at most 160 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # parameters, choices and rectangles of one's own
 wrong 'wrong.room:5:12: a name was expected' 'parameter: 3 = 1'
 wrong 'wrong.room:6:12: a is defined twice, first in line 5' 'parameter: a = 1\nparameter: a = 2'
