@@ -331,7 +331,8 @@ size_t gm_user_field_elsewhere(const struct gm_user_system *system, const char *
     for (*others = 0; gm_listed_word(&schemes, name, sizeof name);) {
         const struct gm_scheme *scheme = gm_scheme_find(name);
         bool is_there = scheme && scheme->family->kind == there;
-        for (size_t i = 0; scheme && there && !is_there && i < gm_scheme_count(); i++) { /* kinds may share a name */
+        for (size_t i = 0; scheme && there && !is_there && i < gm_scheme_count();
+             i++) { /* kinds may share a name */
             const struct gm_scheme *other = gm_scheme_at(i);
             is_there = other->family->kind == there && strcmp(other->name, scheme->name) == 0;
         }

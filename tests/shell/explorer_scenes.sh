@@ -9,7 +9,7 @@ set -u
 # the scene's own parameters but the end, which `geomint run` alone knows, and what only a mesh file has
 keys_of() {
     "$geomint" list "$1" --json | sed 's|"observables".*||' | grep -o '"key":"[^"]*"' | sed 's/"key":"//; s/"//' |
-        grep -vxE 'until|compensated|binding|tau0|tolerance|newmark_beta|inlet|lid|star|refine'
+        grep -vxE "until|compensated|binding|tau0|tolerance|newmark_beta|inlet|lid|refine${2-|star}"
 }
 
 open_scene() { # WORDS
@@ -28,7 +28,11 @@ for scene in $("$geomint" list scenes --json | grep -o '"scene":"[^"]*"' | sed '
     open_scene "$scene"
     wait_for 'SCHEMES' || echo "  in $scene"
     # every parameter can be chosen, one after the other, and says what it is
-    for key in $(keys_of "$scene"); do
+    case $scene in
+    form-*) own=$(keys_of "$scene" '') ;;
+    *) own=$(keys_of "$scene") ;;
+    esac
+    for key in $own; do
         # the portrait has no row where the system refuses it
         if [ "$key" = portrait ] && ! "$geomint" run "$scene" portrait=yes steps=1 >/dev/null 2>&1; then
             screen | grep -q "portrait" && fail "$scene: a row of a portrait that it cannot have"
