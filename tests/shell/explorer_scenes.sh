@@ -29,7 +29,7 @@ for scene in $("$geomint" list scenes --json | grep -o '"scene":"[^"]*"' | sed '
     wait_for 'SCHEMES' || echo "  in $scene"
     # every parameter can be chosen, one after the other, and says what it is
     case $scene in
-    form-*) own=$(keys_of "$scene" '') ;;
+    form-*) own=$(keys_of "$scene" '' | grep -vxE 'azimuth|elevation|zoom|turn') ;; # their meshes are flat
     *) own=$(keys_of "$scene") ;;
     esac
     for key in $own; do
