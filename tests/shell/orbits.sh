@@ -51,6 +51,9 @@ printf 'rate: x = y, y = (1 - x^2)*y - x\nstart: x = 2, y = 0\n' >vdp.system
 status 0 orbit ./vdp.system --json
 holds 'd["status"] == "ok" and d["stability"] == "stable" and near(d["period"], 6.663286859323133, 1e-9)'
 holds 'near(d["start"][0], 2.0086198609, 1e-9) and near(d["multipliers"][0][0], 1, 1e-9) and near(d["multipliers"][1][0], 8.5969506360e-4, 1e-12)'
+# a start inside of the cycle comes back after two turns, which are not its period
+status 0 orbit van-der-pol --json
+holds 'near(d["period"], 6.663286859323133, 1e-9) and near(d["multipliers"][1][0], 8.5969506360e-4, 1e-12)'
 printf 'rate: x = 1 + x^2*y - 4*x, y = 3*x - x^2*y\nstart: x = 2, y = 1\n' >brusselator.system
 status 0 orbit ./brusselator.system --json
 holds 'near(d["period"], 7.15691992118, 1e-9) and near(d["multipliers"][1][0], 2.516375799e-4, 1e-12)'

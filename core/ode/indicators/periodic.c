@@ -241,6 +241,22 @@ static void adjust_period(struct search *search)
     orbit->period = fmin(residual, before) <= resolved * scale_of(search) ? orbit->period : search->guess;
 }
 
+/* An orbit that closes several times in its period has a shorter one: a start far away may return only after some
+   turns. */
+static void shorten(struct search *search)
+{
+    enum { MOST_TURNS = 8 };
+    struct gm_periodic *orbit = search->orbit;
+    for (int turns = MOST_TURNS; turns > 1; turns--) {
+        const double period = orbit->period / turns;
+        if (follow(search, orbit->start, period, false) <= stalled * scale_of(search)) {
+            orbit->period = search->guess = period;
+            iterate(search);
+            return;
+        }
+    }
+}
+
 /* Writes the multipliers in descending order of their moduli. */
 static void find_multipliers(struct search *search)
 {
@@ -291,6 +307,9 @@ static void find(struct gm_arena *arena, void *data)
     do {
         iterate(&search);
     } while (orbit->refined && orbit->residual <= stalled * scale_of(&search) && refine(&search));
+    if (orbit->free && orbit->residual <= stalled * scale_of(&search)) {
+        shorten(&search);
+    }
     find_multipliers(&search);
     double fastest = 0;
     gm_field(orbit->problem, orbit->start, search.slope, 1);
