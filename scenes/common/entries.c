@@ -114,6 +114,7 @@ static void thin(struct gm_entries *entries)
         entries->times[kept] = entries->times[i];
         entries->steps[kept] = entries->steps[i];
         memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
+        kept++;
     }
     entries->count = kept;
     entries->every *= 2;
