@@ -232,7 +232,7 @@ static void check_settings(struct gm_arena *arena, const struct gm_request *requ
             }
         }
         if (names[0]) {
-            gm_arena_refuse(arena, "%s= has no effect here: it is for %s", key, names);
+            gm_arena_refuse(arena, "none of these schemes takes %s=; these do: %s", key, names);
         }
         gm_arena_refuse(arena, "no scheme that fits scene %s takes %s=", scene->name, key);
     }

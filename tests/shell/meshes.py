@@ -350,7 +350,7 @@ def nodes_alone():
         refused(sentence, path)
     refused("nodes alone are of free- schemes, and not of control-gauss4", "peakons", "scheme=control-gauss4")
     refused("cell: is 0, and nodes alone move by nothing else", "peakons", "cell=0")
-    refused("cell= has no effect here: it is for free-gauss2, free-gauss4", "soliton", "cell=d_t^2")
+    refused("none of these schemes takes cell=; these do: free-gauss2, free-gauss4", "soliton", "cell=d_t^2")
     for name in ("steepest", "bend", "X"):
         refused(f"{name} is a key of moving meshes", file_of(f"name{name}", f"parameter: {name} = 1"))
     text = SYSTEM.replace("u_t = 0.2*x*exp(-x^2/2)", "u_t = 0.2*x*exp(-x^2/2), X_t = 0.1*cos(pi*x/12)")
