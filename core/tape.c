@@ -1164,22 +1164,6 @@ static void sines_of(const struct gm_tape *tape, const double *x, double *sine, 
     }
 }
 
-static void cosines_of(const struct gm_tape *tape, const double *x, double *cosine, size_t count)
-{
-    enum { SOME = 64 };
-    double half[SOME], sine[SOME];
-    for (size_t from = 0, some; from < count; from += some) {
-        some = count - from < SOME ? count - from : SOME;
-        for (size_t i = 0; i < some; i++) {
-            half[i] = x[from + i] / 2;
-        }
-        sines_of(tape, half, sine, some);
-        for (size_t i = 0; i < some; i++) {
-            cosine[from + i] = 1 - 2 * sine[i] * sine[i];
-        }
-    }
-}
-
 /* An operation for a block of members: at[register] is its row, or of a constant its one number. */
 static inline void compute_rows_of(const struct gm_tape *tape, const struct gm_instruction *now,
                                    double *const *at, size_t count)
@@ -1188,8 +1172,6 @@ static inline void compute_rows_of(const struct gm_tape *tape, const struct gm_i
                one_b = now->b - tape->inputs < tape->constant_count;
     if (now->operation == GM_OPERATION_SIN && tape->sines && !one_a) {
         sines_of(tape, at[now->a], at[now->to], count);
-    } else if (now->operation == GM_OPERATION_COS && tape->cosines && !one_a) {
-        cosines_of(tape, at[now->a], at[now->to], count);
     } else if (now->a == now->to) {
         add_row(at[now->to], at[now->b], one_b, now->operation == GM_OPERATION_SUBTRACT, count);
     } else {

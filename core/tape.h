@@ -55,7 +55,6 @@ struct gm_tape {
     /* A sine instead of libm's for |x| <= GM_SINES_TO, set after gm_tape_open if no other engine computes
        the same; else NULL. */
     void (*sines)(const double *x, double *sine, size_t count);
-    bool cosines; /* by the same: cos x = 1 - 2 sin(x/2)^2 */
 };
 
 /* The code of `count` nodes. Variables 0 .. inputs - 1 are its inputs, every other one is the constant

@@ -29,6 +29,8 @@ struct gm_potential {
     void (*second)(const struct gm_potential *potential, double middle, double rise, double *w_mm,
                    double *w_mr, double *w_rr);
 };
+extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
+extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
 /* The mesh density rho that a mesh equidistributes: every element has the same
        ell = d^2 (P(left end) + P(right end)) / 2,   P = rho^2,

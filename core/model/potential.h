@@ -8,7 +8,7 @@
 /* u and its time derivatives at the start, as levels need them; derivatives of V */
 enum { GM_TYPED_START = 5, GM_TYPED_DERIVATIVES = 3 };
 
-/* Potentials of which pictures and observables know more: 1 - cos u, (u^2 - 1)^2/4. Their means are exact to rounding. */
+/* Potentials whose means over an element are known in closed form: 1 - cos u, (u^2 - 1)^2/4. */
 enum gm_known_potential { GM_POTENTIAL_OWN, GM_POTENTIAL_SINE_GORDON, GM_POTENTIAL_PHI4 };
 
 /* The formulas of a field, in its system's graph. */

@@ -178,13 +178,11 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
     if (gm_mesh_subject_open(&fine, scheme, FINE_POINTS)) {
         certificate->order = measure_order(&fine, scheme, dt, &certificate->ladder);
     }
-    gm_mesh_subject_close(&fine);
     certificate->order_problem = name;
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
     if (gm_mesh_subject_open(&few, scheme, POINTS)) {
         measure(certificate, &few, dt, 1, name);
     }
-    gm_mesh_subject_close(&few);
 }
 
 /* On the mesh of a given system, which has few nodes too. */

@@ -2,46 +2,103 @@
 /* The soliton that schemes on meshes are certified on. */
 #include "core/mesh/certify/subject.h"
 
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/certify.h"
 #include "core/linear/differences.h"
 #include "core/mesh/nodes.h"
-#include "core/model/equations.h"
 
 static const struct gm_settings settings = {0};
 
-/* One sine-Gordon soliton in the middle of a box; with a mesh that swings, and for free nodes inertia between them,
-   with which their mass matrix is regular. */
-static const char soliton[] = "field: u\nV: 1 - cos(u)\nlet: g = 1/sqrt(0.75)\n"
-                              "start: u = 4*atan(exp(g*(x - 6))), u_t = -g/cosh(g*(x - 6))\n"
-                              "ends: 0, 2*pi\nhalf_length: 6; left 0\n";
+/* One sine-Gordon soliton in the middle of a box, 4 arctan(exp(gamma (x - v t))). */
+static const double velocity = 0.5, length = 12;
+
+static double lorentz(void)
+{
+    return 1 / sqrt((1 - velocity) * (1 + velocity));
+}
+
+static void profile(const void *unused, const double *x, size_t count, double *value, double *slope,
+                    double *rate)
+{
+    const double gamma = lorentz();
+    (void)unused;
+    for (size_t i = 0; i < count; i++) {
+        const double from_middle = gamma * (x[i] - length / 2);
+        value[i] = 4 * atan(exp(from_middle));
+        slope[i] = 2 * gamma / cosh(from_middle);
+        rate[i] = -velocity * slope[i];
+    }
+}
+
+/* generalised arclength with alpha = 1 */
+static void arclength(const struct gm_density *unused, const double *slope, double *values, size_t m)
+{
+    (void)unused;
+    for (size_t i = 0; i < m; i++) {
+        values[GM_P * m + i] = 1 + slope[i] * slope[i];
+        values[GM_P_S * m + i] = 2 * slope[i];
+        values[GM_P_SS * m + i] = 2;
+    }
+}
+
+/* A mesh that swings. */
+static void places(const struct gm_mesh_map *unused, const double *label, size_t count, double t, double *x,
+                   double *rate)
+{
+    const double amplitude = 0.8, frequency = 1.1, phase = frequency * t + 0.3;
+    (void)unused;
+    for (size_t i = 0; i < count; i++) {
+        const double shape = amplitude * sin(M_PI * label[i] / length);
+        x[i] = label[i] + shape * sin(phase);
+        rate[i] = frequency * shape * cos(phase);
+    }
+}
+
+/* Inertia between nodes, (d_t/d)^2/20, with which free nodes have a regular mass matrix. */
+static void inertia(const struct gm_mesh_cell *unused, const double *at, double *values, size_t m)
+{
+    (void)unused;
+    for (size_t e = 0; e < m; e++) {
+        const double d = at[e], rate = at[m + e] / d;
+        values[e] = rate * rate / 20;
+        values[m + e] = -rate * rate / (10 * d);
+        values[2 * m + e] = rate / (10 * d);
+        values[3 * m + e] = values[4 * m + e] = 0;
+    }
+}
+
+static void bent_inertia(const struct gm_mesh_cell *unused, const double *at, double values[4][4])
+{
+    const double d = at[0], rate = at[1] / d;
+    (void)unused;
+    memset(values, 0, 16 * sizeof(double));
+    values[0][0] = 3 * rate * rate / (10 * d * d);
+    values[0][1] = values[1][0] = -rate / (5 * d * d);
+    values[1][1] = 1 / (10 * d * d);
+}
+
+static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
+{
+    static const struct gm_density density = {.values = arclength};
+    static const struct gm_mesh_map map = {places};
+    static const struct gm_mesh_cell cell = {inertia, bent_inertia};
+    *mesh = (struct gm_mesh){.points = problem->n / 4,
+                             .length = length,
+                             .right = 2 * M_PI,
+                             .density = &density,
+                             .map = &map,
+                             .cell = &cell,
+                             .potential = &gm_potential_sine_gordon};
+}
 
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points)
 {
-    const struct gm_user_mesh chosen = {.length = 12,
-                                        .points = (long)points,
-                                        .alpha = 1,
-                                        .density = "arclength",
-                                        .map = "X = x + 0.8*sin(pi*x/12)*sin(1.1*t + 0.3)",
-                                        .cell = "(d_t/d)^2/20"};
-    struct gm_fault fault;
-    *subject = (struct gm_mesh_subject){0};
-    double *values = NULL;
-    const bool good = gm_equations_open(&subject->system, soliton, strlen(soliton), NULL, 0, &fault) &&
-                      gm_user_wave_derive(&subject->wave, &subject->system) &&
-                      (values = gm_equations_start(&subject->system, NULL)) &&
-                      gm_user_mesh_open(&subject->own, &subject->wave, values, &chosen) &&
-                      gm_mesh_subject_open_on(subject, scheme, &subject->own);
-    free(values);
-    return good;
-}
-
-void gm_mesh_subject_close(struct gm_mesh_subject *subject)
-{
-    gm_user_mesh_close(&subject->own);
-    gm_system_close(&subject->system);
+    static const struct gm_moving_mesh soliton = {.describe = describe, .start = profile};
+    const struct gm_problem problem = {
+        .name = "soliton", .n = 4 * points, .m = 1, .kind = &gm_kind_mesh, .facets = &soliton};
+    return gm_mesh_subject_open_on(subject, scheme, &problem);
 }
 
 bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,

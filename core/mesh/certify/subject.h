@@ -2,7 +2,7 @@
 #ifndef GM_CORE_MESH_CERTIFY_SUBJECT_H
 #define GM_CORE_MESH_CERTIFY_SUBJECT_H
 
-#include "core/mesh/user/potential.h"
+#include "core/mesh/moving_mesh.h"
 #include "core/scheme.h"
 
 /* Test problems of schemes on meshes: a field on a few nodes, usually one soliton, and derivatives along
@@ -14,9 +14,6 @@ enum {
 };
 
 struct gm_mesh_subject {
-    struct gm_user_system system; /* of the soliton, as are wave and own */
-    struct gm_user_wave wave;
-    struct gm_problem own;
     struct gm_problem problem;
     struct gm_mesh mesh;
     double start[GM_MESH_SUBJECT_STATE];
@@ -27,10 +24,8 @@ struct gm_mesh_step {
     double dt;
 };
 
-/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory; the caller
-   closes it in both cases. */
+/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory. */
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points);
-void gm_mesh_subject_close(struct gm_mesh_subject *subject);
 
 /* Opens a subject on a problem of at most `points` nodes, with its own start. */
 bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,

@@ -3,7 +3,7 @@
    Gauss's formula with nodes s_k in (-1, 1) and weights g_k that add up to 1,
        w(m, r) = sum_k g_k V(m + s_k r / 2),   w_m = sum_k g_k V'(..),   w_r = sum_k g_k s_k / 2 V'(..),
    and all derivatives are those of this sum: schemes are of one Lagrangian, whatever it leaves of the
-   integral. Fewer nodes serve where r is so small that their means are the same to rounding. */
+   integral. */
 #include "core/mesh/user/potential.h"
 
 #include <math.h>
@@ -14,7 +14,6 @@
 #include <gsl/gsl_integration.h>
 
 #include "core/basics.h"
-#include "core/linear/sine.h"
 #include "core/memory.h"
 #include "core/user/line.h"
 
@@ -33,9 +32,7 @@ struct own {
     double until;
     char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
-    struct rule {
-        double place[MOST_NODES], weight[MOST_NODES], reach; /* reach: the largest rise that it serves */
-    } rules[MOST_NODES + 1];                                 /* [number of nodes] */
+    double place[MOST_NODES], weight[MOST_NODES];
     struct gm_tape means /* V, V' */, bend /* V'' */, between;
     double listed[MOST_LISTED]; /* places of nodes alone */
     struct gm_tape
@@ -54,104 +51,44 @@ size_t gm_user_mesh_order(const struct gm_user_wave *wave)
 }
 
 /* Gauss's nodes, and weights that add up to 1, which GSL has in tables. Returns false when out of memory. */
-static bool set_rules(void *data)
+static bool set_rule(void *data)
 {
     struct own *self = data;
-    gsl_integration_glfixed_table *table = NULL;
-    for (size_t n = 1; n <= self->nodes; n++) {
-        struct rule *rule = &self->rules[n];
-        rule->reach = n == self->nodes ? INFINITY : 0;
-        table = gsl_integration_glfixed_table_alloc(n);
-        for (size_t k = 0; table && k < n; k++) {
-            gsl_integration_glfixed_point(-1, 1, k, &rule->place[k], &rule->weight[k], table);
-            rule->weight[k] /= 2;
-        }
-        gsl_integration_glfixed_table_free(table);
-        if (!table) {
-            return false;
-        }
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(self->nodes);
+    for (size_t k = 0; table && k < self->nodes; k++) {
+        gsl_integration_glfixed_point(-1, 1, k, &self->place[k], &self->weight[k], table);
+        self->weight[k] /= 2;
     }
-    return true;
-}
-
-/* The number of nodes of the rule for an element: with a single one, w would not bend with the rise. */
-static size_t nodes_for(const struct own *self, double rise)
-{
-    size_t n = self->nodes > 1 ? 2 : 1;
-    while (n < self->nodes && !(fabs(rise) <= self->rules[n].reach)) {
-        n++;
-    }
-    return n;
-}
-
-/* Means by n nodes: w and its derivatives by m and r, from values V and behind them V' at the nodes. */
-static void add_up(const struct rule *rule, size_t n, const double *v, const double *slope, double means[3])
-{
-    means[0] = means[1] = means[2] = 0;
-    for (size_t k = 0; k < n; k++) {
-        const double part = rule->weight[k] * slope[k];
-        means[0] += rule->weight[k] * v[k];
-        means[1] += part;
-        means[2] += part * rule->place[k] / 2;
-    }
+    gsl_integration_glfixed_table_free(table);
+    return table != NULL;
 }
 
 static void first(const struct gm_potential *potential, const double *middle, const double *rise, size_t n,
                   double *w, double *w_m, double *w_r)
 {
     const struct own *self = own_of(potential);
-    double at[ROOM], values[2 * ROOM], means[3];
-    size_t nodes[ROOM];
-    for (size_t from = 0, some; from < n; from += some) {
-        size_t count = 0;
-        for (some = 0; from + some < n && count + MOST_NODES <= ROOM; some++) {
-            const size_t e = from + some;
-            nodes[some] = nodes_for(self, rise[e]);
-            for (size_t k = 0; k < nodes[some]; k++) {
-                at[count++] = middle[e] + self->rules[nodes[some]].place[k] * (rise[e] / 2);
+    const size_t nodes = self->nodes, most = ROOM / nodes;
+    double at[ROOM], values[2 * ROOM];
+    for (size_t from = 0; from < n; from += most) {
+        const size_t some = n - from < most ? n - from : most;
+        for (size_t k = 0; k < nodes; k++) {
+            for (size_t e = 0; e < some; e++) {
+                at[k * some + e] = middle[from + e] + self->place[k] * (rise[from + e] / 2);
             }
         }
-        gm_tape_values(&self->means, at, values, count);
-        const double *v = values;
-        for (size_t e = from; e < from + some; v += nodes[e++ - from]) {
-            add_up(&self->rules[nodes[e - from]], nodes[e - from], v, v + count, means);
-            w[e] = means[0];
-            w_m[e] = means[1];
-            w_r[e] = means[2];
+        gm_tape_values(&self->means, at, values, some * nodes);
+        for (size_t e = 0; e < some; e++) {
+            double sum = 0, by_m = 0, by_r = 0;
+            for (size_t k = 0; k < nodes; k++) {
+                const double slope = self->weight[k] * values[some * nodes + k * some + e];
+                sum += self->weight[k] * values[k * some + e];
+                by_m += slope;
+                by_r += slope * self->place[k] / 2;
+            }
+            w[from + e] = sum;
+            w_m[from + e] = by_m;
+            w_r[from + e] = by_r;
         }
-    }
-}
-
-/* Finds the rises up to which fewer nodes have the means of all, between these values of the field. */
-static void set_reaches(struct own *self, double low, double high)
-{
-    enum { MIDDLES = 17 };
-    const double round_off = 1e-15, shortest = 1e-12 * (high - low);
-    double middle[MIDDLES], rise[MIDDLES], means[2][3][MIDDLES], reach = high - low;
-    for (size_t n = self->nodes - 1; n > 1 && reach > shortest; n--) {
-        bool same = false;
-        for (; !same && reach > shortest; reach *= same ? 1 : 0.85) {
-            double size[2] = {0};
-            for (size_t i = 0; i < MIDDLES; i++) {
-                middle[i] = low + (high - low) * (double)i / (MIDDLES - 1);
-                rise[i] = reach;
-            }
-            for (size_t by = 0; by < 2; by++) { /* by n nodes, then by all */
-                self->rules[n].reach = by ? 0 : INFINITY;
-                first(&self->functions, middle, rise, MIDDLES, means[by][0], means[by][1], means[by][2]);
-            }
-            for (size_t i = 0; i < MIDDLES; i++) {
-                size[0] = fmax(size[0], fabs(means[1][0][i]));
-                size[1] = fmax(size[1], fabs(means[1][1][i]));
-            }
-            same = true;
-            for (size_t c = 0; c < 3; c++) {
-                for (size_t i = 0; i < MIDDLES; i++) {
-                    same &= fabs(means[0][c][i] - means[1][c][i]) <= round_off * size[c > 0];
-                }
-            }
-        }
-        self->rules[n].reach = same ? reach : 0;
     }
 }
 
@@ -159,16 +96,14 @@ static void second(const struct gm_potential *potential, double middle, double r
                    double *w_mr, double *w_rr)
 {
     const struct own *self = own_of(potential);
-    const size_t n = nodes_for(self, rise);
-    const struct rule *rule = &self->rules[n];
     double at[MOST_NODES], values[MOST_NODES];
-    for (size_t k = 0; k < n; k++) {
-        at[k] = middle + rule->place[k] * (rise / 2);
+    for (size_t k = 0; k < self->nodes; k++) {
+        at[k] = middle + self->place[k] * (rise / 2);
     }
-    gm_tape_values(&self->bend, at, values, n);
+    gm_tape_values(&self->bend, at, values, self->nodes);
     *w_mm = *w_mr = *w_rr = 0;
-    for (size_t k = 0; k < n; k++) {
-        const double bend = rule->weight[k] * values[k], half = rule->place[k] / 2;
+    for (size_t k = 0; k < self->nodes; k++) {
+        const double bend = self->weight[k] * values[k], half = self->place[k] / 2;
         *w_mm += bend;
         *w_mr += bend * half;
         *w_rr += bend * half * half;
@@ -221,22 +156,20 @@ static struct gm_grid1 cells_of(const struct gm_mesh *mesh, size_t count)
     return (struct gm_grid1){.points = count + 1, .dx = mesh->length / (double)count, .first = mesh->first};
 }
 
-/* The start: the range of u and its total variation, its largest slope, and the largest force. */
+/* The start: the total variation of u, its largest slope, and the largest force. */
 struct extent {
-    double low, high, variation, slope, force;
+    double variation, slope, force;
 };
 
 static struct extent extent_of(const struct own *self)
 {
     const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
-    struct extent of = {.low = self->mesh.left, .high = self->mesh.left};
+    struct extent of = {0};
     double values[GM_LINE_BLOCK], before = self->mesh.left, at[2];
     for (size_t from = 0, some; from < grid.points; from += some) {
         some = gm_user_line_block(&self->line, &grid, from, values);
         for (size_t i = 0; i < some; i++) {
             gm_tape_values(&self->means, &values[i], at, 1);
-            of.low = fmin(of.low, values[i]);
-            of.high = fmax(of.high, values[i]);
             of.variation += fabs(values[i] - before);
             of.slope = fmax(of.slope, fabs(values[2 * some + i]));
             of.force = fmax(of.force, fabs(at[1]));
@@ -247,8 +180,7 @@ static struct extent extent_of(const struct own *self)
 }
 
 /* Sets the numbers of densities, by the file's line alpha:, or else as steep as the start is. */
-static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const struct extent *of,
-                  const double *values)
+static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const double *values)
 {
     const struct gm_user_system *system = self->line.system;
     const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
@@ -256,14 +188,15 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const str
                                   *bend = item ? gm_system_option(item, GM_OPTION_BEND) : NULL;
     double alpha = NAN, slope = NAN, curvature = NAN;
     if (!steepest || !bend) {
+        const struct extent of = extent_of(self);
         /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
            drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
            rise of 2 pi in a box of 25 */
-        alpha = of->variation > 0 && of->slope > 0
-                    ? fmin(1.5 / of->slope, M_PI / 10 * self->mesh.length / of->variation)
+        alpha = of.variation > 0 && of.slope > 0
+                    ? fmin(1.5 / of.slope, M_PI / 10 * self->mesh.length / of.variation)
                     : 0;
-        slope = of->slope > 0 ? of->slope : 1;
-        curvature = of->force > 0 ? of->slope * of->slope / of->force : 0;
+        slope = of.slope > 0 ? of.slope : 1;
+        curvature = of.force > 0 ? of.slope * of.slope / of.force : 0;
     }
     if ((item && !gm_user_line_numbers(system, item->nodes, 1, values, &alpha)) ||
         (steepest && !gm_user_line_numbers(system, &steepest->node, 1, values, &slope)) ||
@@ -302,6 +235,8 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen)
 {
+    static const struct gm_potential *const known[] = {
+        [GM_POTENTIAL_SINE_GORDON] = &gm_potential_sine_gordon, [GM_POTENTIAL_PHI4] = &gm_potential_phi4};
     struct own *self = calloc(1, sizeof *self);
     *problem = (struct gm_problem){.name = "wave equation",
                                    .n = 4 * (size_t)chosen->points,
@@ -322,9 +257,9 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
                                   .first = chosen->first,
                                   .length = chosen->length,
-                                  .potential = &self->functions};
+                                  .potential = wave->known ? known[wave->known] : &self->functions};
     self->nodes = gm_user_mesh_order(wave);
-    if (!gm_memory_guard_gsl(set_rules, self) ||
+    if (!gm_memory_guard_gsl(set_rule, self) ||
         !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
         !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
         (wave->exact_while != GM_NO_NODE &&
@@ -333,8 +268,6 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                            &wave->exact, values)) {
         return false;
     }
-    self->means.sines = gm_sines; /* no other engine computes them */
-    self->means.cosines = true;
     const double places[] = {chosen->first, chosen->first + chosen->length};
     double ends[2], slopes[2], rates[2];
     start(self, places, GM_COUNT(places), ends, slopes, rates);
@@ -352,9 +285,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    const struct extent of = extent_of(self);
-    set_reaches(self, of.low, of.high);
-    const bool good = weigh(self, chosen, &of, values) && open_equation(self, chosen);
+    const bool good = weigh(self, chosen, values) && open_equation(self, chosen);
     problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
     return good;
 }

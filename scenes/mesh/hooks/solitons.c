@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/mesh/user/potential.h"
 #include "core/user/line.h"
 #include "scenes/common/system/hook.h"
 #include "scenes/common/system/pieces.h"
@@ -33,9 +32,8 @@ static bool suits(const struct gm_user_system *system)
 static double position(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_of(view);
-    const bool known = gm_user_mesh_names(view->problem)->wave->known == GM_POTENTIAL_SINE_GORDON;
     const double *field = view->state, *place = field + mesh.points;
-    for (size_t k = 1; k < mesh.points && known; k++) {
+    for (size_t k = 1; k < mesh.points && mesh.potential == &gm_potential_sine_gordon; k++) {
         const double before = field[k - 1] - M_PI, after = field[k] - M_PI;
         if (before * after <= 0 && before != after) {
             return place[k - 1] + (place[k] - place[k - 1]) * before / (before - after);

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "tests/common/mesh_soliton.h"
+#include "core/mesh/moving_mesh.h"
 
 /* Sine-Gordon: the mean of cos over an element is cos(m) S(r / 2), S(h) = sin(h) / h, which has no 0/0 where
    the field is flat. */
