@@ -351,7 +351,9 @@ static void put_values(const struct gm_sweep *sweep, const char *cells, const st
         const double *pair = series->pairs + 2 * ((series->count - count + i) % sweep->kept);
         fprintf(stream, "%s,%zu,%.17g,%.17g\n", cells, i, pair[0], pair[1]);
     }
-    fprintf(stream, count == 0 ? "%s,,,\n" : "", cells);
+    if (count == 0) {
+        fprintf(stream, "%s,,,\n", cells);
+    }
 }
 
 /* Reads the run's words as `geomint run` does, and makes it, unless a status gives a reason against it. */
