@@ -3,7 +3,7 @@
    files, so that it changes only together with them. */
 #include "tests/common/picture_text.h"
 
-static const char *const role_names[] = {"paper", "ink", "secondary", "grid", "initial", "exact"};
+static const char *const role_names[] = {"paper", "ink", "secondary", "grid", "initial", "exact", "over"};
 static const char *const dash_names[GM_DASH_COUNT] = {"solid",    "long-dash",  "dots",
                                                       "dash-dot", "short-dash", "dash-dot-dot"};
 static const char *const scale_names[] = {"linear", "log", "pi"};
