@@ -205,6 +205,9 @@ static int run(int argc, char *argv[])
         char kernels[4096];
         gm_kernel_folder(kernels, sizeof kernels);
         gm_engine_choose(options->engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
+        if (!(command->bit & (GM_TUI | GM_TERMINAL | GM_TOUR))) { /* those give the terminal back first */
+            gm_interrupts_end_reading();
+        }
         struct gm_arena *arena = gm_arena_open();
         running.status = GM_EXIT_MEMORY; /* unless the command sets it */
         if (!gm_arena_run(arena, obey, &running)) {

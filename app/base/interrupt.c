@@ -54,7 +54,7 @@ void gm_interrupts_end(bool at_once)
     }
 }
 
-void gm_catch_interrupts(void)
+static void install(void)
 {
     struct sigaction action = {.sa_handler = interrupt};
     sigemptyset(&action.sa_mask);
@@ -63,4 +63,16 @@ void gm_catch_interrupts(void)
     sigaction(SIGALRM, &late, NULL);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+}
+
+void gm_interrupts_end_reading(void)
+{
+    ends = 1;
+    install();
+}
+
+void gm_catch_interrupts(void)
+{
+    install();
+    ends = 0;
 }

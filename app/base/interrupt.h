@@ -8,6 +8,9 @@
 /* The number of signals SIGINT and SIGTERM; long work checks it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
 
+/* Until gm_catch_interrupts a signal ends the process at once with status 130: what a command reads and
+   proves before its work can take seconds, and no file is open yet. */
+void gm_interrupts_end_reading(void);
 /* Starts counting signals. Work that does not check the count for 2 s, in one step or an opening, is cut
    off: the process ends with status 130, without its incomplete files. A second signal cuts it off at
    once, unless it comes together with the first one: timeout sends its signal twice. */

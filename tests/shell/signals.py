@@ -404,6 +404,8 @@ def plays(folder):
     for name in 'SIGINT', 'SIGTERM':
         for words in LONG:
             yield interrupted(name, words)
+        # while its formulas are read, before it has opened anything
+        yield interrupted(name, 'run system H=p^2/2+sum(i=1..10000,cos(q*i)/i^3) q=1 p=0 until=1e6', 0.2)
         yield interrupted(name, 'render disc --size 12000x12000', 1)
         yield interrupted_once(name)
         yield interrupted(name, 'again ' + long_picture(folder))
