@@ -549,8 +549,9 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
     return same && then->half_size == run->half_size && (then->current == 0 || then->current == 1) &&
            then->n >= 0 && then->steps >= then->n && then->steps <= INT64_MAX / 4 &&
            strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
-           then->unsolved.obstacle <= GM_STILL_LARGE && isfinite(then->t0) && isfinite(then->dt) &&
-           then->dt != 0 && isfinite(then->t) && then->limit > 0 && (then->stopped & ~1) == 0 &&
+           then->unsolved.obstacle <= GM_STAYS_OFF && then->unsolved.invariant >= 0 && isfinite(then->t0) &&
+           isfinite(then->dt) && then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
+           (then->stopped & ~1) == 0 &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 

@@ -20,10 +20,13 @@ enum gm_obstacle {
     GM_SINGULAR,    /* the matrix of Newton's method is singular */
     GM_NOT_FINITE,  /* a value of the iteration is not finite */
     GM_STILL_LARGE, /* the iteration still changes its unknowns */
+    GM_STAYS_OFF,   /* no way back to the value of an invariant was found */
 };
 struct gm_unsolved {
     enum gm_obstacle obstacle;
-    double change; /* last change, relative to the state */
+    int invariant; /* the one that is farthest off, of those that the scheme holds */
+    double
+        change; /* last change, relative to the state; or the invariant's distance, relative to its scale */
 };
 
 /* The name of a status as the command line prints it ("blow-up"). */

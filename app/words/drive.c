@@ -9,6 +9,7 @@
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/native/engine.h"
+#include "core/ode/families/invariants/held.h"
 #include "core/schemes.h"
 #include "render/clock.h"
 
@@ -247,16 +248,20 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         [GM_STILL_LARGE] = ": its iteration still changes by",
     };
     char change[40] = "", shorter[40] = "a shorter dt";
-    if (run->unsolved.obstacle == GM_STILL_LARGE) {
-        snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
-    }
     const char *const name = run->scheme->name;
-    if (run->scheme->base && run->unsolved.obstacle == GM_NOT_KNOWN) {
+    if (run->unsolved.obstacle == GM_STAYS_OFF) {
+        snprintf(change, sizeof change,
+                 isfinite(run->unsolved.change) ? "it stays off by %.2g of its scale"
+                                                : "the iteration leaves the numbers",
+                 run->unsolved.change);
         snprintf(
             text, size,
-            "the step after t = %.6g found no way back to the invariants of the start; take a shorter dt",
-            run->t);
+            "the step after t = %.6g found no way back to the value that %s has at the start: %s; take a shorter dt",
+            run->t, gm_holding_of(run->scheme)->names[run->unsolved.invariant], change);
         return;
+    }
+    if (run->unsolved.obstacle == GM_STILL_LARGE) {
+        snprintf(change, sizeof change, " %.2g of the state", run->unsolved.change);
     }
     const bool helps = strcmp(name, "radau5") != 0 && strcmp(name, "sdirk2") != 0 &&
                        gm_scheme_fits(gm_scheme_find_for("radau5", run->problem), run->problem),

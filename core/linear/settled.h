@@ -67,7 +67,7 @@ static inline bool gm_is_settled(double change, double roundoff, double *previou
 /* Returns the reason why an iteration with this last change has not settled. */
 static inline struct gm_unsolved gm_unsolved_by(double change, double scale)
 {
-    return (struct gm_unsolved){change < 1e100 ? GM_STILL_LARGE : GM_NOT_FINITE, change / scale};
+    return (struct gm_unsolved){change < 1e100 ? GM_STILL_LARGE : GM_NOT_FINITE, .change = change / scale};
 }
 
 #endif

@@ -244,8 +244,11 @@ linear = ("system", "rate=x = y-z", "rate=y = z-x", "rate=z = x-y", "x=1", "y=.2
 out = run("run", *linear, "scheme=relaxed(rk4; I1)", "dt=.1", "steps=1")
 check(out.returncode == 1 and "not linear" in out.stderr, f"a linear invariant: {out.returncode} {out.stderr}")
 
-out = run("run", "kepler", "eccentricity=0", "scheme=projected(explicit-euler; H, L)", "steps=10")
-check(out.returncode == 2 and "no-convergence" in out.stdout and "no way back to the invariants" in out.stdout,
-      f"a step too far: {out.returncode} {out.stdout}{out.stderr}")
+for words, reason in ((("eccentricity=0", "scheme=projected(explicit-euler; H, L)", "steps=10"), "the iteration leaves the numbers"),
+                      (("scheme=relaxed(rk4; H)", "dt=3", "steps=10"), "it stays off by 0.51 of its scale")):
+    out = run("run", "kepler", *words)
+    check(out.returncode == 2 and "no-convergence" in out.stdout and
+          f"no way back to the value that H has at the start: {reason}" in out.stdout,
+          f"a step too far: {out.returncode} {out.stdout}{out.stderr}")
 
 sys.exit(1 if failures else 0)

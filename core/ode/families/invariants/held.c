@@ -81,15 +81,33 @@ void gm_held_turn(struct gm_held *held, const double *y)
     }
 }
 
+/* The distance of invariant j from its value, relative to its scale. */
+static double distance(const struct gm_held *held, const double *values, size_t j)
+{
+    const double off = values[j] - held->values[j];
+    return off == 0 ? 0 : fabs(off) / (fabs(values[j]) + held->scale[j]);
+}
+
 double gm_held_distance(const struct gm_held *held, const double *values, double *off)
 {
     double miss = 0;
     for (size_t j = 0; j < held->count; j++) {
+        const double part = distance(held, values, j);
         off[j] = values[j] - held->values[j];
-        const double part = fabs(off[j]) / (fabs(values[j]) + held->scale[j]);
-        miss = off[j] == 0 || part <= miss ? miss : part;
+        miss = part <= miss ? miss : part;
     }
     return miss;
+}
+
+enum gm_status gm_held_fails(const struct gm_held *held, const double *values, struct gm_progress *progress)
+{
+    size_t farthest = 0;
+    for (size_t j = 1; j < held->count && !isnan(distance(held, values, farthest)); j++) {
+        farthest = distance(held, values, j) <= distance(held, values, farthest) ? farthest : j;
+    }
+    progress->unsolved = (struct gm_unsolved){
+        .obstacle = GM_STAYS_OFF, .invariant = (int)farthest, .change = distance(held, values, farthest)};
+    return GM_NO_CONVERGENCE;
 }
 
 double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off)

@@ -44,6 +44,8 @@ double gm_held_miss(struct gm_held *held, const double *values, const double *y,
 double gm_held_distance(const struct gm_held *held, const double *values, double *off);
 /* multipliers := (D D')^+ off, D the turned slopes: singular values below 1e-12 of the largest are dropped. */
 void gm_held_solve(const struct gm_held *held, const double *off, double *multipliers);
+/* Notes the invariant that held->values have farthest off; returns GM_NO_CONVERGENCE. */
+enum gm_status gm_held_fails(const struct gm_held *held, const double *values, struct gm_progress *progress);
 /* y := from + D' multipliers, returns the sum of |y - its old value|. */
 double gm_held_move(const double *from, const double *slopes, const double *multipliers, size_t count,
                     size_t n, double *y);

@@ -14,7 +14,7 @@
 #include "core/ode/variational/manifold.h"
 
 /* z := z + D(z)' lambda, D at the first z */
-static enum gm_status project(struct gm_held *held, const double *values)
+static enum gm_status project(struct gm_held *held, const double *values, struct gm_progress *progress)
 {
     double off[GM_MOST_CONSERVED], multipliers[GM_MOST_CONSERVED], before = INFINITY;
     gm_held_turn(held, held->z);
@@ -27,7 +27,7 @@ static enum gm_status project(struct gm_held *held, const double *values)
         gm_held_solve(held, off, multipliers);
         gm_held_move(held->z, held->slopes, multipliers, held->count, held->n, held->z);
     }
-    return before <= GM_HELD_MET ? GM_OK : GM_NO_CONVERGENCE;
+    return before <= GM_HELD_MET ? GM_OK : gm_held_fails(held, values, progress);
 }
 
 static enum gm_status project_symmetrically(struct gm_held *held, const struct gm_task *task, const double *y,
@@ -58,7 +58,8 @@ static enum gm_status project_symmetrically(struct gm_held *held, const struct g
             mu[j] += sum[j] / 2;
         }
     }
-    return miss <= GM_HELD_MET && change <= GM_HELD_MET * gm_sum_of(held->z, n) ? GM_OK : GM_NO_CONVERGENCE;
+    const bool met = miss <= GM_HELD_MET && change <= GM_HELD_MET * gm_sum_of(held->z, n);
+    return met ? GM_OK : gm_held_fails(held, values, progress);
 }
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
@@ -75,7 +76,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         if (status == GM_OK && held->holding->constraints) {
             status = gm_manifold_project(&held->base.problem, held->z) ? GM_OK : GM_NO_CONVERGENCE;
         } else if (status == GM_OK) {
-            status = project(held, values);
+            status = project(held, values, progress);
         }
     }
     memcpy(members->y, held->z, held->n * sizeof *held->z);

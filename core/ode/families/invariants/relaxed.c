@@ -12,7 +12,8 @@
 
 /* z := y + gamma move: from gamma = 1 a step of Newton's method, then the secant method, whose next miss is known before:
    the last one times the last factor of them. */
-static enum gm_status relax(struct gm_held *held, const double *y, double value, double *gamma)
+static enum gm_status relax(struct gm_held *held, const double *y, double value, double *gamma,
+                            struct gm_progress *progress)
 {
     static const double NEAR = 1e-8;
     double off = 0, slope = 0, change = 0, before = INFINITY;
@@ -52,7 +53,7 @@ static enum gm_status relax(struct gm_held *held, const double *y, double value,
             return GM_OK;
         }
     }
-    return before <= GM_HELD_MET ? GM_OK : GM_NO_CONVERGENCE;
+    return before <= GM_HELD_MET ? GM_OK : gm_held_fails(held, &value, progress);
 }
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
@@ -64,7 +65,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     for (size_t c = 0; c < held->n; c++) {
         held->move[c] = held->z[c] - members->y[c];
     }
-    status = status == GM_OK ? relax(held, members->y, memory[GM_HELD_VALUES], &gamma) : status;
+    status = status == GM_OK ? relax(held, members->y, memory[GM_HELD_VALUES], &gamma, progress) : status;
     if (status != GM_OK) {
         return status;
     }
