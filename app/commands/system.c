@@ -11,6 +11,7 @@
 #include "app/output/say.h"
 #include "app/words/names.h"
 #include "app/words/system.h"
+#include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
 #include "core/basics.h"
@@ -688,19 +689,22 @@ static void refuse_value(const struct gm_options *options, const char *name, con
         name, value[0] ? "=" : "", value);
 }
 
-/* Reads key=value words, each of a parameter or a choice of the system. */
+/* Reads key=value words, each of a parameter or a choice of the system; others replace a line of its file. */
 static size_t read_values(const struct gm_options *options, struct gm_system_value *values)
 {
     const struct gm_arguments *arguments = &options->arguments;
+    size_t count = 0;
     for (int i = 1; i < arguments->count; i++) {
-        char *word = arguments->words[i], *equals = strchr(word, '=');
+        const char *word = arguments->words[i], *equals = strchr(word, '=');
         if (!equals) {
             refuse_value(options, word, "");
         }
-        *equals = '\0';
-        values[i - 1] = (struct gm_system_value){word, equals + 1};
+        if (!gm_replacing_key(word)) {
+            const char *name = gm_arena_print(options->arena, "%.*s", (int)(equals - word), word);
+            values[count++] = (struct gm_system_value){name, equals + 1};
+        }
     }
-    return (size_t)arguments->count - 1;
+    return count;
 }
 
 /* Every value must be that of a parameter, or a word of a choice. */
@@ -815,7 +819,7 @@ static struct report *open_report(const struct gm_options *options, const struct
 }
 
 /* A system that is listed can be run too: its schemes, members and observables are those of a scene. Words without a
-   file must be keys of it. */
+   file, or that replace a line of one, must be keys of it. */
 static void check_scene(const struct gm_options *options, bool typed)
 {
     char message[GM_MESSAGE] = "not enough memory";
@@ -823,6 +827,9 @@ static void check_scene(const struct gm_options *options, bool typed)
     const int count = options->arguments.count;
     struct gm_system_trial trial;
     struct gm_words read = {0};
+    for (int i = 1; i < count; i++) {
+        typed = typed || gm_replacing_key(words[i]);
+    }
     const bool known =
         gm_system_try(&trial, count, words, message) &&
         (!typed || gm_words_read(&read, trial.scene, count - 1, words + 1, GM_RUN_SCHEMES, message));

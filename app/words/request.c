@@ -474,7 +474,7 @@ static void make_lanes(struct gm_arena *arena, void *data)
 
 const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message)
 {
-    const struct gm_scene *scene = gm_scene_called(words[0]);
+    const struct gm_scene *scene = gm_scene_of_words(count, words);
     *status = GM_EXIT_USAGE;
     if (scene && scene->parameter_count == 0) { /* its file could not be opened */
         *status = gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_FILE;

@@ -37,9 +37,9 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
                    const struct gm_arguments *arguments, const struct gm_system_value *values, size_t count,
                    char *message)
 {
-    struct gm_typed_file written = {.count = file ? 0 : arguments->count, .words = arguments->words};
+    struct gm_typed_file written = {.count = arguments->count, .words = arguments->words};
     struct gm_word_place place;
-    struct gm_fault fault;
+    struct gm_fault fault = {0};
     int status = GM_EXIT_OK;
     const unsigned long refusals = gm_memory_refusals();
     *system = (struct gm_user_system){0};
@@ -47,6 +47,9 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
              : !gm_typed_file_write(&written, &place, message)) {
         status = file ? GM_EXIT_FILE : GM_EXIT_USAGE;
         status = gm_memory_refusals() != refusals ? GM_EXIT_MEMORY : status;
+    } else if (file && (!gm_lines_are_text(written.source, written.size, &fault) ||
+                        !gm_typed_file_replace(&written, message))) {
+        status = gm_typed_file_fault(&written, &fault, &place, message);
     } else if (!gm_equations_open(system, written.text, written.length, values, count, &fault) ||
                written.missing) {
         if (gm_memory_refusals() != refusals) { /* whatever else is blamed */
@@ -117,6 +120,16 @@ const struct gm_scene *gm_scene_called(const char *word)
     for (size_t i = 0; !scene && i < gm_scene_count(); i++) {
         const bool called = strcasecmp(gm_scene_name(i), word) == 0 && !gm_system_is(word);
         scene = called ? gm_scene_at(i) : NULL;
+    }
+    return scene;
+}
+
+const struct gm_scene *gm_scene_of_words(int count, char *const words[])
+{
+    const struct gm_scene *scene = gm_scene_called(words[0]);
+    for (int i = 1; scene && i < count; i++) {
+        const char *key = gm_replacing_key(words[i]);
+        scene = key && !gm_scene_parameter(scene, key) && gm_system_is(words[0]) ? NULL : scene;
     }
     return scene;
 }

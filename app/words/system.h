@@ -29,6 +29,9 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 bool gm_system_is(const char *word);
 /* The scene of that name, in any letter case if no file has the name; or NULL. */
 const struct gm_scene *gm_scene_called(const char *word);
+/* The scene that the words "NAME key=value ..." begin with, unless one of them replaces a line of its file: the words
+   then mean a scene of their own. */
+const struct gm_scene *gm_scene_of_words(int count, char *const words[]);
 /* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
    words. */
 const char *const *gm_system_keys(const char *word);

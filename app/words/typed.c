@@ -176,7 +176,7 @@ static const struct gm_scene *scene_of(const struct gm_arguments *words, struct 
                                        struct gm_word_place *place, char *message)
 {
     int status;
-    if (gm_scene_called(words->words[0]) || !gm_system_is(words->words[0])) {
+    if (gm_scene_of_words(words->count, words->words) || !gm_system_is(words->words[0])) {
         place->word = 0;
         return gm_request_scene(words->count, words->words, &status, message);
     }

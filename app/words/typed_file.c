@@ -17,7 +17,7 @@
 enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_PART, FORMULA_COORDINATES, FORMULA_MOMENTA, FORMULAS };
 const char *const gm_typed_keys[] = {"H", "L", "rate", "part", "coordinates", "momenta", NULL};
 const char *const gm_replacing_keys[] = {"H",        "L",        "V",   "rate", "bracket", "S",
-                                         "K-matrix", "L-matrix", "let", "mesh", NULL};
+                                         "K-matrix", "L-matrix", "let", "part", "mesh",    NULL};
 
 const char *gm_word_after(const char *word, const char *key)
 {
@@ -39,6 +39,12 @@ static bool is_typed(const char *word)
 {
     const char *value;
     return gm_typed_keys[key_of(word, gm_typed_keys, &value)];
+}
+
+const char *gm_replacing_key(const char *word)
+{
+    const char *value;
+    return gm_replacing_keys[key_of(word, gm_replacing_keys, &value)];
 }
 
 bool gm_typed_is_formula(const char *word)
@@ -141,13 +147,13 @@ static char next_of_name(const char **text)
     return (char)(**text == '=' || **text == '(' ? '\0' : *(*text)++);
 }
 
-/* Returns true if a word replaces a line: it has its key and, for a rate, a bracket or a let, the same names
+/* Returns true if a word replaces a line: it has its key and, for a rate, a bracket, a let or a part, the same names
    before the = or the arguments. */
 static bool replaces(const char *word, const char *key, const char *value)
 {
     const char *typed = gm_word_after(word, key);
     char one = typed ? ' ' : '\0', other = one;
-    while (typed && strchr("rbl", key[0]) && one && one == other) {
+    while (typed && strchr("rblp", key[0]) && one && one == other) {
         one = next_of_name(&typed);
         other = next_of_name(&value);
     }
@@ -185,10 +191,12 @@ static void replace_lines(struct gm_arena *arena, void *data)
         }
     }
     put(file, "", file->source + from, file->size - from, "", (struct gm_word_place){.offset = from});
+    static const char *const naming[] = {"let", "part", NULL};
     for (int i = 1; i < file->count; i++) { /* a new name */
-        const char *value = gm_word_after(file->words[i], "let");
-        if (value && !gm_typed_file_has(file, i)) {
-            put(file, "\nlet: ", value, strlen(value), "\n", (struct gm_word_place){i, strlen("let=")});
+        const char *value;
+        if (naming[key_of(file->words[i], naming, &value)] && !gm_typed_file_has(file, i)) {
+            put(file, "\n", "", 0, "", (struct gm_word_place){.word = -1});
+            put_line(file, file->words[i], i);
         }
     }
 }

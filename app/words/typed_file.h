@@ -35,9 +35,11 @@ struct gm_typed_file { /* {0} is an empty text */
 void gm_typed_file_close(struct gm_typed_file *file);
 
 /* Keys without a file: H L rate part coordinates momenta; and those that replace a line: H L V rate bracket S K-matrix
-   L-matrix let mesh. NULL-terminated. */
+   L-matrix let part mesh. NULL-terminated. */
 extern const char *const gm_typed_keys[], *const gm_replacing_keys[];
 
+/* The one of gm_replacing_keys that a word sets; or NULL. */
+const char *gm_replacing_key(const char *word);
 /* Returns true if a word sets H, L or rate. */
 bool gm_typed_is_formula(const char *word);
 /* The value of a word that sets this key; NULL if it sets another one. */

@@ -280,6 +280,29 @@ def faults_are_told(path):
     check(isinstance(told, str) and ("for its corrector" in told or "a known flow" in told), f"corrector: {told}")
 
 
+def parts_are_typed():
+    # A part that is typed after the name of a scene is a line of its file.
+    part = "A = (p1^2 + p2^2)/2, B = -1/r - perturbation/r^2"
+    source = subprocess.run([GEOMINT, "list", "kepler", "--source"], capture_output=True, text=True).stdout
+    with tempfile.NamedTemporaryFile("w", suffix=".system") as file:
+        file.write(f"{source}part: {part}\n")
+        file.flush()
+        words = ("eccentricity=.3", "steps=40", "scheme=aba104(A, B)")
+        check(distance(state("kepler", "part=" + part, *words), state(file.name, *words)) == 0,
+              "a part typed after a scene is not that of a file")
+    check(distance(state("kepler", "part=" + part, "steps=40", "scheme=strang(B, A)"),
+                   state("kepler", "steps=40", "scheme=verlet")) < 1e-13, "strang(B, A) of kepler is not verlet")
+    for words, sentence in ((("run", "kepler", "part=A = (p1^2 + p2^2)/2, B = -2/r", "scheme=strang(A, B)", "steps=1"),
+                             "A + B is not H"),
+                            (("list", "kepler", "part=A = p1^2/2, B = -1/"), "in part=, column 20"),
+                            (("run", "cavity", "part=A = 1", "steps=1"), 'no parameter "part"'),
+                            (("list", "kdv", "H=u"), 'no parameter "H"')):
+        refused = subprocess.run([GEOMINT, *words], capture_output=True, text=True)
+        check(refused.returncode == 1 and sentence in refused.stderr, f"{words}: {refused.stderr}")
+    listed = subprocess.run([GEOMINT, "list", "kepler", "part=" + part, "--long"], capture_output=True, text=True).stdout
+    check(re.search(r"^  A +.*\n  B ", listed, re.M), "list kepler part=... has no parts A and B")
+
+
 def main():
     with tempfile.NamedTemporaryFile("w", suffix=".system") as one, \
             tempfile.NamedTemporaryFile("w", suffix=".system") as two:
@@ -294,6 +317,7 @@ def main():
         members_and_engines_agree()
         bodies_move_in_jacobi_coordinates()
         faults_are_told(one.name)
+    parts_are_typed()
     sys.exit(failures > 0)
 
 
