@@ -353,12 +353,12 @@ static void make_stars(struct gm_form_space *space)
     matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
 }
 
-void gm_form_space_hold(struct gm_form_space *space, const bool *held)
+/* The mass matrix without the held edges, space->held. */
+static void hold(struct gm_arena *arena, void *data)
 {
-    if (!space->mass) {
-        return;
-    }
-    struct gm_matrix inner = gm_matrix_sum(space->arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
+    struct gm_form_space *space = data;
+    const bool *held = space->held;
+    struct gm_matrix inner = gm_matrix_sum(arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
     for (size_t e = 0; e < inner.rows; e++) {
         for (int k = inner.start[e]; k < inner.start[e + 1]; k++) {
             const int column = inner.column[k];
@@ -366,10 +366,15 @@ void gm_form_space_hold(struct gm_form_space *space, const bool *held)
         }
     }
     space->inner = inner;
-    space->held = held;
-    gm_arena_drop(space->arena, space->mass);
-    space->mass = gm_matrix_factor(space->arena, &inner);
-    gm_arena_need(space->arena, space->mass);
+    gm_arena_drop(arena, space->mass);
+    space->mass = gm_matrix_factor(arena, &inner);
+    gm_arena_need(arena, space->mass);
+}
+
+bool gm_form_space_hold(struct gm_form_space *space, const bool *held)
+{
+    space->held = space->mass ? held : NULL;
+    return !space->mass || gm_arena_run(space->arena, hold, space);
 }
 
 static void close_complex(void *complex)

@@ -85,9 +85,9 @@ void gm_form_space_close(struct gm_form_space *space);
 /* Makes a matrix, unless it is there, in a body of an arena that the space does not outlive. */
 void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enum gm_form_matrix number);
 
-/* Makes the inverse of STAR1 one among 1-forms that are 0 on these edges, of which the space keeps the list: a body
-   of its arena. */
-void gm_form_space_hold(struct gm_form_space *space, const bool *held);
+/* Makes the inverse of STAR1 one among 1-forms that are 0 on these edges, of which the space keeps the list.
+   Returns false when out of memory. */
+bool gm_form_space_hold(struct gm_form_space *space, const bool *held);
 
 /* The count of numbers of a form. */
 size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);

@@ -963,7 +963,7 @@ static void hold(struct own *own, const double *variables)
         own->arena, (given || own->held_changes) && inverts,
         "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
         "not f = -k*star(d(p)), or take star=circumcentric");
-    gm_form_space_hold(&own->space, own_edges);
+    gm_arena_need(own->arena, gm_form_space_hold(&own->space, own_edges));
 }
 
 static void close_space(void *space)
