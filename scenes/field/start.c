@@ -24,7 +24,9 @@ void gm_field_start(const void *parameters, const struct gm_problem *problem, do
 
 bool gm_field_takes(const struct gm_scheme *scheme, const char *key)
 {
-    return gm_scheme_mesh(scheme) == GM_MESH_FREE || strcmp(key, "cell") != 0;
+    const enum gm_mesh_kind mesh = gm_scheme_mesh(scheme);
+    return (mesh == GM_MESH_FREE || strcmp(key, "cell") != 0) &&
+           (mesh == GM_MESH_GIVEN || strcmp(key, "mesh") != 0);
 }
 
 bool gm_field_start_mesh(const void *parameters, const struct gm_problem *problem,
