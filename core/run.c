@@ -271,7 +271,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
 
 /* ---- events ---- */
 
-/* Makes a part of a step; gm_event_step.part */
+/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
 static bool make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
 {
     struct gm_run *run = data;
@@ -332,14 +332,13 @@ static void pass_events(struct gm_run *run)
         run->t = run->t0 + (double)run->n * run->dt;
     } else if (outcome == GM_EVENTS_NONE) {
         run->behind = 1;
-    }
-    if (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY) {
+    } else if (outcome != GM_EVENTS_HAPPENED) {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY ? GM_EVENTS_ACCUMULATE : run->status;
-    }
-    if (step.part && (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY)) {
-        run->t = run->t0 = step.reached;
-        run->n = 0;
+        if (step.part) {
+            run->t = run->t0 = step.reached;
+            run->n = 0;
+        }
     }
 }
 
@@ -415,22 +414,10 @@ const double *gm_run_before(const struct gm_run *run)
     return half(run, 1 - run->current);
 }
 
-/* The last step again, of another length. */
-static struct gm_task part_of(const struct gm_run *run, double fraction)
-{
-    struct gm_task task = task_again(run);
-    task.dt = fraction * run->dt;
-    return task;
-}
-
 bool gm_run_part(const struct gm_run *run, double fraction, double *y)
 {
-    struct gm_task task = part_of(run, fraction);
-    const unsigned long refusals = gm_memory_refusals();
-    task.out = y;
-    task.carry_out = task.carry ? y + state_count(run) : NULL;
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
-    return progress.done == 1 && gm_memory_refusals() == refusals;
+    const double begin = run->t0 + (double)(run->n - 1) * run->dt;
+    return make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false);
 }
 
 int64_t gm_run_steps_at(const struct gm_run *run, double t)
