@@ -380,7 +380,7 @@ static void add_invariant(struct gm_system_scene *system_scene, const struct gm_
         .scale_text = scale > 0 ? gm_arena_print(system_scene->arena, "%.3g", scale) : NULL);
     gm_written_options(&row, item);
     row.kept = item->check != GM_NOT_ZERO; /* else forces change it, for every scheme */
-    add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0], GM_NO_NODE);
+    add_observable(system_scene, row, gm_system_conserved(&system_scene->system, item), GM_NO_NODE);
 }
 
 enum { FOLLOWED = 64 };
@@ -429,28 +429,18 @@ static void add_steps(struct gm_system_scene *system_scene)
 }
 
 /* Adds the quantities in the file: observe:, invariant:, casimir:, symmetry:. */
-static void add_named(struct gm_system_scene *system_scene)
+static void add_named(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = &system_scene->system;
-    size_t nameless = 0;
+    size_t nameless = 0, quantity = 0;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        switch (item->word) {
-        case GM_WORD_OBSERVE:
+        nameless += item->word == GM_WORD_SYMMETRY && !item->name[0];
+        if (item->word == GM_WORD_OBSERVE) {
             add_observed(system_scene, item);
-            break;
-        case GM_WORD_SYMMETRY:
-            nameless += !item->name[0];
-            if (system->kind <= GM_LAGRANGIAN) {
-                add_invariant(system_scene, item, nameless);
-            }
-            break;
-        case GM_WORD_INVARIANT:
-        case GM_WORD_CASIMIR:
-            add_invariant(system_scene, item, 0);
-            break;
-        default:
-            break;
+        } else if (gm_system_conserved(system, item) != GM_NO_NODE) {
+            add_invariant(system_scene, item, nameless);
+            book(system_scene, problem, quantity++);
         }
     }
 }
@@ -542,7 +532,7 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     }
     add_energy(system_scene, problem);
     add_steps(system_scene);
-    add_named(system_scene);
+    add_named(system_scene, problem);
     add_events(system_scene, problem);
     add_defects(system_scene, problem);
     add_solution_error(system_scene);
