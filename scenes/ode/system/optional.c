@@ -129,19 +129,9 @@ static const char *why_no_modified(const struct gm_view *view)
 
 /* ---- returning, and leaving ---- */
 
-/* Returns the number of the scene's first section; its count of tracks without one. */
-static size_t section_of(const struct gm_scene *scene)
-{
-    size_t found = 0;
-    while (found < scene->track_count && !scene->tracks[found].section) {
-        found++;
-    }
-    return found;
-}
-
 static double return_time(const struct gm_view *view)
 {
-    const size_t section = section_of(view->scene);
+    const size_t section = gm_scene_section(view->scene);
     if (section == view->scene->track_count || !view->tracks) {
         return NAN;
     }
@@ -158,8 +148,8 @@ static double return_time(const struct gm_view *view)
 
 static const char *why_no_return(const struct gm_view *view)
 {
-    return section_of(view->scene) < view->scene->track_count ? "the section was not passed yet"
-                                                              : "there is no section to pass";
+    return gm_scene_section(view->scene) < view->scene->track_count ? "the section was not passed yet"
+                                                                    : "there is no section to pass";
 }
 
 static double escape_time(const struct gm_view *view)
