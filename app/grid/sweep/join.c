@@ -104,7 +104,7 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
 {
     struct gm_arena *arena = sweep->arena;
     gm_arena_keep(arena, table, close_lines);
-    table->stream = fopen(path, "r");
+    *table = (struct gm_csv_lines){.stream = fopen(path, "r"), .group = gm_sweep_index_cell(sweep)};
     if (!table->stream && errno != ENOENT) {
         gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));
     }
@@ -113,7 +113,6 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
     gm_csv_next(table);
     gm_arena_refuse_if(arena, table->line && table->line[0] && strcmp(table->line, sweep->head) != 0,
                        "%.360s is %s", path, other);
-    table->group = gm_sweep_index_cell(sweep);
 }
 
 struct joining {

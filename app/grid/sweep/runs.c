@@ -342,7 +342,7 @@ static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, 
     }
 }
 
-/* Puts the rows of a run with many values, each after the same cells; a run without values has one row. */
+/* Puts the rows of a run, one for each of its values after the same cells; a run without values has one row. */
 static void put_values(const struct gm_sweep *sweep, const char *cells, const struct gm_sweep_series *series,
                        FILE *stream)
 {
@@ -352,7 +352,7 @@ static void put_values(const struct gm_sweep *sweep, const char *cells, const st
         fprintf(stream, "%s,%zu,%.17g,%.17g\n", cells, i, pair[0], pair[1]);
     }
     if (count == 0) {
-        fprintf(stream, "%s,,,\n", cells);
+        fprintf(stream, "%s%s\n", cells, sweep->values ? ",,," : "");
     }
 }
 
@@ -398,12 +398,8 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
         fclose(stream);
     }
     series.count = row->ok ? series.count : 0;
-    if (rows && sweep->values) {
-        put_values(sweep, cells, &series, rows);
-    } else if (rows) {
-        fprintf(rows, "%s\n", cells);
-    }
     if (rows) {
+        put_values(sweep, cells, &series, rows);
         fclose(rows);
     }
     free(cells);
