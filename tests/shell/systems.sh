@@ -739,9 +739,9 @@ assert abs(kept["event_work"] - 490*(r**4 - 1)) < 1e-9, kept
 ' || fail "a ball: $(cat out)"
 "$geomint" run ball.system scheme=explicit-euler until=10 --json >out || fail 'a ball of Euler'
 python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] > 1e-2' || fail "a ball of Euler: $(cat out)"
-printf 'rate: x = v, v = 0, w = 0\ninvariant: v\ninvariant: w\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\n' >gate.system
+printf 'rate: x = v, v = 0, w = 0\ninvariant: V = v\ninvariant: W = w\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\n' >gate.system
 "$geomint" run gate.system scheme=rk4 until=3 --json >out || fail 'invariants that events change'
-python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["events"] == 2 and kept["v_error"] == kept["w_error"] == 0, kept' || fail "invariants that events change: $(cat out)"
+python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["events"] == 2 and kept["V_error"] == kept["W_error"] == 0, kept' || fail "invariants that events change: $(cat out)"
 "$geomint" run ball.system scheme=gauss4 until=40 --json >out
 [ $? = 2 ] && value out status | grep -q events-accumulate || fail "bounces accumulate: $(cat out)"
 python3 -c 'import json, math; t = json.load(open("out"))["t"]; assert abs(t - math.sqrt(100/9.8)*(1 + 2*.8/.2)) < 1e-9, t' || fail "bounces accumulate at $(value out t)"
