@@ -60,12 +60,26 @@ enum { GM_SHOW_ALL, GM_SHOW_SECTION };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_MEMBERS, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
 enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_SURFACES = 8, GM_MOST_OVER_TIME = 8 };
 
-struct gm_hook; /* scenes/common/system/hook.h */
+struct gm_hook;         /* scenes/common/system/hook.h */
+struct gm_system_maker; /* scenes/common/system/variants.h */
+
+/* The source of a system. */
+struct gm_system_origin {
+    const char *name;         /* of the scene */
+    const char *const *words; /* NULL-terminated (struct gm_scene); NULL: it is a scene of the program */
+    const char *path;         /* of its file; NULL: none */
+    bool typed;               /* its values were given with its formula, so none is a default */
+    /* A wave equation is on a moving mesh; an equation that is recognised by its rates has the state of the schemes for
+       it. */
+    bool elsewhere;
+};
 
 /* The data that follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
     struct gm_arena *arena; /* holds all of this, and the system */
+    const struct gm_system_maker *maker;
+    struct gm_system_origin origin;
     struct gm_user_system system;
     struct gm_user_model model;
     const struct gm_hook *hook;           /* NULL: the file names none */

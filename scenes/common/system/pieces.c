@@ -46,44 +46,6 @@ double gm_system_half_length(const struct gm_system_lane *lane)
     return half;
 }
 
-static void close_system(void *thing)
-{
-    gm_system_close(&((struct gm_system_scene *)thing)->system);
-}
-
-void *gm_system_scene_take(struct gm_arena *arena, struct gm_user_system *system, size_t size)
-{
-    /* a block of its own: a pointer to it makes all that the arena has reachable for checks of leaks */
-    struct gm_system_scene *system_scene = gm_arena_keep(arena, calloc(1, size), free);
-    system_scene->arena = arena;
-    system_scene->system = *system;
-    *system = (struct gm_user_system){0};
-    return gm_arena_keep(arena, system_scene, close_system);
-}
-
-bool gm_system_scene_make(void (*body)(struct gm_arena *arena, void *making), void *making,
-                          struct gm_user_system *system, char *sentence)
-{
-    struct gm_arena *arena = gm_arena_open();
-    if (gm_arena_run(arena, body, making)) {
-        return true;
-    }
-    gm_system_close(system);
-    gm_refuse(sentence, "%s", gm_arena_reason(arena));
-    gm_arena_close(arena);
-    return false;
-}
-
-void gm_system_scene_close(const struct gm_scene *scene)
-{
-    const struct gm_system_scene *system_scene =
-        (const struct gm_system_scene *)scene; /* the scene is its first member */
-    if (system_scene->next) {
-        gm_system_scene_close(&system_scene->next->scene);
-    }
-    gm_arena_close(system_scene->arena);
-}
-
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count)
 {

@@ -16,16 +16,6 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 /* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
 double gm_system_half_length(const struct gm_system_lane *lane);
 
-/* Takes the memory of a scene, of `size` bytes, which begins with a struct gm_system_scene, and the system itself. Both live
-   as long as the arena. */
-void *gm_system_scene_take(struct gm_arena *arena, struct gm_user_system *system, size_t size);
-/* Calls the body that makes a scene of a system, with an arena that is the scene's. On failure closes the
-   system, and returns false with a sentence. */
-bool gm_system_scene_make(void (*body)(struct gm_arena *arena, void *making), void *making,
-                          struct gm_user_system *system, char *sentence);
-/* Closes the scene, and the other systems of its file. */
-void gm_system_scene_close(const struct gm_scene *scene);
-
 /* Opens a tape whose inputs are all variables, so that lanes with different parameters share it. It lives as
    long as the scene. In a body of the scene's arena. */
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,

@@ -19,10 +19,10 @@ static char *given_of(struct gm_system_lane *lane)
     return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
-bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
-                      gm_system_opener open, char *sentence)
+bool gm_system_settle(void *parameters, const char *const *keys, size_t count, char *sentence)
 {
-    if (!gm_system_choose(lane, open, sentence)) {
+    struct gm_system_lane *lane = parameters;
+    if (!gm_system_choose(lane, sentence)) {
         return false;
     }
     const struct gm_system_scene *system_scene = lane->owner;

@@ -14,8 +14,7 @@ void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[
 
 /* Chooses a lane's system, and derives values that were not given from those that were, by the file's
    formulas. False with a sentence. */
-bool gm_system_settle(struct gm_system_lane *lane, const char *const *keys, size_t count,
-                      gm_system_opener open, char *sentence);
+bool gm_system_settle(void *parameters, const char *const *keys, size_t count, char *sentence);
 /* Returns the scene of a lane's system. */
 const struct gm_scene *gm_system_variant(const void *parameters);
 /* Returns why a key has no effect in a lane's system; NULL: it has one. */

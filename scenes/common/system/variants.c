@@ -9,7 +9,7 @@
 
 #include "core/memory.h"
 #include "core/model/equations.h"
-#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/rows.h"
 
 /* Guards the list of a scene's systems, which grows while lanes are opened. */
 static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
@@ -204,6 +204,106 @@ static void explain(struct gm_arena *arena, struct gm_system_scene *own)
     }
 }
 
+/* ---- one system ---- */
+
+static void close_system(void *system)
+{
+    gm_system_close(system);
+}
+
+static void close_problem(void *thing)
+{
+    struct gm_system_making *making = thing;
+    making->scene->scene.close(&making->problem);
+}
+
+void gm_system_open_problem(struct gm_system_making *making)
+{
+    char sentence[GM_MESSAGE];
+    struct gm_system_scene *system_scene = making->scene;
+    gm_arena_check(system_scene->arena,
+                   system_scene->scene.setup(system_scene->initial, &making->problem, sentence), sentence);
+    gm_arena_keep(system_scene->arena, making, close_problem);
+}
+
+void gm_system_describe(struct gm_system_scene *system_scene, struct gm_scene scene)
+{
+    const struct gm_system_origin *origin = &system_scene->origin;
+    const struct gm_user_system *system = &system_scene->system;
+    char *const *texts = system->texts;
+    scene.name = origin->name;
+    scene.title = gm_system_title(system) ? gm_system_title(system) : scene.title;
+    scene.blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : scene.blurb;
+    scene.watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "";
+    scene.time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : scene.time;
+    scene.size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1);
+    scene.initial = system_scene->initial;
+    scene.words = origin->words;
+    scene.source = scene.text = origin->words ? system->source : NULL;
+    scene.mark = origin->words ? gm_written_mark(system_scene->arena, origin->name, system->source) : NULL;
+    scene.parameters = system_scene->rows;
+    scene.parameter_count = system_scene->row_count + system_scene->common_count;
+    scene.variant = gm_system_variant;
+    scene.settle = gm_system_settle;
+    system_scene->scene = scene;
+}
+
+struct taking {
+    struct gm_user_system *system;
+    const struct gm_system_maker *maker;
+    const struct gm_system_origin *origin;
+    struct gm_system_making making;
+};
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct taking *taking = data;
+    /* a block of its own: a pointer to it makes all that the arena has reachable for checks of leaks */
+    struct gm_system_scene *system_scene = gm_arena_keep(arena, calloc(1, taking->maker->size), free);
+    taking->making.scene = system_scene;
+    system_scene->arena = arena;
+    system_scene->maker = taking->maker;
+    system_scene->origin = *taking->origin;
+    if (taking->origin->path) {
+        system_scene->origin.path = gm_arena_print(arena, "%s", taking->origin->path);
+    }
+    system_scene->system = *taking->system;
+    *taking->system = (struct gm_user_system){0};
+    gm_arena_keep(arena, &system_scene->system, close_system);
+    taking->maker->make(&taking->making);
+    gm_arena_drop(arena, &taking->making);
+}
+
+/* Makes the scene of a system, which it takes; NULL with a sentence, and possibly a fault. */
+static struct gm_system_scene *open_one(struct gm_user_system *system, const struct gm_system_maker *maker,
+                                        const struct gm_system_origin *origin,
+                                        struct gm_system_opening *opening)
+{
+    struct gm_arena *arena = gm_arena_open();
+    struct taking taking = {system, maker, origin, {.fault = opening->fault}};
+    const bool made = gm_arena_run(arena, make, &taking);
+    opening->unread = taking.making.unread;
+    if (made) {
+        return taking.making.scene;
+    }
+    gm_system_close(system);
+    gm_refuse(opening->sentence, "%s", gm_arena_reason(arena));
+    gm_arena_close(arena);
+    return NULL;
+}
+
+void gm_system_scene_close(const struct gm_scene *scene)
+{
+    const struct gm_system_scene *system_scene =
+        (const struct gm_system_scene *)scene; /* the scene is its first member */
+    if (system_scene->next) {
+        gm_system_scene_close(&system_scene->next->scene);
+    }
+    gm_arena_close(system_scene->arena);
+}
+
+/* ---- several ---- */
+
 /* Opens the system of the text of `first` with other values, and adds it to its list. */
 static struct gm_system_scene *open_other(struct gm_system_scene *first, const struct gm_system_value *values,
                                           size_t count, const struct gm_system_opening *opening)
@@ -219,7 +319,12 @@ static struct gm_system_scene *open_other(struct gm_system_scene *first, const s
         gm_refuse(opening->sentence, "choice: %s=%s is %s, and other words are %s", last->name, last->text,
                   field ? "another equation" : "a field", field ? "of one kind" : "none");
     } else {
-        struct gm_system_scene *made = opening->open(&system, first, opening->sentence);
+        struct gm_fault unplaced = {0};
+        struct gm_system_origin origin = first->origin;
+        origin.typed = false;
+        struct gm_system_scene *made =
+            open_one(&system, first->maker, &origin,
+                     &(struct gm_system_opening){.fault = &unplaced, .sentence = opening->sentence});
         if (made) {
             made->next = first->next;
             first->next = made;
@@ -336,15 +441,20 @@ static void unite(struct gm_arena *arena, void *data)
     }
 }
 
-const struct gm_scene *gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struct gm_system_origin origin,
+                                            struct gm_system_opening *opening)
 {
+    const struct gm_system_maker *maker = gm_system_is_form(system)    ? &gm_system_forms
+                                          : gm_system_is_field(system) ? &gm_system_fields
+                                                                       : &gm_system_motions;
+    const bool alone = !maker->rebuilt && system->choices.count == 0;
+    *opening->fault = (struct gm_fault){0};
+    struct gm_system_scene *first = open_one(system, maker, &origin, opening);
     const unsigned long refusals = gm_memory_refusals();
     if (!first) {
         return NULL;
     }
-    const bool united = !opening->open || gm_arena_run(first->arena, unite,
-                                                       &(struct uniting){.first = first, .opening = opening});
-    if (!united) {
+    if (!alone && !gm_arena_run(first->arena, unite, &(struct uniting){.first = first, .opening = opening})) {
         gm_refuse(opening->sentence, "%s", gm_arena_reason(first->arena));
     } else if (gm_memory_refusals() != refusals) {
         gm_refuse(opening->sentence, "not enough memory");
@@ -423,10 +533,10 @@ static struct gm_system_scene *add_variant(struct gm_system_scene *first, const 
     return NULL;
 }
 
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence)
+bool gm_system_choose(struct gm_system_lane *lane, char *sentence)
 {
     struct gm_fault fault = {0};
-    const struct gm_system_opening opening = {open, &fault, sentence};
+    const struct gm_system_opening opening = {.fault = &fault, .sentence = sentence};
     struct gm_system_scene *first = lane->owner->first, *other = first;
     if (!first) {
         return true;
