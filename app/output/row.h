@@ -44,9 +44,8 @@ struct gm_csv_lines {
     FILE *stream; /* NULL: no lines */
     char *line;   /* the last line that was read, whole or incomplete; NULL: none */
     size_t room;
-    size_t
-        group; /* lines whose cell of this number is above 0 belong to the one before; 0: each is alone. A head has
-                     a name there */
+    /* Lines whose cell of this number is above 0 belong to the one before; 0: each is alone. A head has a name there. */
+    size_t group;
     char *ahead; /* the line after a group */
     size_t ahead_room;
     bool is_ahead;
