@@ -19,49 +19,53 @@ static char *given_of(struct gm_system_lane *lane)
     return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
 }
 
-bool gm_system_settle(void *parameters, const char *const *keys, size_t count, char *sentence)
+struct settling {
+    struct gm_system_lane *lane;
+    const char *const *keys;
+    size_t count;
+};
+
+static void check_range(struct gm_arena *arena, const struct gm_parameter *row, double value)
 {
-    struct gm_system_lane *lane = parameters;
-    if (!gm_system_choose(lane, sentence)) {
-        return false;
-    }
+    gm_arena_refuse_if(arena, !(value >= row->lowest && value <= row->highest),
+                       "%s is %g with these values, and lies between %g and %g", row->key, value, row->lowest,
+                       row->highest);
+}
+
+/* Derives the values that were not given. */
+static void settle(struct gm_arena *arena, void *data)
+{
+    const struct settling *settling = data;
+    struct gm_system_lane *lane = settling->lane;
     const struct gm_system_scene *system_scene = lane->owner;
-    char *given = given_of(lane);
+    char *given = given_of(lane), sentence[GM_MESSAGE];
     bool by_steps = false;
-    for (size_t i = 0; i < count; i++) {
-        lane->grid.points_given |= strcmp(keys[i], "points") == 0;
-        by_steps |= strcmp(keys[i], "steps") == 0;
+    for (size_t i = 0; i < settling->count; i++) {
+        const char *key = settling->keys[i];
+        lane->grid.points_given |= strcmp(key, "points") == 0;
+        by_steps |= strcmp(key, "steps") == 0;
         for (size_t row = 0; row < system_scene->row_count; row++) {
-            given[row] |= strcmp(keys[i], system_scene->rows[row].key) == 0;
+            given[row] |= strcmp(key, system_scene->rows[row].key) == 0;
         }
     }
-    double *values = gm_system_start_values(lane, given);
-    if (!values) {
-        return gm_refuse(sentence, "not enough memory");
-    }
-    bool good = gm_system_is_admitted(lane, values, sentence);
-    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count && good; row++) {
+    double *values = gm_arena_keep(arena, gm_system_start_values(lane, given), free);
+    gm_arena_check(arena, gm_system_is_admitted(lane, values, sentence), sentence);
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count; row++) {
         if (system_scene->variables[row] == GM_NO_VARIABLE) {
             continue;
         }
-        const double value = values[system_scene->variables[row]];
-        lane->values[row - GM_SYSTEM_ROWS] = value;
-        const struct gm_parameter *bounds = &system_scene->rows[row];
-        good = isfinite(value) || gm_refuse(sentence, "%s is not finite with these values", bounds->key);
-        good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
-                        gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g",
-                                  bounds->key, value, bounds->lowest, bounds->highest));
+        const double value = lane->values[row - GM_SYSTEM_ROWS] = values[system_scene->variables[row]];
+        gm_arena_refuse_if(arena, !isfinite(value), "%s is not finite with these values",
+                           system_scene->rows[row].key);
+        check_range(arena, &system_scene->rows[row], value);
     }
     if (gm_system_is_field(&system_scene->system) && gm_system_points_follow(&system_scene->system)) {
-        const struct gm_parameter *bounds = gm_scene_parameter(&system_scene->scene, "points");
         double *points = &values[system_scene->system.velocities - 1];
         *points = round(*points);
-        good = good && ((*points >= bounds->lowest && *points <= bounds->highest) ||
-                        gm_refuse(sentence, "points is %g with these values, and lies between %g and %g",
-                                  *points, bounds->lowest, bounds->highest));
-        lane->grid.points = good ? (long)*points : lane->grid.points;
+        check_range(arena, gm_scene_parameter(&system_scene->scene, "points"), *points);
+        lane->grid.points = (long)*points;
     }
-    for (size_t i = 0; i < GM_COUNT(system_scene->timing) && good; i++) {
+    for (size_t i = 0; i < GM_COUNT(system_scene->timing); i++) {
         double number = NAN;
         const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
         if (gm_system_item_of(&system_scene->system, word, 0)) {
@@ -76,21 +80,32 @@ bool gm_system_settle(void *parameters, const char *const *keys, size_t count, c
         }
     }
     const struct gm_system_item *line = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
-    for (size_t row = GM_SYSTEM_ROWS; line && row < system_scene->row_count && good; row++) {
+    for (size_t row = GM_SYSTEM_ROWS; line && row < system_scene->row_count; row++) {
         if (system_scene->variables[row] == line->variable) {
             const char *key = system_scene->rows[row].key;
             double unit, *value = &lane->values[row - GM_SYSTEM_ROWS];
             gm_tape_values(&system_scene->of_items[line - system_scene->system.items], values, &unit, 1);
             const double follows = *value * unit, dt = lane->timing.dt;
-            const bool by_step = gm_is_given("dt", keys, count);
-            good = !by_step || !gm_is_given(key, keys, count) || fabs(follows - dt) <= 1e-9 * follows ||
-                   gm_refuse(sentence, "dt= and %s= are both given; one of them follows from the other", key);
+            const bool by_step = gm_is_given("dt", settling->keys, settling->count);
+            gm_arena_refuse_if(arena,
+                               by_step && gm_is_given(key, settling->keys, settling->count) &&
+                                   !(fabs(follows - dt) <= 1e-9 * follows),
+                               "dt= and %s= are both given; one of them follows from the other", key);
             *value = by_step ? dt / unit : *value;
             lane->timing.dt = by_step ? dt : follows;
         }
     }
-    free(values);
-    return good;
+}
+
+bool gm_system_settle(void *parameters, const char *const *keys, size_t count, char *sentence)
+{
+    struct settling settling = {parameters, keys, count};
+    struct gm_arena *arena = gm_arena_open();
+    const bool settled =
+        gm_system_choose(parameters, sentence) &&
+        (gm_arena_run(arena, settle, &settling) || gm_refuse(sentence, "%s", gm_arena_reason(arena)));
+    gm_arena_close(arena);
+    return settled;
 }
 
 const struct gm_scene *gm_system_variant(const void *parameters)
