@@ -106,7 +106,7 @@ double gm_drive_rest(const struct gm_drive *drive)
     const struct gm_lane_spec *spec = &drive->request->lanes[drive->index];
     const struct gm_run *run = drive->lane->run;
     const double rest = spec->until - run->t, least = 1e-9 * fmax(fabs(spec->until), fabs(run->dt));
-    const bool whole = drive->whole_steps || gm_lane_follows_steps(drive->lane);
+    const bool whole = drive->whole_steps || gm_lane_asked_shown(drive->lane) > 0;
     const bool is_next = run->steps == spec->steps - 1 && !whole && gm_ends_exactly(run->scheme);
     const bool is_part = fabs(rest) > least && fabs(run->dt) - fabs(rest) > least && rest / run->dt > 0;
     return is_next && is_part ? rest : 0;

@@ -140,6 +140,27 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
     return (struct gm_style){gm_lane_role(lane->shown.colour), alpha, width, gm_lane_dash(lane->shown.dash)};
 }
 
+const char *const gm_trails_words[] = {"yes", "no", NULL};
+
+bool gm_trails_admit(const struct gm_parameter *row, const char *text, char *sentence)
+{
+    double length = 0;
+    const bool is_word = strcmp(text, gm_trails_words[0]) == 0 || strcmp(text, gm_trails_words[1]) == 0;
+    return is_word || (gm_number_parse(text, &length) && length > 0 && isfinite(length)) ||
+           gm_refuse(sentence, "%s=%.60s is not yes, no or a time above 0", row->key, text);
+}
+
+size_t gm_trails_from(const char *text, const struct gm_entries *entries, double t)
+{
+    double length = INFINITY;
+    size_t first = strcmp(text, gm_trails_words[1]) == 0 ? entries->count : 0;
+    gm_number_parse(text, &length);
+    while (first < entries->count && fabs(t - entries->times[first]) > length) {
+        first++;
+    }
+    return first;
+}
+
 void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                    const double *points, size_t count)
 {

@@ -138,12 +138,13 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
    neither once they separate. */
 static double lost_above(const struct gm_scheme *scheme)
 {
-    return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : GM_LOST_ABOVE;
+    return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : 10;
 }
 
 long gm_lane_lost(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
+    const double least_left = 0.1;
     double most = 0;
     long lost = -1;
     for (size_t i = 0; lane->run->status == GM_OK && i < lane->scene->observable_count; i++) {
@@ -155,7 +156,7 @@ long gm_lane_lost(const struct gm_lane *lane)
                      value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* a quantity that starts below its scale may become smaller without a loss */
-        const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
+        const bool decayed = divisor == fabs(initial) && value / initial < least_left;
         if ((error > lost_above(lane->scheme) || decayed) && error > most) {
             most = error;
             lost = (long)i;
@@ -245,15 +246,9 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     return lane->run->status;
 }
 
-/* The number of observables on request that the picture shows. */
-static size_t asked_shown(const struct gm_lane *lane)
+size_t gm_lane_asked_shown(const struct gm_lane *lane)
 {
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
-}
-
-bool gm_lane_follows_steps(const struct gm_lane *lane)
-{
-    return asked_shown(lane) > 0;
 }
 
 /* Returns true if two schemes make the same steps on the problems of all lanes. */
@@ -287,8 +282,7 @@ static void note_same(const struct gm_lane *const *lanes, size_t count, struct g
 
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct gm_scene *scene = lanes[0]->scene;
-    (asked_shown(lanes[0]) > 0 ? scene->draw_asked : scene->draw)(lanes, count, picture);
+    lanes[0]->scene->draw(lanes, count, picture);
     note_same(lanes, count, picture);
 }
 
@@ -303,7 +297,7 @@ void gm_lane_record(struct gm_lane *lane)
         values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }
     const struct gm_scene *scene = lane->scene;
-    const size_t shown = asked_shown(lane);
+    const size_t shown = gm_lane_asked_shown(lane);
     for (size_t i = 0; i < scene->asked_count; i++) {
         values[scene->observable_count + i] = i < shown ? observe(&scene->asked[i], &view, 0) : NAN;
     }

@@ -190,8 +190,6 @@ struct gm_scene {
     size_t asked_count;
     /* The number of the first observables on request that the picture shows; NULL: none. */
     size_t (*asked_shown)(const struct gm_scene *scene, const void *parameters);
-    /* The picture that shows observables on request, instead of `draw`. */
-    void (*draw_asked)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     const struct gm_track *tracks;
     size_t track_count;
     const struct gm_figure *figures;

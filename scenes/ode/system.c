@@ -27,7 +27,6 @@
 #include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
-#include "scenes/common/trails.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/system/optional.h"
 #include "scenes/ode/system/parts.h"
@@ -657,7 +656,6 @@ static void make(struct gm_system_making *making)
                    (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0),
                making->problem.n);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
-    system_scene->scene.draw_asked = gm_draw_modified;
     for (size_t i = 0; i < system->choices.count; i++) {
         const char *key = system->choices.list[i].name;
         if (gm_scene_observable(&system_scene->scene, key) >= 0) {

@@ -19,7 +19,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
-#include "scenes/common/trails.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/system/optional.h"
 
 extern const struct gm_scene gm_scene_vortices;
@@ -547,7 +547,6 @@ const struct gm_scene gm_scene_vortices = {
     .asked = gm_ode_asked,
     .asked_count = GM_ODE_ASKED,
     .asked_shown = gm_modified_shown,
-    .draw_asked = gm_draw_modified,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

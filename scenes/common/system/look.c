@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
-#include "scenes/common/trails.h"
+#include "scenes/common/graph.h"
 
 /* The bright end of a path is this part of the whole run. */
 static const double bright = 0.15;
@@ -166,6 +166,12 @@ static void fill(double *row, double value, size_t count)
     }
 }
 
+/* Other states of one member, each with its time: component c of the k-th is states[c * count + k]. */
+struct states {
+    const double *states, *times;
+    size_t count, member;
+};
+
 /* The exact solution of `count` states beside each other, whose other variables are set. */
 static void put_all_exact(const struct gm_view *view, double *variables, size_t count)
 {
@@ -185,8 +191,9 @@ static void put_all_exact(const struct gm_view *view, double *variables, size_t 
     free(one);
 }
 
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
-                         const struct gm_states *states, double *values)
+/* Writes the values of a tape for these states: output i of the k-th is values[i * count + k]. */
+static void values_of(const struct gm_tape *tape, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     const struct gm_system_lane *lane = view->parameters;
     const struct gm_user_system *system = &lane->owner->system;
@@ -214,8 +221,8 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
 }
 
 /* Writes the values of a curve. When out of memory they are NaN. */
-static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
-                      const struct gm_states *states, double *values)
+static void put_curve(const struct gm_curve *curve, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     const size_t n = gm_system_scene_of(view)->system.n, all = view->problem->n, count = states->count;
     if (!curve->tape && curve->number < n) {
@@ -227,7 +234,7 @@ static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
     if (!numbers) {
         fill(values, NAN, count);
     } else if (curve->tape) {
-        gm_system_values_of(curve->tape, view, states, numbers);
+        values_of(curve->tape, view, states, numbers);
         for (size_t k = 0; k < count; k++) {
             values[k] = rows == 1 || numbers[count + k] > 0 ? numbers[k] : NAN;
         }
@@ -242,12 +249,12 @@ static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
     free(numbers);
 }
 
-/* Writes the numbers of a sight for these states, as gm_system_values_of. */
-static void put_sight(const struct gm_sight *sight, const struct gm_view *view,
-                      const struct gm_states *states, double *values)
+/* Writes the numbers of a sight for these states, as values_of. */
+static void put_sight(const struct gm_sight *sight, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     if (!sight->curves) {
-        gm_system_values_of(&sight->tape, view, states, values);
+        values_of(&sight->tape, view, states, values);
         return;
     }
     for (size_t i = 0; i < sight->bodies; i++, values += 2 * states->count) {
@@ -264,7 +271,7 @@ void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, s
         state[c] = view->state[c * m + member];
     }
     if (state) {
-        put_sight(sight, view, &(struct gm_states){state, &view->t, 1, member}, values);
+        put_sight(sight, view, &(struct states){state, &view->t, 1, member}, values);
     } else if (sight->curves) {
         fill(values, NAN, gm_sight_numbers(sight));
     } else {
@@ -303,7 +310,7 @@ struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *
             states[i] = entries->values[(first + i % count) * entries->width + shown * n + i / count];
         }
         double *values = states + n * count;
-        put_sight(sight, &view, &(struct gm_states){states, entries->times + first, count, member}, values);
+        put_sight(sight, &view, &(struct states){states, entries->times + first, count, member}, values);
         for (size_t i = 0; i < width * count; i++) {
             points[first * width + i] = values[i % width * count + i / width];
         }

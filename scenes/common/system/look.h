@@ -177,14 +177,6 @@ const double *gm_system_tangent(const struct gm_view *view, size_t component, si
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
 /* Writes the values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
-/* Other states of one member, each with its time: component c of the k-th is states[c * count + k]. */
-struct gm_states {
-    const double *states, *times;
-    size_t count, member;
-};
-/* Writes the values of a tape for these states: output i of the k-th is values[i * count + k]. */
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
-                         const struct gm_states *states, double *values);
 /* Writes the numbers of a sight for one member of a view's state. */
 void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values);
 /* The numbers of a sight's bodies in every entry of a track: `width` per entry. */

@@ -8,6 +8,7 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/ode/system/optional.h"
 #include "scenes/ode/system/parts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
@@ -727,6 +728,9 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const char *name = gm_system_title(&system_scene->system)
                            ? system_scene->scene.title
                            : gm_typeset(picture, system_scene->scene.title);
+    if (gm_draw_modified(lanes, count, picture)) {
+        return;
+    }
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
     if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
         picture->title =

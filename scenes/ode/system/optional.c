@@ -555,7 +555,7 @@ size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters)
     return chosen ? GM_MODIFIED_OBSERVABLES : 0;
 }
 
-void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+bool gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     static const struct gm_together together[] = {
         {"energy_error", "H"},
@@ -564,6 +564,9 @@ void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct g
         {"modified_energy6_error", "to Δt⁶"},
     };
     const bool one = gm_one_step(lanes, count);
+    if (gm_lane_asked_shown(lanes[0]) == 0) {
+        return false;
+    }
     picture->title = "The conserved quantity: the modified energy";
     picture->subtitle =
         gm_picture_text(picture, "%s%s%s;  errors of H + Δt H₁ + Δt² H₂ + …, cut off", lanes[0]->scene->title,
@@ -573,4 +576,5 @@ void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct g
         "of it are taken, the flatter the line.";
     gm_draw_clock(picture, lanes, count);
     gm_draw_together(picture, lanes, count, together, GM_COUNT(together));
+    return true;
 }
