@@ -179,8 +179,9 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     return run;
 }
 
-void gm_run_close(struct gm_run *run)
+void gm_run_close(void *data)
 {
+    struct gm_run *run = data;
     if (run && run->workspace) {
         run->scheme->family->workspace_close(run->workspace);
     }

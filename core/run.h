@@ -36,7 +36,7 @@ struct gm_run {
    outlives the run; the scheme must fit it. */
 struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
                            const struct gm_settings *settings, double t0, double dt, const double *y0);
-void gm_run_close(struct gm_run *run);
+void gm_run_close(void *run);
 
 /* The current state, [component * m + member]; valid until the next step. */
 const double *gm_run_state(const struct gm_run *run);

@@ -53,6 +53,6 @@ struct gm_csv_lines {
 /* The next line, or group of lines, with its end; NULL after the last one, or if it is incomplete: `line` is then its part, ""
    for an empty one, or NULL when out of memory. */
 const char *gm_csv_next(struct gm_csv_lines *lines);
-void gm_csv_close(struct gm_csv_lines *lines);
+void gm_csv_close(void *lines);
 
 #endif

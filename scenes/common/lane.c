@@ -440,10 +440,10 @@ static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
 
 /* ---- from open to close ---- */
 
-void gm_lane_close(struct gm_lane *lane)
+void gm_lane_close(void *lane)
 {
     if (lane) {
-        gm_arena_close(lane->arena);
+        gm_arena_close(((struct gm_lane *)lane)->arena);
     }
 }
 

@@ -53,7 +53,7 @@ struct gm_lane {
 struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
                              const struct gm_settings *settings, const struct gm_scheme *scheme,
                              char *sentence);
-void gm_lane_close(struct gm_lane *lane);
+void gm_lane_close(void *lane);
 
 struct gm_view gm_lane_view(const struct gm_lane *lane);
 

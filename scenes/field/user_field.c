@@ -34,11 +34,6 @@
 enum { DT, UNTIL };
 enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_ROWS = 8 };
 
-static void close_evolution(void *evolution)
-{
-    gm_user_evolution_close(evolution);
-}
-
 static void make_rows(struct gm_user_field *field)
 {
     static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
@@ -366,7 +361,7 @@ static void make(struct gm_system_making *making)
     const char *const *words = of_file->origin.words;
     struct gm_user_system *system = &of_file->system;
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
-    gm_arena_keep(arena, &field->evolution, close_evolution);
+    gm_arena_keep(arena, &field->evolution, gm_user_evolution_close);
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     size_t others;

@@ -609,11 +609,6 @@ static const char *title_of(struct gm_system_scene *system_scene)
                                           : "A user-defined system";
 }
 
-static void close_model(void *model)
-{
-    gm_user_model_close(model);
-}
-
 static void make(struct gm_system_making *making)
 {
     const unsigned long refusals = gm_memory_refusals();
@@ -622,7 +617,7 @@ static void make(struct gm_system_making *making)
     struct gm_user_system *system = &system_scene->system;
     const bool typed = system_scene->origin.typed;
     gm_system_find_hook(system_scene);
-    gm_arena_keep(arena, &system_scene->model, close_model);
+    gm_arena_keep(arena, &system_scene->model, gm_user_model_close);
     gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
     make_rows(system_scene, typed);
     gm_system_describe(system_scene, (struct gm_scene){.title = title_of(system_scene),

@@ -93,17 +93,12 @@ static void allow_files(void)
     }
 }
 
-static void close_lines(void *lines)
-{
-    gm_csv_close(lines);
-}
-
 /* Opens a table, which may be missing, after its head. Refuses one that has another head, or is being written. */
 static void open_table(const struct gm_sweep *sweep, const char *path, const char *other,
                        struct gm_csv_lines *table)
 {
     struct gm_arena *arena = sweep->arena;
-    gm_arena_keep(arena, table, close_lines);
+    gm_arena_keep(arena, table, gm_csv_close);
     *table = (struct gm_csv_lines){.stream = fopen(path, "r"), .group = gm_sweep_index_cell(sweep)};
     if (!table->stream && errno != ENOENT) {
         gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));

@@ -32,21 +32,11 @@ struct search {
     double guess; /* of the period */
 };
 
-static void close_run(void *run)
-{
-    gm_run_close(run);
-}
-
-static void close_tangent(void *tangent)
-{
-    gm_tangent_close(tangent);
-}
-
 static struct gm_run *open_run(const struct gm_periodic *orbit, struct gm_arena *arena, const double *y,
                                double dt)
 {
     struct gm_run *run = gm_run_open(orbit->problem, orbit->scheme, orbit->settings, orbit->t0, dt, y);
-    return gm_arena_keep(arena, run, close_run);
+    return gm_arena_keep(arena, run, gm_run_close);
 }
 
 /* Makes the steps of a period from y, the frame with them if that is wanted. Returns the residual; infinity if a step
@@ -59,7 +49,7 @@ static double follow(struct search *search, const double *y, double period, bool
     bool good = run->status == GM_OK;
     if (with_frame) {
         struct gm_tangent *tangent = gm_tangent_open(run);
-        gm_arena_keep(search->arena, tangent, close_tangent);
+        gm_arena_keep(search->arena, tangent, gm_tangent_close);
         search->stride = gm_tangent_size(tangent);
         memset(search->frame, 0, search->n * search->stride * sizeof *search->frame);
         for (size_t k = 0; k < search->n; k++) {

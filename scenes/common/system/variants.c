@@ -206,11 +206,6 @@ static void explain(struct gm_arena *arena, struct gm_system_scene *own)
 
 /* ---- one system ---- */
 
-static void close_system(void *system)
-{
-    gm_system_close(system);
-}
-
 static void close_problem(void *thing)
 {
     struct gm_system_making *making = thing;
@@ -269,7 +264,7 @@ static void make(struct gm_arena *arena, void *data)
     }
     system_scene->system = *taking->system;
     *taking->system = (struct gm_user_system){0};
-    gm_arena_keep(arena, &system_scene->system, close_system);
+    gm_arena_keep(arena, &system_scene->system, gm_system_close);
     taking->maker->make(&taking->making);
     gm_arena_drop(arena, &taking->making);
 }
