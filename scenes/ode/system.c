@@ -353,7 +353,7 @@ static bool is_stiff(const struct gm_system_lane *lane, double until)
         memcpy(y, values, lane->owner->system.n * sizeof *y);
     }
     problem.m = 1;
-    const bool stiff = values && y && gm_stiffness_of(&problem, y, until).is_stiff;
+    const bool stiff = values && y && gm_is_stiff(&problem, y, until);
     free(values);
     free(y);
     gm_user_problem_close(&problem);
