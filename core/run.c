@@ -122,19 +122,13 @@ static void start(struct gm_run *run)
 
 enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
 
-/* The numbers that hold a snapshot. */
-static size_t snapshot_numbers(const struct gm_run *run)
-{
-    return gm_run_snapshot_size(run) / sizeof(double) + 1;
-}
-
 /* Takes the scratch of events: for a step, for looks and values of steps together, and for a snapshot. */
 static bool open_events(struct gm_run *run)
 {
     const struct gm_problem *problem = run->problem;
     const size_t step = gm_events_scratch(problem, state_count(run) + carry_count(run)),
-                 looks = TOGETHER * (problem->n + 1 + problem->events->count);
-    const size_t size = (step + looks + snapshot_numbers(run)) * sizeof(double);
+                 looks = TOGETHER * (problem->n + 1 + problem->events->count),
+                 size = (step + looks + 1) * sizeof(double) + gm_run_snapshot_size(run);
     run->looks_back = true;
     run->event_scratch = aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
     return run->event_scratch != NULL;

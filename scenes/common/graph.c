@@ -278,14 +278,6 @@ bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
     return one;
 }
 
-/* Makes a gap of all values below a graph's floor. */
-static void cut(double *points, size_t count, double floor)
-{
-    for (size_t i = 0; i < count; i++) {
-        points[2 * i + 1] = points[2 * i + 1] < floor ? NAN : points[2 * i + 1];
-    }
-}
-
 /* Writes the history of an observable as points: one per bin while a bin is a step, then its low and high.
    Returns their number. */
 static size_t history_points(const struct gm_lane *lane, size_t series, double divisor,
@@ -485,8 +477,8 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
 {
     const size_t made =
         history_points(lane, series, graph->relative ? gm_start_of(lane, series) : 1, graph, points);
-    if (graph->floor > 0) {
-        cut(points, made, graph->floor);
+    for (size_t i = 0; i < made && graph->floor > 0; i++) { /* a gap of all values below the floor */
+        points[2 * i + 1] = points[2 * i + 1] < graph->floor ? NAN : points[2 * i + 1];
     }
     return made;
 }

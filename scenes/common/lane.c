@@ -11,11 +11,6 @@
 #include "core/memory.h"
 #include "core/schemes.h"
 
-static const struct gm_timing *timing(const struct gm_lane *lane)
-{
-    return lane->parameters;
-}
-
 struct gm_view gm_lane_view(const struct gm_lane *lane)
 {
     return (struct gm_view){
@@ -100,18 +95,13 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
     return fabs(value - initial_of(observable, view)) / divisor_of(observable, view);
 }
 
-/* Observables computed on request are never angles. */
-static double near_of(const struct gm_lane *lane, size_t observable)
-{
-    return observable < lane->scene->observable_count ? lane->angles[observable] : 0;
-}
-
 double gm_lane_observe(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);
     const unsigned long refusals = gm_memory_refusals();
-    const double value =
-        observe(gm_scene_observable_at(lane->scene, observable), &view, near_of(lane, observable));
+    /* observables computed on request are never angles */
+    const double near = observable < lane->scene->observable_count ? lane->angles[observable] : 0,
+                 value = observe(gm_scene_observable_at(lane->scene, observable), &view, near);
     return gm_memory_refusals() == refusals ? value : NAN;
 }
 
@@ -558,8 +548,8 @@ static void open_lane(struct gm_arena *arena, void *data)
                         GM_MOST_OBSERVABLES);
     }
     open_start(arena, lane, opening->sentence);
-    lane->run =
-        gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
+    lane->run = gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0,
+                            ((const struct gm_timing *)lane->parameters)->dt, lane->start);
     gm_arena_need(arena, lane->run);
     open_records(arena, lane);
     look_at_start(lane);

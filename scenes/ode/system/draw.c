@@ -193,15 +193,10 @@ static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const cha
     }
 }
 
-static double wrapped(double angle)
-{
-    return angle - 2 * M_PI * round(angle / (2 * M_PI));
-}
-
 static void wrap(const struct gm_sight *sight, double *point)
 {
     for (size_t k = 0; k < 2; k++) {
-        point[k] = sight->angles[k] ? wrapped(point[k]) : point[k];
+        point[k] -= sight->angles[k] ? 2 * M_PI * round(point[k] / (2 * M_PI)) : 0;
     }
 }
 
@@ -513,10 +508,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     const struct gm_lane *leader = NULL; /* the first lane of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        size_t lane = 0;
-        while (lanes[lane] != walk.lane) {
-            lane++;
-        }
+        const size_t lane = walk.next - 1;
         const struct gm_sight *sight = paths[lane].sight;
         const struct gm_view view = gm_lane_view(walk.lane);
         if (walk.first) {
@@ -590,14 +582,11 @@ static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, c
                    points, points ? crossings->count : 0);
 }
 
-static const char *section_title(const struct gm_lane *lane)
-{
-    return own_of(lane)->owner->stroboscopic ? "Stroboscopic section" : "Poincaré section";
-}
-
 static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, section_title(lanes[0]));
+    const bool driven = own_of(lanes[0])->owner->stroboscopic;
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH, driven ? "Stroboscopic section" : "Poincaré section");
     panel->title_role = GM_INK;
     set_section(picture, panel, lanes, count);
     gm_system_draw_levels(picture, panel, lanes[0], &own_of(lanes[0])->owner->section);

@@ -21,13 +21,6 @@
 
 /* ---- formulas during the run ---- */
 
-static double value_of(const struct gm_tape *tape, const struct gm_view *view)
-{
-    double value;
-    gm_system_values(tape, view, gm_system_centre(view), &value);
-    return value;
-}
-
 /* The jumps that events have made in a conserved quantity; 0 for other observables. */
 static double booked(const struct gm_view *view)
 {
@@ -49,7 +42,10 @@ static double observed(const struct gm_view *view)
 static double terms(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    return value_of(system_scene->terms[view->observable - system_scene->observables], view);
+    double value;
+    gm_system_values(system_scene->terms[view->observable - system_scene->observables], view,
+                     gm_system_centre(view), &value);
+    return value;
 }
 
 /* Returns p q' - L of a Lagrangian system, whose formulas hold velocities, or the magnitudes of its terms. */
