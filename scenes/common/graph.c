@@ -572,14 +572,16 @@ void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lan
 /* A graph of an error by its greatest values, if there are too many to distinguish. */
 static const struct gm_graph greatest = {.highest = true, .scale = GM_LOG};
 
-static void draw_lane_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                               const struct gm_lane *lane, const struct gm_together *together,
-                               size_t together_count, const double range[2], double *points)
+/* Draws the graph of the current lane of a walk. */
+static void draw_lane_together(struct gm_picture *picture, const struct gm_walk *walk,
+                               const struct gm_together *together, size_t together_count,
+                               const double range[2], double *points)
 {
+    const struct gm_lane *lane = walk->lane;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
     panel->axes = true;
     panel->title_role = GM_INK;
-    gm_time_axis(&panel->x, lanes, count);
+    gm_time_axis(&panel->x, walk->lanes, walk->count);
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = range[0], .high = range[1]};
     mark_roundoff(picture, panel);
     const char *missing = NULL;
@@ -626,6 +628,6 @@ void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *l
     gm_range_round(&low, &high, GM_LOG);
     const double range[2] = {low, high};
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; points && gm_walk_next(&walk);) {
-        draw_lane_together(picture, lanes, count, walk.lane, together, together_count, range, points);
+        draw_lane_together(picture, &walk, together, together_count, range, points);
     }
 }

@@ -159,11 +159,9 @@ static void add_densities(struct gm_user_field *field)
                                                        .missing = infinite));
         const size_t number = of_file->observable_count - 1;
         gm_written_options(row, item);
-        of_file->formulas[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
-        gm_system_open_tape(of_file, of_file->formulas[number], item->nodes, 1);
+        of_file->measures[number].formula = gm_system_take_tape(of_file, item->nodes, 1);
         if (scale) {
-            of_file->terms[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
-            gm_system_open_tape(of_file, of_file->terms[number], &scale->node, 1);
+            of_file->measures[number].terms = gm_system_take_tape(of_file, &scale->node, 1);
         }
     }
 }
@@ -171,10 +169,7 @@ static void add_densities(struct gm_user_field *field)
 static void make_observables(struct gm_user_field *field)
 {
     struct gm_system_scene *of_file = &field->of_file;
-    of_file->observables = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
-    of_file->formulas = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
-    of_file->terms = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
-    of_file->scene.observables = of_file->observables;
+    gm_system_take_observables(of_file, MOST_OBSERVABLES);
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }

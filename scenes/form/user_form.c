@@ -60,19 +60,18 @@ static double fact(const struct gm_complex *complex, enum fact fact)
 
 static double observe(const struct gm_view *view)
 {
-    const struct gm_form_scene *scene = gm_form_scene_of(view->parameters);
-    const struct gm_form_subject subject = scene->subjects[view->observable - scene->of_file.observables];
-    switch (subject.what) {
+    const struct gm_system_measure *subject = gm_system_measure_of(view);
+    switch (subject->what) {
     case GM_FORM_ERROR:
-        return gm_form_error(view->problem, view->state, view->t, subject.index);
+        return gm_form_error(view->problem, view->state, view->t, subject->index);
     case GM_FORM_CONTRADICTION:
-        return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
+        return gm_form_contradiction(view->problem, view->state, view->t, subject->index);
     case GM_FORM_REMAINDER:
-        return gm_form_remainder(view->problem, view->state, view->t, subject.index);
+        return gm_form_remainder(view->problem, view->state, view->t, subject->index);
     case GM_FORM_OBSERVED:
-        return *gm_form_observed(view->problem, view->state, view->t, subject.index);
+        return *gm_form_observed(view->problem, view->state, view->t, subject->index);
     default:
-        return fact(gm_form_space_of(view->problem)->complex, (enum fact)subject.index);
+        return fact(gm_form_space_of(view->problem)->complex, (enum fact)subject->index);
     }
 }
 
@@ -88,7 +87,8 @@ static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm
         gm_arena_refuse(of_file->arena, "a system of forms has at most %d observables",
                         GM_MOST_FORM_OBSERVABLES);
     }
-    scene->subjects[of_file->observable_count] = subject;
+    of_file->measures[of_file->observable_count] =
+        (struct gm_system_measure){.what = subject.what, .index = subject.index};
     of_file->observables[of_file->observable_count++] = row;
 }
 
@@ -115,7 +115,7 @@ static void make_observables(struct gm_form_scene *scene)
     struct gm_arena *arena = of_file->arena;
     const struct gm_user_system *system = &of_file->system;
     bool first = true;
-    of_file->observables = gm_arena_take(arena, GM_MOST_FORM_OBSERVABLES, sizeof *of_file->observables);
+    gm_system_take_observables(of_file, GM_MOST_FORM_OBSERVABLES);
     for (size_t i = 0; i < system->n; i++) {
         if (system->forms[i].exact != GM_NO_NODE) {
             add_error(scene, i, first);
@@ -160,7 +160,6 @@ static void make_observables(struct gm_form_scene *scene)
         add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
             (struct gm_form_subject){GM_FORM_FACT, i});
     }
-    of_file->scene.observables = of_file->observables;
     of_file->scene.observable_count = of_file->observable_count;
 }
 

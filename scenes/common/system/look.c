@@ -17,6 +17,12 @@ const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
     return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
+const struct gm_system_measure *gm_system_measure_of(const struct gm_view *view)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    return &system_scene->measures[view->observable - system_scene->observables];
+}
+
 const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane)
 {
     const struct gm_user_system *system = &lane->owner->system;

@@ -74,6 +74,14 @@ struct gm_system_origin {
     bool elsewhere;
 };
 
+/* The source of an observable's values. */
+struct gm_system_measure {
+    struct gm_tape *formula; /* NULL: a function of its own */
+    struct gm_tape *terms;   /* of an error: the sum of the magnitudes of its terms; else NULL */
+    size_t booked;           /* 1 + the number of the quantity whose jumps at events count; else 0 */
+    size_t what, index;      /* of forms: enum gm_form_subject, and the number of such a subject */
+};
+
 /* The data that follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
@@ -89,10 +97,7 @@ struct gm_system_scene {
     struct gm_system_scene *first, *next; /* systems of one file (variants.h); NULL: it is alone */
     const char **lacks; /* for each row: why this system lacks it, or NULL; NULL: it is alone */
     struct gm_observable *observables;
-    struct gm_tape **formulas; /* for each observable; NULL: a function of its own */
-    struct gm_tape **terms;    /* for each error: the sum of the magnitudes of its terms; else NULL */
-    size_t
-        *booked; /* for each observable 1 + the number of the quantity whose jumps at events count; else 0 */
+    struct gm_system_measure *measures; /* for each observable */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
     struct gm_sight *sights; /* the first is the one of show=all; the last pair_count are planes */
@@ -153,8 +158,9 @@ bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t r
 /* Puts a lane's parameters among the values of all variables. */
 void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables);
 
-/* Returns the scene of a view. */
+/* Returns the scene of a view, and the source of the observable that it evaluates. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
+const struct gm_system_measure *gm_system_measure_of(const struct gm_view *view);
 
 /* Returns the number of common rows that a scene lacks: the rows of members, which its hook places. */
 static inline size_t gm_system_skipped(const struct gm_system_scene *system_scene)

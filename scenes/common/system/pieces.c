@@ -54,3 +54,18 @@ void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *t
     gm_tape_keep(system_scene->arena, tape,
                  gm_tape_open(tape, &system_scene->system.graph, nodes, count, inputs, unused));
 }
+
+struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const gm_node_id *nodes,
+                                    size_t count)
+{
+    struct gm_tape *tape = gm_arena_take(system_scene->arena, 1, sizeof *tape);
+    gm_system_open_tape(system_scene, tape, nodes, count);
+    return tape;
+}
+
+void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most)
+{
+    system_scene->observables = gm_arena_take(system_scene->arena, most, sizeof *system_scene->observables);
+    system_scene->measures = gm_arena_take(system_scene->arena, most, sizeof *system_scene->measures);
+    system_scene->scene.observables = system_scene->observables;
+}

@@ -16,9 +16,15 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 /* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
 double gm_system_half_length(const struct gm_system_lane *lane);
 
+/* Takes the tables of at most that many observables, which are those of the scene; in a body of its arena. */
+void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most);
+
 /* Opens a tape whose inputs are all variables, so that lanes with different parameters share it. It lives as
    long as the scene. In a body of the scene's arena. */
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count);
+/* The same with a tape that it takes. */
+struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const gm_node_id *nodes,
+                                    size_t count);
 
 #endif

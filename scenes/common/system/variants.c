@@ -76,7 +76,7 @@ static double nothing(const struct gm_view *view)
     return NAN;
 }
 
-/* Gives a system the rows, and moves its values and formulas to them. */
+/* Gives a system the rows, and moves its values and measures to them. */
 static void take(struct gm_arena *arena, struct gm_system_scene *own, const struct tables *tables)
 {
     const size_t rows = tables->row_count, count = tables->observable_count,
@@ -87,8 +87,7 @@ static void take(struct gm_arena *arena, struct gm_system_scene *own, const stru
     own->variables = gm_arena_take(arena, rows, sizeof *own->variables);
     own->initial = gm_arena_take(arena, 1, size);
     own->observables = gm_arena_take(arena, count + 1, sizeof *own->observables);
-    own->formulas = gm_arena_take(arena, count + 1, sizeof *own->formulas);
-    own->terms = gm_arena_take(arena, count + 1, sizeof *own->terms);
+    own->measures = gm_arena_take(arena, count + 1, sizeof *own->measures);
     own->lacks = gm_arena_take(arena, rows, sizeof *own->lacks);
     for (size_t row = 0; row < rows; row++) {
         const struct gm_parameter *to = &tables->rows[row];
@@ -104,8 +103,7 @@ static void take(struct gm_arena *arena, struct gm_system_scene *own, const stru
         const size_t from = find(before.observables, sizeof *row, before.observable_count, row->key);
         if (from < before.observable_count) {
             own->observables[i] = before.observables[from];
-            own->formulas[i] = before.formulas[from];
-            own->terms[i] = before.terms[from];
+            own->measures[i] = before.measures[from];
         } else {
             own->observables[i] = (struct gm_observable){.key = row->key,
                                                          .title = row->title,

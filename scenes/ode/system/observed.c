@@ -24,27 +24,22 @@
 /* The jumps that events have made in a conserved quantity; 0 for other observables. */
 static double booked(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const size_t quantity = system_scene->booked[view->observable - system_scene->observables];
+    const size_t quantity = gm_system_measure_of(view)->booked;
     return view->booked && quantity > 0 ? gm_events_booked(view->problem, view->booked, quantity - 1) : 0;
 }
 
 /* Returns an observable's formula while its condition, if any, holds; else NaN. */
 static double observed(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[2] = {0, 1};
-    gm_system_values(system_scene->formulas[view->observable - system_scene->observables], view,
-                     gm_system_centre(view), values);
+    gm_system_values(gm_system_measure_of(view)->formula, view, gm_system_centre(view), values);
     return values[1] > 0 ? values[0] - booked(view) : NAN;
 }
 
 static double terms(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double value;
-    gm_system_values(system_scene->terms[view->observable - system_scene->observables], view,
-                     gm_system_centre(view), &value);
+    gm_system_values(gm_system_measure_of(view)->terms, view, gm_system_centre(view), &value);
     return value;
 }
 
@@ -238,13 +233,12 @@ static void add_observable(struct gm_system_scene *system_scene, struct gm_obser
     if (node == GM_NO_NODE) {
         return;
     }
-    system_scene->formulas[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
-    gm_system_open_tape(system_scene, system_scene->formulas[i], nodes, condition == GM_NO_NODE ? 1 : 2);
+    struct gm_system_measure *measure = &system_scene->measures[i];
+    measure->formula = gm_system_take_tape(system_scene, nodes, condition == GM_NO_NODE ? 1 : 2);
     if (row.error) {
         const gm_node_id sizes = sizes_of(system_scene, node);
         system_scene->observables[i].terms = terms;
-        system_scene->terms[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
-        gm_system_open_tape(system_scene, system_scene->terms[i], &sizes, 1);
+        measure->terms = gm_system_take_tape(system_scene, &sizes, 1);
     }
 }
 
@@ -269,10 +263,9 @@ static double momentum_scale(struct gm_system_scene *system_scene, const struct 
 {
     struct gm_arena *arena = system_scene->arena;
     const size_t half = system_scene->system.n / 2, mark = gm_arena_mark(arena);
-    struct gm_tape *tape = gm_arena_take(arena, 1, sizeof *tape);
+    const struct gm_tape *tape = gm_system_take_tape(system_scene, item->nodes, half);
     const double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
     double *generator = gm_arena_take(arena, half, sizeof *generator), sum = 0;
-    gm_system_open_tape(system_scene, tape, item->nodes, half);
     gm_tape_values(tape, values, generator, 1);
     for (size_t i = 0; i < half; i++) {
         sum += fabs(generator[i] * values[half + i]);
@@ -318,7 +311,7 @@ static void add_events(struct gm_system_scene *system_scene, const struct gm_pro
 static void book(struct gm_system_scene *system_scene, const struct gm_problem *problem, size_t quantity)
 {
     if (problem->events && problem->events->changes) {
-        system_scene->booked[system_scene->observable_count - 1] = 1 + quantity;
+        system_scene->measures[system_scene->observable_count - 1].booked = 1 + quantity;
     }
 }
 
@@ -511,14 +504,9 @@ static void refuse_twice(const struct gm_system_scene *system_scene, const char 
 
 void gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
-    struct gm_arena *arena = system_scene->arena;
     const struct gm_hook *hook = system_scene->hook;
-    const size_t of_hook = hook ? hook->observable_count : 0,
-                 most = 2 * system_scene->system.item_count + 12 + of_hook;
-    system_scene->observables = gm_arena_take(arena, most, sizeof *system_scene->observables);
-    system_scene->formulas = gm_arena_take(arena, most, sizeof *system_scene->formulas);
-    system_scene->terms = gm_arena_take(arena, most, sizeof *system_scene->terms);
-    system_scene->booked = gm_arena_take(arena, most, sizeof *system_scene->booked);
+    const size_t of_hook = hook ? hook->observable_count : 0;
+    gm_system_take_observables(system_scene, 2 * system_scene->system.item_count + 12 + of_hook);
     for (size_t i = 0; i < of_hook; i++) {
         add_function(system_scene, hook->observables[i]);
     }
@@ -535,7 +523,6 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     if (!carried) {
         add_areas(system_scene);
     }
-    system_scene->scene.observables = system_scene->observables;
     system_scene->scene.observable_count = system_scene->observable_count;
     for (size_t i = 0; i < system_scene->observable_count; i++) {
         for (size_t k = 0; k < i; k++) {
