@@ -7,11 +7,7 @@
 #include "core/basics.h"
 #include "core/theory/coefficients.h"
 
-static const struct {
-    const char *letter; /* on screens */
-    const char *key;    /* in files and JSON */
-    const char *word;   /* in sentences and tables */
-} rows[GM_CLAIM_COUNT] = {
+const struct gm_claim_words gm_claims[GM_CLAIM_COUNT] = {
     {"S", "symplectic", "symplectic"},
     {"=", "symmetric", "symmetric"},
     {"R", "reversible", "reversible"},
@@ -33,21 +29,6 @@ static const struct {
     {"P", "a Poisson map", "a Poisson map"},
 };
 
-const char *gm_claim_letter(unsigned bit)
-{
-    return rows[bit].letter;
-}
-
-const char *gm_claim_key(unsigned bit)
-{
-    return rows[bit].key;
-}
-
-const char *gm_claim_word(unsigned bit)
-{
-    return rows[bit].word;
-}
-
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong)
 {
     const bool none = length == 4 && memcmp(words, "none", 4) == 0;
@@ -55,8 +36,8 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
     for (size_t at = 0; at < length && !none; at += strspn(words + at, " \t\n\r,")) {
         unsigned found = GM_CLAIM_COUNT;
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const size_t letters = strlen(rows[bit].key), left = length - at;
-            if (letters <= left && memcmp(words + at, rows[bit].key, letters) == 0 &&
+            const size_t letters = strlen(gm_claims[bit].key), left = length - at;
+            if (letters <= left && memcmp(words + at, gm_claims[bit].key, letters) == 0 &&
                 (letters == left || strchr(" \t\n,", words[at + letters]))) {
                 found = bit;
             }
@@ -66,7 +47,7 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
             return false;
         }
         *claims |= 1u << found;
-        at += strlen(rows[found].key);
+        at += strlen(gm_claims[found].key);
     }
     return true;
 }
