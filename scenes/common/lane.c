@@ -623,16 +623,6 @@ void gm_lane_set_step(struct gm_lane *lane, double dt)
     gm_run_set_step(lane->run, dt);
 }
 
-size_t gm_lane_snapshot_size(const struct gm_lane *lane)
-{
-    return gm_run_snapshot_size(lane->run);
-}
-
-void gm_lane_save(const struct gm_lane *lane, void *snapshot)
-{
-    gm_run_save(lane->run, snapshot);
-}
-
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
 {
     /* the memory of another scheme has another shape */

@@ -111,12 +111,10 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane);
 /* Changes the time step from the current state on. */
 void gm_lane_set_step(struct gm_lane *lane, double dt);
 
-/* Saves and loads a snapshot, of gm_lane_snapshot_size bytes. After a load, history and tracks show the
+/* Loads a snapshot of the lane's run (gm_run_save). Afterwards history and tracks show the
    record up to its step; later records stay in memory until the lane records again, so a later snapshot can
    be loaded too. A snapshot serves this lane and its copies. A load from another scheme takes memory: it
    returns false without it, and leaves the lane unchanged. */
-size_t gm_lane_snapshot_size(const struct gm_lane *lane);
-void gm_lane_save(const struct gm_lane *lane, void *snapshot);
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot);
 
 #endif
