@@ -69,36 +69,38 @@ static void field_at(const struct gm_problem *problem, const double *look, doubl
 
 /* The parts of S. */
 struct saltation {
-    double *slopes, *before, *after,
-        *v; /* slopes of an event, malloc'ed with all else; f-, f+ and an error, of components and the time */
+    double *slopes;                /* of the event, malloc'ed with all else */
+    double *before, *after, *v;    /* f-, f+ and an error, of components and the time */
     double *along_rates, *along_v; /* slopes_along f- and the error */
+    double size;                   /* of the terms of the first of along_rates */
 };
 
-static bool open_saltation(const struct gm_problem *problem, size_t event, struct saltation *saltation)
+/* Takes the memory, and writes what follows from the state before an event. Returns false when out of memory. */
+static bool open_saltation(const struct gm_problem *problem, size_t event, const double *before,
+                           struct saltation *saltation)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
     const size_t width = problem->n + 1, rows = 1 + formulas->changed;
     saltation->slopes = malloc((formulas->slopes.count + 3 * width + 2 * rows) * sizeof *saltation->slopes);
-    if (saltation->slopes) {
-        saltation->before = saltation->slopes + formulas->slopes.count;
-        saltation->after = saltation->before + width;
-        saltation->v = saltation->after + width;
-        saltation->along_rates = saltation->v + width;
-        saltation->along_v = saltation->along_rates + rows;
+    if (!saltation->slopes) {
+        return false;
     }
-    return saltation->slopes != NULL;
+    saltation->before = saltation->slopes + formulas->slopes.count;
+    saltation->after = saltation->before + width;
+    saltation->v = saltation->after + width;
+    saltation->along_rates = saltation->v + width;
+    saltation->along_v = saltation->along_rates + rows;
+    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation->slopes, 1);
+    field_at(problem, before, saltation->before);
+    slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
+                 &saltation->size);
+    return true;
 }
 
 static double rate(const struct gm_problem *problem, size_t event, const double *look)
 {
     struct saltation saltation;
-    double sum = NAN, size;
-    if (open_saltation(problem, event, &saltation)) {
-        gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], look, saltation.slopes, 1);
-        field_at(problem, look, saltation.before);
-        slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
-        sum = saltation.along_rates[0];
-    }
+    const double sum = open_saltation(problem, event, look, &saltation) ? saltation.along_rates[0] : NAN;
     free(saltation.slopes);
     return sum;
 }
@@ -112,15 +114,11 @@ static bool carry_all(const struct gm_problem *problem, size_t event, const doub
     const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
     const size_t motion = gm_system_motion(system);
     struct saltation saltation;
-    double size;
-    if (!open_saltation(problem, event, &saltation)) {
+    if (!open_saltation(problem, event, before, &saltation)) {
         return false;
     }
-    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation.slopes, 1);
-    field_at(problem, before, saltation.before);
     field_at(problem, after, saltation.after);
-    slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
-    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * size;
+    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * saltation.size;
     for (size_t k = system->tangents > 0; k <= system->tangents && passes; k++) {
         double *v = saltation.v, unused;
         memset(v, 0, (problem->n + 1) * sizeof *v);
