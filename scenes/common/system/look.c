@@ -7,10 +7,6 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
-#include "scenes/common/graph.h"
-
-/* The bright end of a path is this part of the whole run. */
-static const double bright = 0.15;
 
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
 {
@@ -23,17 +19,6 @@ const struct gm_system_measure *gm_system_measure_of(const struct gm_view *view)
     return &system_scene->measures[view->observable - system_scene->observables];
 }
 
-const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane)
-{
-    const struct gm_user_system *system = &lane->owner->system;
-    size_t i = 0;
-    while (i < system->item_count &&
-           strcmp(gm_system_option_text(&system->items[i], GM_OPTION_SHOW, ""), lane->show) != 0) {
-        i++;
-    }
-    return i < system->item_count ? &system->items[i] : NULL;
-}
-
 size_t gm_system_centre(const struct gm_view *view)
 {
     return gm_system_scene_of(view)->hook ? 0 : view->problem->m - 1;
@@ -42,24 +27,6 @@ size_t gm_system_centre(const struct gm_view *view)
 size_t gm_sight_numbers(const struct gm_sight *sight)
 {
     return sight->dimensions * (sight->bodies + 2 * sight->rods);
-}
-
-size_t gm_system_bright_from(const struct gm_lane *lane)
-{
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST];
-    const struct gm_timing *timing = lane->parameters;
-    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
-    size_t first = past->count;
-    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
-        first--;
-    }
-    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
-}
-
-size_t gm_system_trail_from(const struct gm_lane *lane, size_t track)
-{
-    const struct gm_system_lane *parameters = lane->parameters;
-    return gm_trails_from(parameters->trails, &lane->entries[track], lane->run->t);
 }
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
@@ -81,13 +48,6 @@ const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
     const struct gm_sight *sight = &system_scene->sights[i < system_scene->sight_count ? i : 0];
     const bool is_plane = sight->over_time || (sight->components[0] == 0 && sight->components[1] == 1);
     return lane->portrait && !is_plane ? &system_scene->sights[system_scene->sight_count - 1] : sight;
-}
-
-const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start)
-{
-    return view->state +
-           gm_system_component(&gm_system_scene_of(view)->system, component > 0, start > 0 ? 2 : 1) *
-               view->problem->m;
 }
 
 /* Writes the exact solution at the current time, from the file, or from the problem. */

@@ -168,15 +168,8 @@ static inline size_t gm_system_skipped(const struct gm_system_scene *system_scen
     return system_scene->hook ? GM_ROW_SHOW : 0;
 }
 
-/* Returns the line whose picture the lane's show= names alone; NULL: it names none. */
-const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane);
-
 /* Returns the number of the observed member. */
 size_t gm_system_centre(const struct gm_view *view);
-
-/* Returns the members' derivatives of a component over the start of another one, by the tangents that a plane's
-   members carry. */
-const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start);
 
 /* Writes the values of all variables for one member of a view's state; velocities are NaN, and so is the
    exact solution, if it is not requested or not known. */
@@ -206,10 +199,6 @@ size_t gm_system_followed(const struct gm_view *view);
 size_t gm_system_followed_member(const struct gm_view *view, size_t shown);
 /* Returns the count of numbers that a sight has for a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
-/* Returns the first entry of the past where the path is bright: a part of the whole run. */
-size_t gm_system_bright_from(const struct gm_lane *lane);
-/* Returns the first entry of a track that trails= lets be drawn. */
-size_t gm_system_trail_from(const struct gm_lane *lane, size_t track);
 /* Returns the sight that a lane shows. One without bodies and rods is completed by gm_system_curves. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 
