@@ -30,8 +30,8 @@ static enum gm_parse store_text(const struct gm_parameter *row, void *owner, con
     return GM_PARSED;
 }
 
-/* FNV-1a */
-uint32_t gm_text_checksum(const char *text)
+/* FNV-1a, 32 bits */
+static double text_number(const char *text)
 {
     uint32_t hash = UINT32_C(2166136261);
     for (; *text; text++) {
@@ -97,7 +97,7 @@ double gm_parameter_get(const struct gm_parameter *row, const void *owner)
     case GM_INTEGER:
         return (double)*(const long *)place;
     case GM_TEXT:
-        return gm_text_checksum(place);
+        return text_number(place);
     default:
         return *(const int *)place;
     }

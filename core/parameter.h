@@ -4,7 +4,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #include "core/expression/number.h"
 
@@ -92,9 +91,6 @@ char *gm_parameter_choices(const struct gm_parameter *row, char *text, size_t si
 
 /* Writes the value of row in owner as it would be typed. Returns text. */
 char *gm_parameter_format(const struct gm_parameter *row, const void *owner, char *text, size_t size);
-
-/* A number that differs where texts differ. */
-uint32_t gm_text_checksum(const char *text);
 
 /* Sets every row of the table to its default. */
 void gm_parameters_reset(const struct gm_parameter *rows, size_t count, void *owner);

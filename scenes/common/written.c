@@ -3,6 +3,7 @@
 #include "scenes/common/written.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,9 +76,14 @@ void gm_written_timing(struct gm_arena *arena, const struct gm_user_system *syst
     set_timing(arena, system, GM_WORD_UNTIL, until, &rows[1]);
 }
 
+/* FNV-1a */
 const char *gm_written_mark(struct gm_arena *arena, const char *name, const char *text)
 {
-    return gm_arena_print(arena, "%s:%08x", name, (unsigned)gm_text_checksum(text));
+    uint32_t sum = UINT32_C(2166136261);
+    for (const char *at = text; *at; at++) {
+        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
+    }
+    return gm_arena_print(arena, "%s:%08x", name, (unsigned)sum);
 }
 
 bool gm_listed_word(const char **list, char *word, size_t size)

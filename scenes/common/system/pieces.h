@@ -27,4 +27,11 @@ void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *t
 struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const gm_node_id *nodes,
                                     size_t count);
 
+/* Makes the rows: `timing`, which are dt and until, then the system's own, then `count` common ones. If
+   `typed`, the values of the system's own have no defaults. */
+void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
+                         const struct gm_parameter *common, size_t count, bool typed);
+/* Opens the formulas of dt, until and steps, and sets their values, NaN without a line. */
+void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES]);
+
 #endif

@@ -44,7 +44,7 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struc
 /* Closes the scene, and the other systems of its file. */
 void gm_system_scene_close(const struct gm_scene *scene);
 
-/* Gives a lane the system of its values. False with a sentence on failure. */
-bool gm_system_choose(struct gm_system_lane *lane, char *sentence);
+/* Returns why a key has no effect in a lane's system; NULL: it has one. */
+const char *gm_system_idle(const void *parameters, const char *key);
 
 #endif
