@@ -24,7 +24,6 @@
 #include "core/tape.h"
 #include "scenes/common/system/hook.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"

@@ -14,7 +14,6 @@
 #include "core/schemes.h"
 #include "render/files/regular_file.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"

@@ -23,7 +23,6 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"

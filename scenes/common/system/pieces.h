@@ -34,4 +34,10 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
 /* Opens the formulas of dt, until and steps, and sets their values, NaN without a line. */
 void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES]);
 
+/* Makes figures, work and stability of a scene that has rows, observables and schemes. `radian` is 1 / the
+   largest frequency at the start, the unit of steps unless the file names another; NULL: a field, which has a
+   map of stability if its file does, and whose work is set. */
+void gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                            double (*radian)(const void *parameters));
+
 #endif
