@@ -2,6 +2,7 @@
 /* A run's one block of memory, its steps, and its snapshots. */
 #include "core/run.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,6 +208,14 @@ static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
            steps <= FARTHEST_BEHIND - run->behind;
 }
 
+/* The state is not the one after the last step. */
+static void reset_workspace(const struct gm_run *run)
+{
+    if (run->workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(run->workspace);
+    }
+}
+
 static void count_progress(struct gm_run *run, const struct gm_progress *progress)
 {
     run->evaluations += progress->evaluations;
@@ -256,6 +265,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         }
     }
     count_progress(run, &progress);
+    run->t_behind = run->t;
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
     run->n += progress.done;
@@ -280,9 +290,7 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
     task.n = 0;
     task.dt = dt;
     task.steps_before = run->steps - 1;
-    if (run->workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(run->workspace);
-    }
+    reset_workspace(run);
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
     if (counted) {
         count_progress(run, &progress);
@@ -444,10 +452,65 @@ bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
     return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
+/* The last step of an adaptive scheme, from one half of the block to the other. */
+struct last_step {
+    struct gm_run *run;
+    struct gm_task task;
+    double dt, until;
+    double t; /* of the end */
+};
+
+/* Makes the step with a fraction of dt; returns the time from `until` to its end, NaN if it fails. */
+static double time_beyond(void *data, double fraction)
+{
+    struct last_step *last = data;
+    struct gm_run *run = last->run;
+    last->task.dt = fraction * last->dt;
+    reset_workspace(run);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&last->task);
+    last->t = progress.done == 1 ? progress.t : NAN;
+    return last->t - last->until;
+}
+
+/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. */
+static void end_at(struct gm_run *run, double until)
+{
+    const double reach = 4 * DBL_EPSILON * fabs(until);
+    const int64_t earlier = run->behind - 1;
+    if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
+        return;
+    }
+    int from = 1 - run->current;
+    struct last_step last = {.run = run, .dt = run->dt, .until = until};
+    if (earlier > 0) { /* the other half is more than one step behind */
+        last.task = task_of(run, from, run->current, earlier);
+        last.task.t = run->t_behind;
+        last.task.n -= run->behind;
+        last.task.steps_before -= run->behind;
+        run->t_behind = gm_scheme_loop(run->scheme, run->problem)(&last.task).t;
+        from = run->current;
+    }
+    last.task = task_of(run, from, 1 - from, 1);
+    last.task.t = run->t_behind;
+    last.task.n--;
+    last.task.steps_before--;
+    const double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
+    if (!(fabs(time_beyond(&last, isnan(s) ? 1 : s)) <= reach)) {
+        time_beyond(&last, 1); /* the whole step, as before */
+    }
+    run->current = 1 - from;
+    run->behind = 1;
+    run->t = last.t;
+    reset_workspace(run);
+}
+
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
 {
     while (gm_run_goes_on(run, steps, until)) {
         advance(run, steps - run->steps, reached_from(until));
+    }
+    if (run->shortens && run->scheme->family->adaptive) {
+        end_at(run, until);
     }
     return run->status;
 }
@@ -486,6 +549,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->limit = run->limit;
         next->looks_back = run->looks_back;
         next->ends = run->ends;
+        next->shortens = run->shortens;
         next->witness = run->witness;
         next->stopped = run->stopped;
         memcpy(events_of(next, 0), events_of(run, run->current),
@@ -549,6 +613,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.workspace = run->workspace;
     then.looks_back = run->looks_back;
     then.ends = run->ends;
+    then.shortens = run->shortens;
     then.witness = run->witness;
     then.event_scratch = run->event_scratch;
     then.behind = run->behind = 0;
@@ -562,8 +627,6 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     }
     then.current = 1 - run->current;
     *run = then;
-    if (run->workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(run->workspace);
-    }
+    reset_workspace(run);
     return true;
 }
