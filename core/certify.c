@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <gsl/gsl_errno.h>
 
@@ -13,18 +14,9 @@
 #include "core/run.h"
 #include "core/schemes.h"
 
-static unsigned bit_of(enum gm_claim claim)
-{
-    unsigned bit = 0;
-    while (1u << bit != (unsigned)claim) {
-        bit++;
-    }
-    return bit;
-}
-
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim)
 {
-    return &certificate->claims[bit_of(claim)];
+    return &certificate->claims[ffs((int)claim) - 1];
 }
 
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)

@@ -55,37 +55,32 @@ double gm_zero_beyond(double (*value)(void *data, double s), void *data, double 
 
 /* ---- the memory ---- */
 
+/* Signs are first; then counts, the jumps of quantities, and the last event's time with the number of short intervals. */
 enum { LAST, SHORT, BEHIND };
 
-static double *signs_of(double *memory)
+static size_t counts_at(const struct gm_problem *problem)
 {
-    return memory;
+    return problem->events->count;
 }
 
-static double *counts_of(const struct gm_problem *problem, double *memory)
+static size_t booked_at(const struct gm_problem *problem)
 {
-    return memory + problem->events->count;
+    return 2 * problem->events->count;
 }
 
-static double *booked_in(const struct gm_problem *problem, double *memory)
+static size_t history_at(const struct gm_problem *problem)
 {
-    return memory + 2 * problem->events->count;
-}
-
-/* The last event's time, and the number of short intervals. */
-static double *history_of(const struct gm_problem *problem, double *memory)
-{
-    return booked_in(problem, memory) + problem->events->quantities;
+    return booked_at(problem) + problem->events->quantities;
 }
 
 size_t gm_events_memory(const struct gm_problem *problem)
 {
-    return problem->events ? 2 * problem->events->count + problem->events->quantities + BEHIND : 0;
+    return problem->events ? history_at(problem) + BEHIND : 0;
 }
 
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event)
 {
-    const double *counts = memory + problem->events->count;
+    const double *counts = memory + counts_at(problem);
     double sum = 0;
     for (size_t i = 0; i < problem->events->count; i++) {
         sum += i == event || event == problem->events->count ? counts[i] : 0;
@@ -95,12 +90,12 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
 
 double gm_events_last(const struct gm_problem *problem, const double *memory)
 {
-    return memory[2 * problem->events->count + problem->events->quantities + LAST];
+    return memory[history_at(problem) + LAST];
 }
 
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
 {
-    return memory[2 * problem->events->count + quantity];
+    return memory[booked_at(problem) + quantity];
 }
 
 /* Copies the last member's state, and the time. */
@@ -120,7 +115,7 @@ static double sign_of(double value)
 void gm_events_clear(const struct gm_problem *problem, double *memory)
 {
     memset(memory, 0, gm_events_memory(problem) * sizeof *memory);
-    history_of(problem, memory)[LAST] = -DBL_MAX;
+    memory[history_at(problem) + LAST] = -DBL_MAX;
 }
 
 /* The sign of g with which an event waits in this state; on g = 0 the motion decides, by where it leads. */
@@ -141,7 +136,7 @@ void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, c
     look_at(problem, t, y, look);
     problem->events->values(problem, look, 1, values);
     for (size_t i = 0; i < problem->events->count; i++) {
-        signs_of(memory)[i] = sign_ahead(problem, i, backwards, look, values[i], 0);
+        memory[i] = sign_ahead(problem, i, backwards, look, values[i], 0);
     }
 }
 
@@ -209,8 +204,7 @@ static double value_after(void *data, double s)
    cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
-    const double sign = signs_of(rest->step->memory)[event], at_begin = rest->at_begin[event],
-                 least = 0x1p-51;
+    const double sign = rest->step->memory[event], at_begin = rest->at_begin[event], least = 0x1p-51;
     double low = 0, at_low = at_begin;
     rest->event = event;
     /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
@@ -230,7 +224,7 @@ static double first_place(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    double *signs = signs_of(step->memory), first = INFINITY;
+    double *signs = step->memory, first = INFINITY;
     const double least = 1e-6;
     for (size_t i = 0; i < events->count; i++) {
         rest->places[i] = NAN;
@@ -261,7 +255,7 @@ static void book(struct rest *rest)
 {
     const struct gm_problem *problem = rest->step->problem;
     const struct gm_events *events = problem->events;
-    double *booked = booked_in(problem, rest->step->memory), *values = rest->values;
+    double *booked = rest->step->memory + booked_at(problem), *values = rest->values;
     if (events->quantities == 0) {
         return;
     }
@@ -293,11 +287,11 @@ static void change(struct rest *rest, double t, size_t event)
         const double nothing =
             fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
         if (i == event || after[i] != rest->values[i]) {
-            signs_of(step->memory)[i] =
+            step->memory[i] =
                 sign_ahead(problem, i, step->dt < 0, rest->after, after[i], i == event ? nothing : 0);
         }
     }
-    counts_of(problem, step->memory)[event]++;
+    step->memory[counts_at(problem) + event]++;
     look_at(problem, rest->t, rest->from, rest->look);
     if (step->witness.see) {
         const struct gm_event_part part = {event, rest->look, rest->before, rest->after};
@@ -310,7 +304,7 @@ static void change(struct rest *rest, double t, size_t event)
 static bool are_too_short(struct gm_event_step *step, double t)
 {
     enum { MOST_SHORT = 50 };
-    double *history = history_of(step->problem, step->memory);
+    double *history = step->memory + history_at(step->problem);
     const double interval = fabs(t - history[LAST]);
     history[SHORT] = interval < 1e-9 * fabs(step->dt) ? history[SHORT] + 1 : 0;
     history[LAST] = t;
@@ -338,12 +332,12 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         }
         look_at(step->problem, t, rest->to, rest->look);
         if (rest->places[i] < place - together || !events->happens(step->problem, i, rest->look)) {
-            double *sign = &signs_of(step->memory)[i]; /* passed without its conditions */
+            double *sign = &step->memory[i]; /* passed without its conditions */
             *sign = rest->places[i] <= place ? -*sign : *sign;
             continue;
         }
         if (events->ends[i]) {
-            counts_of(step->problem, step->memory)[i]++;
+            step->memory[counts_at(step->problem) + i]++;
             return GM_EVENTS_ENDED;
         }
         if (made++ == 0) {
@@ -361,7 +355,7 @@ static enum gm_event_outcome end_whole(struct rest *rest, double end)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    double *signs = signs_of(step->memory);
+    double *signs = step->memory;
     bool ended = false;
     for (size_t i = 0; i < events->count; i++) {
         ended = ended || (events->ends[i] && step->ends && crosses(signs[i], rest->at_end[i]) &&

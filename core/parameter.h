@@ -44,6 +44,32 @@ struct gm_parameter {
     bool required;  /* always written: its default is an earlier value, or follows from another */
 };
 
+/* Rows of `member` of an owner's struct `own`. A row ends with the help, and further fields may follow:
+   GM_REAL_ROW(struct disc, radius, "radius", "0.2", 1e-6, 100, "radius of the disc", .logarithmic = true). */
+#define GM_ANY_ROW(own, member, key_, type_, standard_, ...)                                                 \
+    .key = key_, .unit = "", .type = type_, .offset = offsetof(own, member), .standard = standard_,          \
+    .help = __VA_ARGS__
+#define GM_REAL_ROW(own, member, key, standard, low, high, ...)                                              \
+    {                                                                                                        \
+        GM_ANY_ROW(own, member, key, GM_REAL, standard, __VA_ARGS__), .lowest = low, .highest = high         \
+    }
+#define GM_INTEGER_ROW(own, member, key, standard, low, high, ...)                                           \
+    {                                                                                                        \
+        GM_ANY_ROW(own, member, key, GM_INTEGER, standard, __VA_ARGS__), .lowest = low, .highest = high      \
+    }
+#define GM_CHOICE_ROW(own, member, key, standard, list, ...)                                                 \
+    {                                                                                                        \
+        GM_ANY_ROW(own, member, key, GM_CHOICE, standard, __VA_ARGS__), .choices = list                      \
+    }
+#define GM_BOOLEAN_ROW(own, member, key, standard, ...)                                                      \
+    {                                                                                                        \
+        GM_ANY_ROW(own, member, key, GM_BOOLEAN, standard, __VA_ARGS__), .highest = 1                        \
+    }
+#define GM_TEXT_ROW(own, member, key, standard, ...)                                                         \
+    {                                                                                                        \
+        GM_ANY_ROW(own, member, key, GM_TEXT, standard, __VA_ARGS__)                                         \
+    }
+
 enum gm_parse {
     GM_PARSED,
     GM_NOT_UNDERSTOOD, /* not a number, not one of the choices */

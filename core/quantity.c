@@ -2,9 +2,9 @@
 /* The named arrays of a state, from its kind. */
 #include "core/quantity.h"
 
-#include <stdio.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/kind.h"
 #include "core/run.h"
 
@@ -44,19 +44,21 @@ size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *q
     return count;
 }
 
-void gm_component_name(const struct gm_run *run, size_t component, char *name, size_t size)
+const char *gm_component_name(struct gm_arena *arena, const struct gm_run *run, size_t component)
 {
     struct gm_quantity quantities[GM_QUANTITIES];
     const size_t count = gm_quantities(run, quantities);
-    snprintf(name, size, "y[%zu]", component + 1);
+    const char *name = NULL;
     for (size_t i = 0; i < count; i++) {
         const struct gm_quantity *quantity = &quantities[i];
         const size_t number = component - quantity->first;
         if (!quantity->derive && component >= quantity->first && number < quantity->count) {
-            snprintf(name, size, quantity->support == GM_ON_RUN ? "%s" : "%s[%zu]", quantity->name,
-                     number + 1);
+            name = quantity->support == GM_ON_RUN
+                       ? gm_arena_print(arena, "%s", quantity->name)
+                       : gm_arena_print(arena, "%s[%zu]", quantity->name, number + 1);
         }
     }
+    return name ? name : gm_arena_print(arena, "y[%zu]", component + 1);
 }
 
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity)

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct gm_arena;
 struct gm_run;
 
 /* The object that values belong to. */
@@ -51,8 +52,8 @@ size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 /* The quantities without a system's time, for rows that have their own. Returns their number. */
 size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
 
-/* Writes the name of a component of a run's state, "q1", or "x[3]" of a list. */
-void gm_component_name(const struct gm_run *run, size_t component, char *name, size_t size);
+/* The name of a component of a run's state, "q1", or "x[3]" of a list. In a body of the arena. */
+const char *gm_component_name(struct gm_arena *arena, const struct gm_run *run, size_t component);
 
 /* The number of values of a quantity, over all members. */
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity);

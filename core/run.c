@@ -2,6 +2,7 @@
 /* A run's one block of memory, its steps, and its snapshots. */
 #include "core/run.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,19 +123,13 @@ static void start(struct gm_run *run)
 
 enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
 
-/* The numbers that hold a snapshot. */
-static size_t snapshot_numbers(const struct gm_run *run)
-{
-    return gm_run_snapshot_size(run) / sizeof(double) + 1;
-}
-
 /* Takes the scratch of events: for a step, for looks and values of steps together, and for a snapshot. */
 static bool open_events(struct gm_run *run)
 {
     const struct gm_problem *problem = run->problem;
     const size_t step = gm_events_scratch(problem, state_count(run) + carry_count(run)),
-                 looks = TOGETHER * (problem->n + 1 + problem->events->count);
-    const size_t size = (step + looks + snapshot_numbers(run)) * sizeof(double);
+                 looks = TOGETHER * (problem->n + 1 + problem->events->count),
+                 size = (step + looks + 1) * sizeof(double) + gm_run_snapshot_size(run);
     run->looks_back = true;
     run->event_scratch = aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
     return run->event_scratch != NULL;
@@ -179,8 +174,9 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     return run;
 }
 
-void gm_run_close(struct gm_run *run)
+void gm_run_close(void *data)
 {
+    struct gm_run *run = data;
     if (run && run->workspace) {
         run->scheme->family->workspace_close(run->workspace);
     }
@@ -210,6 +206,14 @@ static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
 {
     return run->problem->m > 1 && loop != run->scheme->family->loop && !run->looks_back && run->behind > 0 &&
            steps <= FARTHEST_BEHIND - run->behind;
+}
+
+/* The state is not the one after the last step. */
+static void reset_workspace(const struct gm_run *run)
+{
+    if (run->workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(run->workspace);
+    }
 }
 
 static void count_progress(struct gm_run *run, const struct gm_progress *progress)
@@ -261,6 +265,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         }
     }
     count_progress(run, &progress);
+    run->t_behind = run->t;
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
     run->n += progress.done;
@@ -271,7 +276,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
 
 /* ---- events ---- */
 
-/* Makes a part of a step; gm_event_step.part */
+/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
 static bool make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
 {
     struct gm_run *run = data;
@@ -285,9 +290,7 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
     task.n = 0;
     task.dt = dt;
     task.steps_before = run->steps - 1;
-    if (run->workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(run->workspace);
-    }
+    reset_workspace(run);
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
     if (counted) {
         count_progress(run, &progress);
@@ -332,14 +335,13 @@ static void pass_events(struct gm_run *run)
         run->t = run->t0 + (double)run->n * run->dt;
     } else if (outcome == GM_EVENTS_NONE) {
         run->behind = 1;
-    }
-    if (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY) {
+    } else if (outcome != GM_EVENTS_HAPPENED) {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY ? GM_EVENTS_ACCUMULATE : run->status;
-    }
-    if (step.part && (outcome == GM_EVENTS_ENDED || outcome == GM_EVENTS_MANY)) {
-        run->t = run->t0 = step.reached;
-        run->n = 0;
+        if (step.part) {
+            run->t = run->t0 = step.reached;
+            run->n = 0;
+        }
     }
 }
 
@@ -415,22 +417,10 @@ const double *gm_run_before(const struct gm_run *run)
     return half(run, 1 - run->current);
 }
 
-/* The last step again, of another length. */
-static struct gm_task part_of(const struct gm_run *run, double fraction)
-{
-    struct gm_task task = task_again(run);
-    task.dt = fraction * run->dt;
-    return task;
-}
-
 bool gm_run_part(const struct gm_run *run, double fraction, double *y)
 {
-    struct gm_task task = part_of(run, fraction);
-    const unsigned long refusals = gm_memory_refusals();
-    task.out = y;
-    task.carry_out = task.carry ? y + state_count(run) : NULL;
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
-    return progress.done == 1 && gm_memory_refusals() == refusals;
+    const double begin = run->t0 + (double)(run->n - 1) * run->dt;
+    return make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false);
 }
 
 int64_t gm_run_steps_at(const struct gm_run *run, double t)
@@ -462,10 +452,65 @@ bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
     return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
+/* The last step of an adaptive scheme, from one half of the block to the other. */
+struct last_step {
+    struct gm_run *run;
+    struct gm_task task;
+    double dt, until;
+    double t; /* of the end */
+};
+
+/* Makes the step with a fraction of dt; returns the time from `until` to its end, NaN if it fails. */
+static double time_beyond(void *data, double fraction)
+{
+    struct last_step *last = data;
+    struct gm_run *run = last->run;
+    last->task.dt = fraction * last->dt;
+    reset_workspace(run);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&last->task);
+    last->t = progress.done == 1 ? progress.t : NAN;
+    return last->t - last->until;
+}
+
+/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. */
+static void end_at(struct gm_run *run, double until)
+{
+    const double reach = 4 * DBL_EPSILON * fabs(until);
+    const int64_t earlier = run->behind - 1;
+    if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
+        return;
+    }
+    int from = 1 - run->current;
+    struct last_step last = {.run = run, .dt = run->dt, .until = until};
+    if (earlier > 0) { /* the other half is more than one step behind */
+        last.task = task_of(run, from, run->current, earlier);
+        last.task.t = run->t_behind;
+        last.task.n -= run->behind;
+        last.task.steps_before -= run->behind;
+        run->t_behind = gm_scheme_loop(run->scheme, run->problem)(&last.task).t;
+        from = run->current;
+    }
+    last.task = task_of(run, from, 1 - from, 1);
+    last.task.t = run->t_behind;
+    last.task.n--;
+    last.task.steps_before--;
+    const double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
+    if (!(fabs(time_beyond(&last, isnan(s) ? 1 : s)) <= reach)) {
+        time_beyond(&last, 1); /* the whole step, as before */
+    }
+    run->current = 1 - from;
+    run->behind = 1;
+    run->t = last.t;
+    reset_workspace(run);
+}
+
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
 {
     while (gm_run_goes_on(run, steps, until)) {
         advance(run, steps - run->steps, reached_from(until));
+    }
+    if (run->shortens && run->scheme->family->adaptive) {
+        end_at(run, until);
     }
     return run->status;
 }
@@ -504,6 +549,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->limit = run->limit;
         next->looks_back = run->looks_back;
         next->ends = run->ends;
+        next->shortens = run->shortens;
         next->witness = run->witness;
         next->stopped = run->stopped;
         memcpy(events_of(next, 0), events_of(run, run->current),
@@ -568,6 +614,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.workspace = run->workspace;
     then.looks_back = run->looks_back;
     then.ends = run->ends;
+    then.shortens = run->shortens;
     then.witness = run->witness;
     then.event_scratch = run->event_scratch;
     then.behind = run->behind = 0;
@@ -581,8 +628,6 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     }
     then.current = 1 - run->current;
     *run = then;
-    if (run->workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(run->workspace);
-    }
+    reset_workspace(run);
     return true;
 }

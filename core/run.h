@@ -26,6 +26,8 @@ struct gm_run {
     size_t half_size; /* bytes of half the block */
     void *workspace;  /* workspace of the scheme's family, not in snapshots */
     int64_t behind;   /* steps by which the other half is behind; 0: it has no state */
+    double t_behind;  /* the time of the other half, of an adaptive scheme */
+    bool shortens;    /* set by callers: the last step of an adaptive scheme ends where the run does */
     bool looks_back;  /* set by callers of gm_run_before */
     bool ends;        /* set by callers for whom events that end a run do so; others do not see them */
     struct gm_event_witness witness; /* set by callers who follow events */
@@ -36,7 +38,7 @@ struct gm_run {
    outlives the run; the scheme must fit it. */
 struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
                            const struct gm_settings *settings, double t0, double dt, const double *y0);
-void gm_run_close(struct gm_run *run);
+void gm_run_close(void *run);
 
 /* The current state, [component * m + member]; valid until the next step. */
 const double *gm_run_state(const struct gm_run *run);

@@ -7,11 +7,7 @@
 #include "core/basics.h"
 #include "core/theory/coefficients.h"
 
-static const struct {
-    const char *letter; /* on screens */
-    const char *key;    /* in files and JSON */
-    const char *word;   /* in sentences and tables */
-} rows[GM_CLAIM_COUNT] = {
+const struct gm_claim_words gm_claims[GM_CLAIM_COUNT] = {
     {"S", "symplectic", "symplectic"},
     {"=", "symmetric", "symmetric"},
     {"R", "reversible", "reversible"},
@@ -33,21 +29,6 @@ static const struct {
     {"P", "a Poisson map", "a Poisson map"},
 };
 
-const char *gm_claim_letter(unsigned bit)
-{
-    return rows[bit].letter;
-}
-
-const char *gm_claim_key(unsigned bit)
-{
-    return rows[bit].key;
-}
-
-const char *gm_claim_word(unsigned bit)
-{
-    return rows[bit].word;
-}
-
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong)
 {
     const bool none = length == 4 && memcmp(words, "none", 4) == 0;
@@ -55,8 +36,8 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
     for (size_t at = 0; at < length && !none; at += strspn(words + at, " \t\n\r,")) {
         unsigned found = GM_CLAIM_COUNT;
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            const size_t letters = strlen(rows[bit].key), left = length - at;
-            if (letters <= left && memcmp(words + at, rows[bit].key, letters) == 0 &&
+            const size_t letters = strlen(gm_claims[bit].key), left = length - at;
+            if (letters <= left && memcmp(words + at, gm_claims[bit].key, letters) == 0 &&
                 (letters == left || strchr(" \t\n,", words[at + letters]))) {
                 found = bit;
             }
@@ -66,67 +47,27 @@ bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *
             return false;
         }
         *claims |= 1u << found;
-        at += strlen(rows[found].key);
+        at += strlen(gm_claims[found].key);
     }
     return true;
 }
 
 const struct gm_parameter gm_settings_parameters[] = {
-    {
-        .key = "compensated",
-        .unit = "",
-        .help = "compensated summation: carry the rounding error of every step along",
-        .type = GM_BOOLEAN,
-        .offset = offsetof(struct gm_settings, compensated),
-        .standard = "no",
-        .lowest = 0,
-        .highest = 1,
-    },
-    {
-        .key = "binding",
-        .unit = "",
-        .help =
-            "frequency that binds the two copies of phase space; stiff springs allow at most 1/(dt Ω)² (tao2), half of it (tao4)",
-        .type = GM_REAL,
-        .offset = offsetof(struct gm_settings, binding),
-        .standard = "20",
-        .lowest = 0,
-        .highest = 1e6,
-    },
-    {
-        .key = "tau0",
-        .unit = "",
-        .help = "first time step of the schemes whose step follows from the variational principle",
-        .type = GM_REAL,
-        .offset = offsetof(struct gm_settings, tau0),
-        .standard = "0.02",
-        .lowest = 1e-6,
-        .highest = 1,
-        .logarithmic = true,
-    },
-    {
-        .key = "tolerance",
-        .unit = "",
-        .help =
-            "error allowed in a step of dopri5 (0: 1e-6), or of a GSL stepper within dt (0: fixed step; multistep: 1e-8)",
-        .type = GM_REAL,
-        .offset = offsetof(struct gm_settings, tolerance),
-        .standard = "0",
-        .lowest = 0,
-        .least = 1e-15,
-        .highest = 1,
-    },
-    {
-        .key = "newmark_beta",
-        .unit = "",
-        .help = "how implicit Newmark's method is (variational-newmark2); 0: Verlet, 1/4: linear motion is "
-                "stable with every time step",
-        .type = GM_REAL,
-        .offset = offsetof(struct gm_settings, newmark_beta),
-        .standard = "0.25",
-        .lowest = 0,
-        .highest = 0.5,
-    },
+    GM_BOOLEAN_ROW(struct gm_settings, compensated, "compensated", "no",
+                   "compensated summation: carry the rounding error of every step along"),
+    GM_REAL_ROW(
+        struct gm_settings, binding, "binding", "20", 0, 1e6,
+        "frequency that binds the two copies of phase space; stiff springs allow at most 1/(dt Ω)² (tao2), half of it (tao4)"),
+    GM_REAL_ROW(struct gm_settings, tau0, "tau0", "0.02", 1e-6, 1,
+                "first time step of the schemes whose step follows from the variational principle",
+                .logarithmic = true),
+    GM_REAL_ROW(
+        struct gm_settings, tolerance, "tolerance", "0", 0, 1,
+        "error allowed in a step of dopri5 (0: 1e-6), or of a GSL stepper within dt (0: fixed step; multistep: 1e-8)",
+        .least = 1e-15),
+    GM_REAL_ROW(struct gm_settings, newmark_beta, "newmark_beta", "0.25", 0, 0.5,
+                "how implicit Newmark's method is (variational-newmark2); 0: Verlet, 1/4: linear motion is "
+                "stable with every time step"),
 };
 const size_t gm_settings_parameter_count = GM_COUNT(gm_settings_parameters);
 

@@ -30,11 +30,12 @@ enum gm_claim {
     GM_CLAIM_COUNT = 19,
 };
 
-/* A claim by its bit number: its letter in the explorer ("H"), its key in files and JSON ("keeps energy"), and its word in
-   sentences ("conserves energy"). */
-const char *gm_claim_letter(unsigned bit);
-const char *gm_claim_key(unsigned bit);
-const char *gm_claim_word(unsigned bit);
+/* The words of claims, by their bit numbers. */
+extern const struct gm_claim_words {
+    const char *letter; /* on screens: "H" */
+    const char *key;    /* in files and JSON: "keeps energy" */
+    const char *word;   /* in sentences and tables: "conserves energy" */
+} gm_claims[GM_CLAIM_COUNT];
 /* Reads claims by their keys, one after the other, or "none". Returns false with the position of another word. */
 bool gm_claims_read(const char *words, size_t length, unsigned *claims, size_t *wrong);
 

@@ -6,11 +6,9 @@
 
 #include "core/files/files.h"
 #include "core/model/equations.h"
-#include "scenes/common/scene.h"
+#include "scenes/common/system/variants.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
-#include "scenes/form/user_form.h"
-#include "scenes/ode/system.h"
 
 #define GM_SYSTEM_SCENE(name)
 #define GM_ROOM_SCENE(name)
@@ -58,14 +56,11 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
         gm_system_close(&system);
         return NULL;
     }
-    if (gm_system_is_form(&system)) {
-        return gm_form_scene_open(&system, &(struct gm_form_source){.name = file->name}, fault, sentence);
-    }
     size_t others;
     const bool elsewhere = gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
-    return gm_system_is_field(&system)
-               ? gm_user_field_open(&system, file->name, NULL, elsewhere, fault, sentence)
-               : gm_system_scene_open(&system, file->name, NULL, false, fault, sentence);
+    return gm_system_scene_open(&system,
+                                (struct gm_system_origin){.name = file->name, .elsewhere = elsewhere},
+                                &(struct gm_system_opening){.fault = fault, .sentence = sentence});
 }
 
 /* Opens a scene's file. NULL, and a reason, if there is no memory or the file has a fault. */

@@ -131,7 +131,7 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
     const char *comma = " ";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (claims >> bit & 1) {
-            gm_append(text, sizeof text, "%s%s %s", comma, gm_claim_letter(bit), gm_claim_word(bit));
+            gm_append(text, sizeof text, "%s%s %s", comma, gm_claims[bit].letter, gm_claims[bit].word);
             comma = ", ";
         }
     }

@@ -97,8 +97,8 @@ static void put_scenes(void)
 static void put_claims(void)
 {
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        printf("%s %s ", bit ? "," : "", gm_claim_letter(bit));
-        put(gm_claim_word(bit));
+        printf("%s %s ", bit ? "," : "", gm_claims[bit].letter);
+        put(gm_claims[bit].word);
     }
 }
 

@@ -860,6 +860,9 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
         .outputs = outputs};
     int status = GM_EXIT_OK;
     const bool ready = outcome.front && outcome.values;
+    if (lane && options->checkpoint && lane->scheme->family->adaptive) {
+        outcome.drive.whole_steps = true; /* a later end is reached by the same steps */
+    }
     if (lane) { /* sections and paths are for files that hold them */
         lane->unfollowed = !outputs->tracks && !options->checkpoint && !has_portrait(lane) &&
                            gm_chosen_are_of_the_end(&outputs->chosen, request->scene);

@@ -342,22 +342,18 @@ void gm_explorer_ask_invariants(struct gm_explorer *explorer)
     struct gm_user_system system;
     struct gm_fault fault;
     struct gm_arguments present = {0}, words = {0};
-    size_t size = 0;
-    char *said = gm_studies_words(shot), *scene = NULL;
-    FILE *stream = open_memstream(&scene, &size);
-    if (stream) {
-        gm_arguments_put_scene(stream, shot->scene);
-        fclose(stream);
-    }
-    gm_arguments_split(&words, scene ? scene : "");
+    char *said = gm_studies_words(shot);
     gm_arguments_split(&present, said ? said : "");
     const bool opened = text && gm_equations_open(&system, text, strlen(text), NULL, 0, &fault);
     const bool typed =
-        words.count > 0 && strcmp(words.words[0], "system") == 0; /* then all words may be given */
-    const int first = words.count;
-    for (int i = first; i < present.count; i++) {
+        present.count > 0 && strcmp(present.words[0], "system") == 0; /* then all words may be given */
+    int own = 1;                                                      /* words of the scene */
+    while (shot->scene->words && shot->scene->words[own]) {
+        own++;
+    }
+    for (int i = 0; i < present.count; i++) {
         gm_arguments_append(&words, &present.words[i],
-                            typed || (opened && sets_value(&system, present.words[i])));
+                            i < own || typed || (opened && sets_value(&system, present.words[i])));
     }
     gm_arguments_add(&words, "--invariants");
     char *command = gm_arguments_join("list", &words);
@@ -371,7 +367,6 @@ void gm_explorer_ask_invariants(struct gm_explorer *explorer)
     }
     free(command);
     free(said);
-    free(scene);
     gm_arguments_close(&present);
     gm_arguments_close(&words);
 }

@@ -321,8 +321,10 @@ static void put_page(struct page *page)
         } else if (strcmp(slot, "quick") == 0 && quick) {
             fputs(" --quick", page->file);
         } else if (strcmp(slot, "figures") == 0) {
-            for (size_t i = 0; i < gm_document_count(); i++) {
-                put_document(page, gm_document_at(i));
+            size_t count;
+            const struct gm_document *documents = gm_documents(&count);
+            for (size_t i = 0; i < count; i++) {
+                put_document(page, &documents[i]);
             }
             put_document(page, &own_systems);
         }

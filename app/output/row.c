@@ -215,8 +215,9 @@ const char *gm_csv_next(struct gm_csv_lines *lines)
     return NULL;
 }
 
-void gm_csv_close(struct gm_csv_lines *lines)
+void gm_csv_close(void *data)
 {
+    struct gm_csv_lines *lines = data;
     if (lines->stream) {
         fclose(lines->stream);
     }

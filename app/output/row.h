@@ -44,14 +44,15 @@ struct gm_csv_lines {
     FILE *stream; /* NULL: no lines */
     char *line;   /* the last line that was read, whole or incomplete; NULL: none */
     size_t room;
-    size_t group; /* lines whose cell of this number is above 0 belong to the one before; 0: each is alone */
-    char *ahead;  /* the line after a group */
+    /* Lines whose cell of this number is above 0 belong to the one before; 0: each is alone. A head has a name there. */
+    size_t group;
+    char *ahead; /* the line after a group */
     size_t ahead_room;
     bool is_ahead;
 };
 /* The next line, or group of lines, with its end; NULL after the last one, or if it is incomplete: `line` is then its part, ""
    for an empty one, or NULL when out of memory. */
 const char *gm_csv_next(struct gm_csv_lines *lines);
-void gm_csv_close(struct gm_csv_lines *lines);
+void gm_csv_close(void *lines);
 
 #endif

@@ -17,7 +17,7 @@ void gm_scheme_put(FILE *stream, const struct gm_scheme *scheme)
     struct gm_row claims = gm_row_open(&row, "claims", ']');
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (scheme->claims >> bit & 1) {
-            gm_row_text(&claims, NULL, gm_claim_key(bit));
+            gm_row_text(&claims, NULL, gm_claims[bit].key);
         }
     }
     gm_row_close(&claims);
@@ -71,7 +71,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->claimed || measure->measured || measure->undecided) {
-            struct gm_row claim = gm_row_open(&properties, gm_claim_key(bit), '}');
+            struct gm_row claim = gm_row_open(&properties, gm_claims[bit].key, '}');
             gm_row_put(&claim, "claimed %d, measured %d", measure->claimed, measure->measured);
             /* null: it was not measured, or a step of the measurement failed */
             gm_row_put(&claim, "defect %.17g", measure->measured ? measure->defect : NAN);
@@ -106,7 +106,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
         struct gm_row given_up = gm_row_open(&row, "given_up", ']');
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
             if ((scheme->base->claims & ~scheme->claims) >> bit & 1) {
-                gm_row_text(&given_up, NULL, gm_claim_key(bit));
+                gm_row_text(&given_up, NULL, gm_claims[bit].key);
             }
         }
         gm_row_close(&given_up);
@@ -130,7 +130,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         if (measure->measured || (measure->reason && GM_CERTIFIED_ON_SYSTEMS >> bit & 1)) {
-            gm_row_number(&measured, gm_claim_key(bit), measure->measured ? measure->defect : NAN, 17);
+            gm_row_number(&measured, gm_claims[bit].key, measure->measured ? measure->defect : NAN, 17);
         }
     }
     gm_row_close(&measured);

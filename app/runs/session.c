@@ -71,7 +71,7 @@ static size_t snapshot_at(const struct gm_lane *lane)
 /* Writes the lane into the moment; its memory stays NULL when out of memory. */
 static void save(const struct gm_lane *lane, double gone, struct gm_moment *moment)
 {
-    size_t size = snapshot_at(lane) + gm_lane_snapshot_size(lane);
+    size_t size = snapshot_at(lane) + gm_run_snapshot_size(lane->run);
     if (moment->size != size) { /* the size depends on the scheme */
         free(moment->memory);
         moment->memory = malloc(size);
@@ -81,7 +81,7 @@ static void save(const struct gm_lane *lane, double gone, struct gm_moment *mome
         return;
     }
     memcpy(moment->memory, lane->parameters, lane->scene->size);
-    gm_lane_save(lane, (char *)moment->memory + snapshot_at(lane));
+    gm_run_save(lane->run, (char *)moment->memory + snapshot_at(lane));
     moment->steps = lane->run->steps;
     moment->gone = gone;
 }
@@ -282,7 +282,7 @@ static void share_budget(struct gm_session *session)
 {
     for (size_t i = 0; i < session->count; i++) {
         struct gm_past *past = &session->pasts[i];
-        size_t size = session->scene->size + gm_lane_snapshot_size(session->lanes[i]);
+        size_t size = session->scene->size + gm_run_snapshot_size(session->lanes[i]->run);
         const size_t bound = PAST_BUDGET / session->count / size;
         past->bound = bound < MOST_MOMENTS ? bound : MOST_MOMENTS;
         while (past->count > past->bound && past->count > 1) {

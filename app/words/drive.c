@@ -102,13 +102,19 @@ double gm_lane_burst(struct gm_lane *lane, int64_t steps, double until, double *
     return took;
 }
 
+/* Observables that follow the steps need whole ones. */
+static bool has_whole_steps(const struct gm_drive *drive)
+{
+    return drive->whole_steps || gm_lane_asked_shown(drive->lane) > 0;
+}
+
 double gm_drive_rest(const struct gm_drive *drive)
 {
     const struct gm_lane_spec *spec = &drive->request->lanes[drive->index];
     const struct gm_run *run = drive->lane->run;
     const double rest = spec->until - run->t, least = 1e-9 * fmax(fabs(spec->until), fabs(run->dt));
-    const bool whole = drive->whole_steps || gm_lane_follows_steps(drive->lane);
-    const bool is_next = run->steps == spec->steps - 1 && !whole && gm_ends_exactly(run->scheme);
+    const bool is_next =
+        run->steps == spec->steps - 1 && !has_whole_steps(drive) && gm_ends_exactly(run->scheme);
     const bool is_part = fabs(rest) > least && fabs(run->dt) - fabs(rest) > least && rest / run->dt > 0;
     return is_next && is_part ? rest : 0;
 }
@@ -177,6 +183,7 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
         if (rest != 0) {
             gm_run_set_step(lane->run, rest);
         }
+        lane->run->shortens = !has_whole_steps(drive);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);

@@ -41,7 +41,8 @@ int64_t gm_drive_end(const struct gm_drive *drive, int64_t step);
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 
 /* Returns the length of the last step, which is shortened to end at the requested until, if it is the next
-   one; else 0. A checkpoint must be written before it, so that a later end is reached by whole steps. */
+   one; else 0. A checkpoint must be written before it, so that a later end is reached by whole steps. An adaptive
+   scheme ends there by itself, if its last step becomes shorter with dt. */
 double gm_drive_rest(const struct gm_drive *drive);
 
 /* Writes one sentence on the failure of a lane; empty for GM_OK. */

@@ -669,13 +669,8 @@ struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t in
     return lane;
 }
 
-static void close_lane(void *lane)
-{
-    gm_lane_close(lane);
-}
-
 struct gm_lane *gm_lane_in(struct gm_arena *arena, struct gm_lane *lane, const char *message)
 {
     gm_arena_check(arena, lane, message);
-    return gm_arena_keep(arena, lane, close_lane);
+    return gm_arena_keep(arena, lane, gm_lane_close);
 }

@@ -17,11 +17,9 @@
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "render/message.h"
-#include "scenes/common/system/pieces.h"
+#include "scenes/common/system/variants.h"
 #include "scenes/field/user_field.h"
 #include "scenes/flow/user_room.h"
-#include "scenes/form/user_form.h"
-#include "scenes/ode/system.h"
 
 const char gm_system_typed[] = "system";
 
@@ -267,17 +265,15 @@ static bool open_system(struct making *making)
         return refuse_text(making, &fault);
     }
     const char *const *words = (const char *const *)made->words.words;
-    const bool field = gm_system_is_field(&making->system), form = gm_system_is_form(&making->system);
     made->close = gm_system_scene_close;
-    struct gm_form_source source = {.name = made->name, .words = words, .path = written->path};
-    if (form) {
-        made->scene = gm_form_scene_open(&making->system, &source, &fault, making->message);
-    } else {
-        made->scene = field ? gm_user_field_open(&making->system, made->name, words, making->elsewhere,
-                                                 &fault, making->message)
-                            : gm_system_scene_open(&making->system, made->name, words, !written->path, &fault,
-                                                   making->message);
-    }
+    struct gm_system_opening opening = {.fault = &fault, .sentence = making->message};
+    made->scene = gm_system_scene_open(&making->system,
+                                       (struct gm_system_origin){.name = made->name,
+                                                                 .words = words,
+                                                                 .path = written->path,
+                                                                 .typed = !written->path,
+                                                                 .elsewhere = making->elsewhere},
+                                       &opening);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
     }
@@ -287,7 +283,7 @@ static bool open_system(struct making *making)
         snprintf(fault.sentence, sizeof fault.sentence, "%s", making->message);
         refuse_text(making, &fault);
     }
-    making->trial->status = source.unread ? GM_EXIT_FILE : making->trial->status;
+    making->trial->status = opening.unread ? GM_EXIT_FILE : making->trial->status;
     return made->scene != NULL;
 }
 

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gm_system_close(struct gm_user_system *system)
+void gm_system_close(void *data)
 {
+    struct gm_user_system *system = data;
     gm_arena_close(system->arena);
     free(system->mass.entries);
     gm_formula_close(&system->graph);

@@ -205,7 +205,7 @@ struct gm_system_value {
    when out of memory. The caller closes the system in both cases. */
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault);
-void gm_system_close(struct gm_user_system *system);
+void gm_system_close(void *system);
 
 /* Leaves the body of the system's arena with a fault at this place of the text. */
 __attribute__((format(printf, 3, 4))) _Noreturn void gm_system_refuse(const struct gm_user_system *system,

@@ -25,8 +25,12 @@ static double value_after(void *data, double s)
     return gm_run_part(step->view.run, s, step->storage) ? step->value(&step->view) : NAN;
 }
 
-double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
-                        double *state)
+/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
+   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
+   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
+   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
+static double find_again(const struct gm_view *view, double (*value)(const struct gm_view *view),
+                         double *state)
 {
     enum { ALIGNMENT = 128 };
     const size_t size = view->problem->n * view->problem->m * sizeof *state;
@@ -55,18 +59,11 @@ size_t gm_active_count(const struct gm_problem *problem)
     return (problem->n - 2 * problem->passive) * problem->m;
 }
 
-void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem)
-{
-    if (!behind->state) {
-        /* the last state, slopes at both ends, an intermediate state */
-        behind->state = gm_arena_take(arena, 4 * gm_active_count(problem), sizeof *behind->state);
-    }
-}
-
-bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view)
+/* Returns true if the last step of a view's run began in this state. */
+static bool is_before(const struct gm_behind *behind, const struct gm_view *view)
 {
     const struct gm_run *run = view->run;
-    return behind->state && behind->t != view->t && run->problem->passive == 0 && gm_run_repeats(run) &&
+    return behind->t != view->t && run->problem->passive == 0 && gm_run_repeats(run) &&
            memcmp(behind->state, gm_run_before(run), gm_active_count(run->problem) * sizeof *behind->state) ==
                0;
 }
@@ -83,8 +80,9 @@ void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const s
                      const struct gm_view *view, struct gm_behind *behind)
 {
     *entries = (struct gm_entries){.every = 1, .sections = track->each ? view->problem->m : 1};
-    if (track->section) {
-        gm_behind_open(arena, behind, view->problem);
+    if (track->section && !behind->state) {
+        /* the last state, slopes at both ends, an intermediate state */
+        behind->state = gm_arena_take(arena, 4 * gm_active_count(view->problem), sizeof *behind->state);
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
     entries->times = gm_arena_take(arena, track->bound, sizeof *entries->times);
@@ -222,8 +220,8 @@ static void record_crossings(struct gm_entries *entries, const struct gm_track *
             continue;
         }
         double *between = behind->state + 3 * gm_active_count(view->problem), share = NAN;
-        if (again && gm_behind_is_before(behind, view)) {
-            share = gm_crossing_find(view, track->section, between);
+        if (again && is_before(behind, view)) {
+            share = find_again(view, track->section, between);
         }
         if (!isnan(share)) {
             there.state = between;

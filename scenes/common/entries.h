@@ -27,10 +27,6 @@ struct gm_behind {
     double *state; /* active components, then room for 3 times as many; NULL: no sections */
     double t;
 };
-/* Takes the memory, if it has none; in a body of the arena. */
-void gm_behind_open(struct gm_arena *arena, struct gm_behind *behind, const struct gm_problem *problem);
-/* True if the last step of a view's run began in this state. */
-bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view);
 
 /* Takes the memory of a record, and of `behind` with the first section; in a body of the arena. */
 void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
@@ -52,13 +48,6 @@ void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
 /* Shows the record up to the current step of the run; later entries stay in memory until the next one is
    made. */
 void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run);
-
-/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
-   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
-   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
-   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
-double gm_crossing_find(const struct gm_view *view, double (*value)(const struct gm_view *view),
-                        double *state);
 
 /* The past of a few observables in bounded memory: bins with equal numbers of steps hold the least and the
    greatest value of each. When all bins are full, pairs are merged. A history can be shown as it was at an

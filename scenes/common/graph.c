@@ -140,6 +140,27 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
     return (struct gm_style){gm_lane_role(lane->shown.colour), alpha, width, gm_lane_dash(lane->shown.dash)};
 }
 
+const char *const gm_trails_words[] = {"yes", "no", NULL};
+
+bool gm_trails_admit(const struct gm_parameter *row, const char *text, char *sentence)
+{
+    double length = 0;
+    const bool is_word = strcmp(text, gm_trails_words[0]) == 0 || strcmp(text, gm_trails_words[1]) == 0;
+    return is_word || (gm_number_parse(text, &length) && length > 0 && isfinite(length)) ||
+           gm_refuse(sentence, "%s=%.60s is not yes, no or a time above 0", row->key, text);
+}
+
+size_t gm_trails_from(const char *text, const struct gm_entries *entries, double t)
+{
+    double length = INFINITY;
+    size_t first = strcmp(text, gm_trails_words[1]) == 0 ? entries->count : 0;
+    gm_number_parse(text, &length);
+    while (first < entries->count && fabs(t - entries->times[first]) > length) {
+        first++;
+    }
+    return first;
+}
+
 void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                    const double *points, size_t count)
 {
@@ -255,14 +276,6 @@ bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
         one &= lanes[i]->run->dt == lanes[0]->run->dt;
     }
     return one;
-}
-
-/* Makes a gap of all values below a graph's floor. */
-static void cut(double *points, size_t count, double floor)
-{
-    for (size_t i = 0; i < count; i++) {
-        points[2 * i + 1] = points[2 * i + 1] < floor ? NAN : points[2 * i + 1];
-    }
 }
 
 /* Writes the history of an observable as points: one per bin while a bin is a step, then its low and high.
@@ -464,8 +477,8 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
 {
     const size_t made =
         history_points(lane, series, graph->relative ? gm_start_of(lane, series) : 1, graph, points);
-    if (graph->floor > 0) {
-        cut(points, made, graph->floor);
+    for (size_t i = 0; i < made && graph->floor > 0; i++) { /* a gap of all values below the floor */
+        points[2 * i + 1] = points[2 * i + 1] < graph->floor ? NAN : points[2 * i + 1];
     }
     return made;
 }
@@ -559,14 +572,16 @@ void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lan
 /* A graph of an error by its greatest values, if there are too many to distinguish. */
 static const struct gm_graph greatest = {.highest = true, .scale = GM_LOG};
 
-static void draw_lane_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                               const struct gm_lane *lane, const struct gm_together *together,
-                               size_t together_count, const double range[2], double *points)
+/* Draws the graph of the current lane of a walk. */
+static void draw_lane_together(struct gm_picture *picture, const struct gm_walk *walk,
+                               const struct gm_together *together, size_t together_count,
+                               const double range[2], double *points)
 {
+    const struct gm_lane *lane = walk->lane;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
     panel->axes = true;
     panel->title_role = GM_INK;
-    gm_time_axis(&panel->x, lanes, count);
+    gm_time_axis(&panel->x, walk->lanes, walk->count);
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = range[0], .high = range[1]};
     mark_roundoff(picture, panel);
     const char *missing = NULL;
@@ -613,6 +628,6 @@ void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *l
     gm_range_round(&low, &high, GM_LOG);
     const double range[2] = {low, high};
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; points && gm_walk_next(&walk);) {
-        draw_lane_together(picture, lanes, count, walk.lane, together, together_count, range, points);
+        draw_lane_together(picture, &walk, together, together_count, range, points);
     }
 }

@@ -27,6 +27,17 @@ double gm_start_of(const struct gm_lane *lane, size_t series);
 const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                            size_t series);
 
+/* The parameter trails= of scenes of orbits: which part of the past their pictures draw. */
+extern const char *const gm_trails_words[];
+/* Returns true if the text is yes, no or a time above 0, else false with a sentence. */
+bool gm_trails_admit(const struct gm_parameter *row, const char *text, char *sentence);
+/* Returns the first of the entries that is drawn at time t. */
+size_t gm_trails_from(const char *text, const struct gm_entries *entries, double t);
+/* The row of the member `trails`, a char[GM_TEXT_SIZE]. */
+#define GM_TRAILS_ROW(own)                                                                                   \
+    GM_TEXT_ROW(own, trails, "trails", "yes", "paths of the past: yes, no, or those of the last time T",     \
+                .choices = gm_trails_words, .admits = gm_trails_admit, .live = true, .looks = true)
+
 /* Draws a fading line through the recent past: `points` are count pairs, the newest last. */
 void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                    const double *points, size_t count);

@@ -11,11 +11,6 @@
 #include "core/memory.h"
 #include "core/schemes.h"
 
-static const struct gm_timing *timing(const struct gm_lane *lane)
-{
-    return lane->parameters;
-}
-
 struct gm_view gm_lane_view(const struct gm_lane *lane)
 {
     return (struct gm_view){
@@ -100,18 +95,13 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
     return fabs(value - initial_of(observable, view)) / divisor_of(observable, view);
 }
 
-/* Observables computed on request are never angles. */
-static double near_of(const struct gm_lane *lane, size_t observable)
-{
-    return observable < lane->scene->observable_count ? lane->angles[observable] : 0;
-}
-
 double gm_lane_observe(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);
     const unsigned long refusals = gm_memory_refusals();
-    const double value =
-        observe(gm_scene_observable_at(lane->scene, observable), &view, near_of(lane, observable));
+    /* observables computed on request are never angles */
+    const double near = observable < lane->scene->observable_count ? lane->angles[observable] : 0,
+                 value = observe(gm_scene_observable_at(lane->scene, observable), &view, near);
     return gm_memory_refusals() == refusals ? value : NAN;
 }
 
@@ -138,12 +128,13 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
    neither once they separate. */
 static double lost_above(const struct gm_scheme *scheme)
 {
-    return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : GM_LOST_ABOVE;
+    return scheme->family->doubled ? 0.5 : scheme->claims & GM_SYMPLECTIC ? 1 : 10;
 }
 
 long gm_lane_lost(const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
+    const double least_left = 0.1;
     double most = 0;
     long lost = -1;
     for (size_t i = 0; lane->run->status == GM_OK && i < lane->scene->observable_count; i++) {
@@ -155,7 +146,7 @@ long gm_lane_lost(const struct gm_lane *lane)
                      value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* a quantity that starts below its scale may become smaller without a loss */
-        const bool decayed = divisor == fabs(initial) && value / initial < GM_LOST_BELOW;
+        const bool decayed = divisor == fabs(initial) && value / initial < least_left;
         if ((error > lost_above(lane->scheme) || decayed) && error > most) {
             most = error;
             lost = (long)i;
@@ -245,15 +236,9 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     return lane->run->status;
 }
 
-/* The number of observables on request that the picture shows. */
-static size_t asked_shown(const struct gm_lane *lane)
+size_t gm_lane_asked_shown(const struct gm_lane *lane)
 {
     return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
-}
-
-bool gm_lane_follows_steps(const struct gm_lane *lane)
-{
-    return asked_shown(lane) > 0;
 }
 
 /* Returns true if two schemes make the same steps on the problems of all lanes. */
@@ -287,8 +272,7 @@ static void note_same(const struct gm_lane *const *lanes, size_t count, struct g
 
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    const struct gm_scene *scene = lanes[0]->scene;
-    (asked_shown(lanes[0]) > 0 ? scene->draw_asked : scene->draw)(lanes, count, picture);
+    lanes[0]->scene->draw(lanes, count, picture);
     note_same(lanes, count, picture);
 }
 
@@ -303,7 +287,7 @@ void gm_lane_record(struct gm_lane *lane)
         values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }
     const struct gm_scene *scene = lane->scene;
-    const size_t shown = asked_shown(lane);
+    const size_t shown = gm_lane_asked_shown(lane);
     for (size_t i = 0; i < scene->asked_count; i++) {
         values[scene->observable_count + i] = i < shown ? observe(&scene->asked[i], &view, 0) : NAN;
     }
@@ -446,10 +430,10 @@ static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
 
 /* ---- from open to close ---- */
 
-void gm_lane_close(struct gm_lane *lane)
+void gm_lane_close(void *lane)
 {
     if (lane) {
-        gm_arena_close(lane->arena);
+        gm_arena_close(((struct gm_lane *)lane)->arena);
     }
 }
 
@@ -564,8 +548,8 @@ static void open_lane(struct gm_arena *arena, void *data)
                         GM_MOST_OBSERVABLES);
     }
     open_start(arena, lane, opening->sentence);
-    lane->run =
-        gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
+    lane->run = gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0,
+                            ((const struct gm_timing *)lane->parameters)->dt, lane->start);
     gm_arena_need(arena, lane->run);
     open_records(arena, lane);
     look_at_start(lane);
@@ -637,16 +621,6 @@ void gm_lane_set_step(struct gm_lane *lane, double dt)
 {
     ((struct gm_timing *)lane->parameters)->dt = dt;
     gm_run_set_step(lane->run, dt);
-}
-
-size_t gm_lane_snapshot_size(const struct gm_lane *lane)
-{
-    return gm_run_snapshot_size(lane->run);
-}
-
-void gm_lane_save(const struct gm_lane *lane, void *snapshot)
-{
-    gm_run_save(lane->run, snapshot);
 }
 
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot)

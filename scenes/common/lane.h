@@ -53,7 +53,7 @@ struct gm_lane {
 struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
                              const struct gm_settings *settings, const struct gm_scheme *scheme,
                              char *sentence);
-void gm_lane_close(struct gm_lane *lane);
+void gm_lane_close(void *lane);
 
 struct gm_view gm_lane_view(const struct gm_lane *lane);
 
@@ -63,8 +63,8 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 /* The reason why a computed observable is NaN; NULL without one. */
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 
-/* Returns true if the lane's picture shows observables on request, which follow steps of one size. */
-bool gm_lane_follows_steps(const struct gm_lane *lane);
+/* The number of the first observables on request that the lane's picture shows: they follow steps of one size. */
+size_t gm_lane_asked_shown(const struct gm_lane *lane);
 
 /* Returns true if an observable has a meaning in this lane. */
 bool gm_lane_measures(const struct gm_lane *lane, size_t observable);
@@ -72,10 +72,8 @@ bool gm_lane_measures(const struct gm_lane *lane, size_t observable);
 /* The divisor of an error in this lane. */
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 
-/* A conserved quantity is lost if its error exceeds GM_LOST_ABOVE, or if the divisor of the error is the
-   start value and less than GM_LOST_BELOW of that is left: a change of sign leaves nothing. */
-#define GM_LOST_ABOVE 10.
-#define GM_LOST_BELOW 0.1
+/* A conserved quantity is lost if its error exceeds 10, or 1 or less with a symplectic scheme, or if the divisor of the
+   error is the start value and less than a tenth of that is left: a change of sign leaves nothing. */
 /* The observable with the greatest loss in this lane now; -1 without one, or after a failure of the run. */
 long gm_lane_lost(const struct gm_lane *lane);
 /* Writes one sentence on the greatest loss, or "". */
@@ -86,7 +84,7 @@ void gm_lane_note(const struct gm_lane *lane, char *sentence);
 /* Takes the current state into history and tracks: call it once after every observed step. */
 void gm_lane_record(struct gm_lane *lane);
 
-/* Draws the picture of lanes of one scene: the one of observables on request, or the usual one. */
+/* Draws the picture of lanes of one scene. */
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 /* Advances to an end (gm_run_to), or to an event that ends the run, and follows the steps as the scene requires; records
@@ -113,12 +111,10 @@ struct gm_lane *gm_lane_reopen(const struct gm_lane *lane);
 /* Changes the time step from the current state on. */
 void gm_lane_set_step(struct gm_lane *lane, double dt);
 
-/* Saves and loads a snapshot, of gm_lane_snapshot_size bytes. After a load, history and tracks show the
+/* Loads a snapshot of the lane's run (gm_run_save). Afterwards history and tracks show the
    record up to its step; later records stay in memory until the lane records again, so a later snapshot can
    be loaded too. A snapshot serves this lane and its copies. A load from another scheme takes memory: it
    returns false without it, and leaves the lane unchanged. */
-size_t gm_lane_snapshot_size(const struct gm_lane *lane);
-void gm_lane_save(const struct gm_lane *lane, void *snapshot);
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot);
 
 #endif

@@ -136,33 +136,27 @@ static void need_files(void)
     pthread_once(&once, read_files);
 }
 
-size_t gm_document_count(void)
+const struct gm_document *gm_documents(size_t *count)
 {
     need_files();
-    return store.document_count;
+    *count = store.document_count;
+    return store.documents;
 }
 
-const struct gm_document *gm_document_at(size_t index)
-{
-    return &store.documents[index];
-}
-
-size_t gm_published_count(void)
+const struct gm_published *gm_published_figures(size_t *count)
 {
     need_files();
-    return store.figure_count;
-}
-
-const struct gm_published *gm_published_at(size_t index)
-{
-    return &store.figures[index];
+    *count = store.figure_count;
+    return store.figures;
 }
 
 const struct gm_published *gm_published_find(const char *figure)
 {
-    for (size_t i = 0; i < gm_published_count(); i++) {
-        if (strcmp(store.figures[i].figure, figure) == 0) {
-            return &store.figures[i];
+    size_t count;
+    const struct gm_published *figures = gm_published_figures(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(figures[i].figure, figure) == 0) {
+            return &figures[i];
         }
     }
     return NULL;

@@ -66,11 +66,9 @@ struct gm_document {
     const char *citation, *link;
 };
 
-size_t gm_document_count(void);
-const struct gm_document *gm_document_at(size_t index);
-
-size_t gm_published_count(void);
-const struct gm_published *gm_published_at(size_t index);
+/* All documents, and all figures with statements. */
+const struct gm_document *gm_documents(size_t *count);
+const struct gm_published *gm_published_figures(size_t *count);
 /* NULL if there are no statements on that figure */
 const struct gm_published *gm_published_find(const char *figure);
 

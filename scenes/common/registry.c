@@ -84,6 +84,15 @@ const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, cons
     return NULL;
 }
 
+size_t gm_scene_section(const struct gm_scene *scene)
+{
+    size_t found = 0;
+    while (found < scene->track_count && !scene->tracks[found].section) {
+        found++;
+    }
+    return found;
+}
+
 int gm_scene_observable(const struct gm_scene *scene, const char *key)
 {
     for (size_t i = 0; gm_scene_observable_at(scene, i); i++) {

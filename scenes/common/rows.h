@@ -5,34 +5,8 @@
 #include "core/basics.h"
 #include "core/parameter.h"
 
-/* The rows of a scene's tables. A row ends with a text (the help of a parameter, the title of an observable),
-   and further fields of its struct may follow: GM_REAL_ROW(struct disc, radius, "radius", "0.2", 1e-6, 100,
-   "radius of the disc", .logarithmic = true). */
-
-/* Parameters: `member` of the scene's own struct `own`, of a type of enum gm_type. */
-#define GM_ROW(own, member, key_, type_, standard_, ...)                                                     \
-    .key = key_, .unit = "", .type = type_, .offset = offsetof(own, member), .standard = standard_,          \
-    .help = __VA_ARGS__
-#define GM_REAL_ROW(own, member, key, standard, low, high, ...)                                              \
-    {                                                                                                        \
-        GM_ROW(own, member, key, GM_REAL, standard, __VA_ARGS__), .lowest = low, .highest = high             \
-    }
-#define GM_INTEGER_ROW(own, member, key, standard, low, high, ...)                                           \
-    {                                                                                                        \
-        GM_ROW(own, member, key, GM_INTEGER, standard, __VA_ARGS__), .lowest = low, .highest = high          \
-    }
-#define GM_CHOICE_ROW(own, member, key, standard, list, ...)                                                 \
-    {                                                                                                        \
-        GM_ROW(own, member, key, GM_CHOICE, standard, __VA_ARGS__), .choices = list                          \
-    }
-#define GM_BOOLEAN_ROW(own, member, key, standard, ...)                                                      \
-    {                                                                                                        \
-        GM_ROW(own, member, key, GM_BOOLEAN, standard, __VA_ARGS__), .highest = 1                            \
-    }
-#define GM_TEXT_ROW(own, member, key, standard, ...)                                                         \
-    {                                                                                                        \
-        GM_ROW(own, member, key, GM_TEXT, standard, __VA_ARGS__)                                             \
-    }
+/* The rows of a scene's tables; those of parameters are in core/parameter.h. A row ends with the title of an observable, and
+   further fields of its struct may follow, as there. */
 
 /* The two parameters of every scene. */
 #define GM_DT(standard, low, high)                                                                           \

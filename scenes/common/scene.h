@@ -190,8 +190,6 @@ struct gm_scene {
     size_t asked_count;
     /* The number of the first observables on request that the picture shows; NULL: none. */
     size_t (*asked_shown)(const struct gm_scene *scene, const void *parameters);
-    /* The picture that shows observables on request, instead of `draw`. */
-    void (*draw_asked)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     const struct gm_track *tracks;
     size_t track_count;
     const struct gm_figure *figures;
@@ -282,6 +280,8 @@ size_t gm_scene_number(const char *name);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
+/* Returns the number of the scene's first section; its count of tracks without one. */
+size_t gm_scene_section(const struct gm_scene *scene);
 /* The number of the observable of that key, on request or not, or -1. */
 int gm_scene_observable(const struct gm_scene *scene, const char *key);
 /* The observable of that number; NULL after the last. */

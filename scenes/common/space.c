@@ -231,7 +231,8 @@ static void draw_meeting(struct gm_picture *picture, struct gm_panel *panel, con
     }
 }
 
-void gm_space_draw_surfaces(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space)
+/* Draws the surfaces with circles of latitude and longitude, and the intersection of the first two. */
+static void draw_surfaces(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space)
 {
     for (size_t i = 0; i < space->surface_count; i++) {
         const enum gm_role role = i == 0 ? GM_SECONDARY : GM_INK;
@@ -254,8 +255,9 @@ static void draw_name(struct gm_picture *picture, struct gm_panel *panel, double
                  GM_ANCHOR_CENTRE, text);
 }
 
-void gm_space_draw_axes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
-                        double reach, const char *const *names)
+/* Draws the three axes from the surfaces up to `reach`. */
+static void draw_axes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
+                      double reach, const char *const *names)
 {
     for (size_t k = 0; k < 3; k++) {
         double surface = 0;
@@ -267,7 +269,7 @@ void gm_space_draw_axes(struct gm_picture *picture, struct gm_panel *panel, cons
             from[k] = side * surface;
             to[k] = side * reach;
             gm_space_segment(picture, panel, space, frame_style, from, to);
-            if (side > 0 && names) {
+            if (side > 0) {
                 to[k] += 0.07 * reach;
                 gm_space_place(space, to, name);
                 draw_name(picture, panel, name[0], name[1], GM_INK, names[k]);
@@ -319,7 +321,7 @@ static void name_edge(struct gm_picture *picture, struct gm_panel *panel, const 
     const double far = hypot(x, y),
                  size = 0.5 * fmin(panel->x.high - panel->x.low, panel->y.high - panel->y.low);
     const double off = far > 0 ? 0.075 * size / far : 0;
-    if (name && !numbers) {
+    if (!numbers) {
         draw_name(picture, panel, 0.5 * (a[0] + b[0]) + 1.2 * off * x, 0.5 * (a[1] + b[1]) + 1.2 * off * y,
                   GM_INK, name);
     }
@@ -331,8 +333,10 @@ static void name_edge(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-void gm_space_draw_box(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
-                       const char *const *names)
+/* Draws the edges of the box that do not cover its contents, with numbers at their ends, and the names of its
+   axes. */
+static void draw_box(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
+                     const char *const *names)
 {
     int nearest = 0;
     for (size_t k = 0; k < 3; k++) {
@@ -353,8 +357,27 @@ void gm_space_draw_box(struct gm_picture *picture, struct gm_panel *panel, const
         for (size_t k = 0; k < 3; k++) {
             const int edge = space->high[k] > space->low[k] ? named_edge(space, nearest, k) : -1;
             if (edge >= 0) {
-                name_edge(picture, panel, space, edge, k, names ? names[k] : NULL, numbers == 1);
+                name_edge(picture, panel, space, edge, k, names[k], numbers == 1);
             }
         }
     }
+}
+
+void gm_space_draw_frame(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
+                         const struct gm_camera *camera, double far, const char *const names[3])
+{
+    const double beyond = 1.18; /* the least length of axes, as a multiple of the longest half axis */
+    double size = 0;
+    for (size_t i = 0; i < 3 * space->surface_count; i++) {
+        size = fmax(size, space->surfaces[i / 3].axes[i % 3]);
+    }
+    const double step = size / 8, reach = beyond * fmax(size, step * ceil((far - 0.02 * size) / step));
+    if (space->surface_count == 0) {
+        gm_space_fit(space, camera, 0, panel);
+        draw_box(picture, panel, space, names);
+        return;
+    }
+    gm_space_fit(space, camera, reach, panel);
+    draw_surfaces(picture, panel, space);
+    draw_axes(picture, panel, space, reach, names);
 }

@@ -22,14 +22,9 @@ void gm_space_segment(struct gm_picture *picture, struct gm_panel *panel, const 
 void gm_space_points(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
                      struct gm_style style, const double *points, size_t count);
 
-/* Draws the surfaces with circles of latitude and longitude, and the intersection of the first two. */
-void gm_space_draw_surfaces(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space);
-/* Draws the three axes from the surfaces up to `reach`, with three names (NULL: none). */
-void gm_space_draw_axes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
-                        double reach, const char *const *names);
-/* Draws the edges of the box that do not cover its contents, with numbers at their ends, and the names of its
-   axes. */
-void gm_space_draw_box(struct gm_picture *picture, struct gm_panel *panel, const struct gm_space *space,
-                       const char *const *names);
+/* Sets depths and the panel's axes, and draws what is at rest: the surfaces, and three axes out of them, beyond the distance
+   `far` from the origin; without any, the box. */
+void gm_space_draw_frame(struct gm_picture *picture, struct gm_panel *panel, struct gm_space *space,
+                         const struct gm_camera *camera, double far, const char *const names[3]);
 
 #endif

@@ -7,7 +7,8 @@
 
 #include "core/basics.h"
 
-const char *gm_greek(const char *name, size_t length)
+/* The Greek letter of a name of `length` bytes: "lambda" is "λ"; NULL: no letter. */
+static const char *greek(const char *name, size_t length)
 {
     static const char *const letters[][2] = {
         {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"},  {"eps", "ε"},  {"epsilon", "ε"},
@@ -24,7 +25,7 @@ const char *gm_greek(const char *name, size_t length)
 
 const char *gm_key_symbol(const char *key)
 {
-    const char *letter = gm_greek(key, strlen(key));
+    const char *letter = greek(key, strlen(key));
     return letter ? letter : strcmp(key, "dt") == 0 ? "Δt" : strcmp(key, "dx") == 0 ? "Δx" : key;
 }
 
@@ -60,7 +61,7 @@ const char *gm_typeset(struct gm_picture *picture, const char *text)
         while (isalpha((unsigned char)at[letters])) {
             letters++;
         }
-        const char *put = letters > 0 ? gm_greek(at, letters) : NULL;
+        const char *put = letters > 0 ? greek(at, letters) : NULL;
         size_t taken = letters > 0 ? letters : 1;
         const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
         if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&

@@ -5,9 +5,6 @@
 
 #include "render/picture/picture.h"
 
-/* The Greek letter of a name of `length` bytes: "lambda" is "λ"; NULL: no letter. */
-const char *gm_greek(const char *name, size_t length);
-
 /* The label of a parameter's key in lanes and axes: "dt" is "Δt", "lambda" is "λ", any other itself. */
 const char *gm_key_symbol(const char *key);
 

@@ -66,8 +66,7 @@ struct gm_user_field {
     struct gm_user_evolution evolution;
     struct gm_user_form form;
     struct gm_user_equation equation;
-    bool elsewhere;         /* schemes are asked for that are not for the usual kind of such a field */
-    bool written_elsewhere; /* the file's own schemes are not */
+    bool written_elsewhere; /* the file's own schemes are not for the usual kind of such a field */
     bool solved;            /* an exact solution is known */
     double resolutions[3], errors[3];
     double low, high; /* the range of u at the start */

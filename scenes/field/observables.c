@@ -239,7 +239,7 @@ static double integral_of(const struct gm_view *view, bool magnitude)
                 inputs[c * BATCH + some] = values[c];
             }
         }
-        gm_tape_values(of_file->formulas[view->observable - of_file->observables], inputs, densities, BATCH);
+        gm_tape_values(gm_system_measure_of(view)->formula, inputs, densities, BATCH);
         for (size_t i = 0; i < some; i++) {
             sum += weights[i] * (magnitude ? fabs(densities[i]) : densities[i]);
         }
@@ -252,10 +252,9 @@ static double integral_of(const struct gm_view *view, bool magnitude)
 
 double gm_field_scale(const struct gm_view *view)
 {
-    const struct gm_system_scene *of_file = &gm_viewed_field(view)->of_file;
     double *values = gm_system_start_values(view->parameters, NULL), scale = NAN;
     if (values) {
-        gm_tape_values(of_file->terms[view->observable - of_file->observables], values, &scale, 1);
+        gm_tape_values(gm_system_measure_of(view)->terms, values, &scale, 1);
     }
     free(values);
     return scale;

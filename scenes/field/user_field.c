@@ -9,7 +9,7 @@
    A kind is a row: its keys, problem, start, observables and picture. Parameters of the file are keys, with
    the ring and its grid; its conserved and observed quantities are integrals of densities. The scene is made
    while the program runs, and does not change afterwards. */
-#include "scenes/field/user_field.h"
+#include "scenes/field/kind.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,37 +24,14 @@
 #include "core/tape.h"
 #include "scenes/common/system/hook.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/rows.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"
-#include "scenes/field/kind.h"
+#include "scenes/field/user_field.h"
 #include "scenes/mesh/observed.h"
 
 enum { DT, UNTIL };
 enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_ROWS = 8 };
-
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence);
-
-static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
-{
-    return gm_system_settle(parameters, keys, count, open_other, sentence);
-}
-
-struct making {
-    struct gm_user_system *system;
-    const char *name;
-    const char *const *words;
-    bool elsewhere;
-    struct gm_user_field *field;
-    struct gm_problem problem; /* the problem of the file's own values */
-};
-
-static void close_evolution(void *evolution)
-{
-    gm_user_evolution_close(evolution);
-}
 
 static void make_rows(struct gm_user_field *field)
 {
@@ -181,11 +158,9 @@ static void add_densities(struct gm_user_field *field)
                                                        .missing = infinite));
         const size_t number = of_file->observable_count - 1;
         gm_written_options(row, item);
-        of_file->formulas[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
-        gm_system_open_tape(of_file, of_file->formulas[number], item->nodes, 1);
+        of_file->measures[number].formula = gm_system_take_tape(of_file, item->nodes, 1);
         if (scale) {
-            of_file->terms[number] = gm_arena_take(arena, 1, sizeof(struct gm_tape));
-            gm_system_open_tape(of_file, of_file->terms[number], &scale->node, 1);
+            of_file->measures[number].terms = gm_system_take_tape(of_file, &scale->node, 1);
         }
     }
 }
@@ -193,10 +168,7 @@ static void add_densities(struct gm_user_field *field)
 static void make_observables(struct gm_user_field *field)
 {
     struct gm_system_scene *of_file = &field->of_file;
-    of_file->observables = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
-    of_file->formulas = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
-    of_file->terms = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
-    of_file->scene.observables = of_file->observables;
+    gm_system_take_observables(of_file, MOST_OBSERVABLES);
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
@@ -225,9 +197,9 @@ static void make_observables(struct gm_user_field *field)
 static void make_schemes(struct gm_user_field *field, const struct gm_problem *problem)
 {
     const char *text = field->of_file.system.texts[GM_WORD_SCHEMES];
-    const size_t count =
-        gm_written_schemes(field->of_file.arena, field->written_elsewhere == field->elsewhere ? text : NULL,
-                           problem, field->of_file.schemes);
+    const size_t count = gm_written_schemes(
+        field->of_file.arena, field->written_elsewhere == field->of_file.origin.elsewhere ? text : NULL,
+        problem, field->of_file.schemes);
     field->of_file.scene.schemes = count > 0 ? field->of_file.schemes : field->kind->schemes;
     field->of_file.scene.lanes = field->of_file.system.texts[GM_WORD_LANES];
 }
@@ -265,9 +237,6 @@ static const char *title_of(struct gm_user_field *field)
 {
     enum { SHORT = 48 };
     const struct gm_user_system *system = &field->of_file.system;
-    if (gm_system_title(system)) {
-        return gm_system_title(system);
-    }
     if (system->kind != GM_FIELD || system->alone) {
         return system->alone ? "Nodes alone" : "A user-defined field";
     }
@@ -363,12 +332,6 @@ static void find_range(struct gm_user_field *field, const struct gm_problem *pro
     }
 }
 
-static void close_problem(void *thing)
-{
-    struct making *making = thing;
-    making->field->kind->close(&making->problem);
-}
-
 static bool derive(struct gm_user_field *field)
 {
     const unsigned long before = gm_memory_refusals();
@@ -383,18 +346,18 @@ static bool derive(struct gm_user_field *field)
     }
 }
 
-static void make(struct gm_arena *arena, void *data)
+static void make(struct gm_system_making *making)
 {
-    struct making *making = data;
-    struct gm_user_field *field = making->field = gm_system_scene_take(arena, making->system, sizeof *field);
-    struct gm_system_scene *of_file = &field->of_file;
+    struct gm_system_scene *of_file = making->scene;
+    struct gm_user_field *field = (struct gm_user_field *)of_file;
+    struct gm_arena *arena = of_file->arena;
+    const bool elsewhere = of_file->origin.elsewhere;
+    const char *const *words = of_file->origin.words;
     struct gm_user_system *system = &of_file->system;
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
-    char sentence[GM_MESSAGE];
-    gm_arena_keep(arena, &field->evolution, close_evolution);
-    const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
+    gm_arena_keep(arena, &field->evolution, gm_user_evolution_close);
+    const bool in_potential = system->kind == GM_FIELD, moves = in_potential && elsewhere,
                by_matrices = system->kind == GM_MATRICES;
-    field->elsewhere = making->elsewhere;
     size_t others;
     field->written_elsewhere = gm_user_field_elsewhere(system, system->texts[GM_WORD_SCHEMES], &others) > 0;
     gm_arena_need(arena, gm_user_equation_derive(&field->equation, system));
@@ -403,8 +366,8 @@ static void make(struct gm_arena *arena, void *data)
         known++;
     }
     const bool is_known = known < GM_COUNT(of_equations);
-    const struct gm_field_kind *const of_rates = is_known && making->elsewhere ? of_equations[known].kind
-                                                                               : &gm_field_evolutions,
+    const struct gm_field_kind *const of_rates = is_known && elsewhere ? of_equations[known].kind
+                                                                       : &gm_field_evolutions,
                                       *const of_matrices = by_matrices ? &gm_field_forms : of_rates,
                                       *const on_mesh =
                                           system->alone ? &gm_field_nodes : &gm_field_moving_waves,
@@ -419,39 +382,27 @@ static void make(struct gm_arena *arena, void *data)
     field->solved = gm_line_is_solved(system);
     gm_arena_need(arena, derive(field));
     make_rows(field);
-    of_file->scene = (struct gm_scene){
-        .name = making->name,
-        .title = title_of(field),
-        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined field.",
-        .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
-        .time = texts[GM_WORD_TIME]              ? texts[GM_WORD_TIME]
-                : in_potential && !system->alone ? "what light needs for a length of 1"
-                                                 : "the unit of the equation",
-        .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
-        .initial = of_file->initial,
-        .words = making->words,
-        .source = making->words ? system->source : NULL,
-        .text = making->words ? system->source : NULL,
-        .mark = making->words ? gm_written_mark(arena, making->name, system->source) : NULL,
-        .parameters = of_file->rows,
-        .parameter_count = of_file->row_count + of_file->common_count,
-        .tracks = moves ? &gm_mesh_paths_track : &gm_surface_track,
-        .track_count = !kind->paint,
-        .work = &of_file->work,
-        .asked = law,
-        .asked_count = by_matrices ? GM_COUNT(law) : 0,
-        .preferences = kind->preferences,
-        .variant = gm_system_variant,
-        .t0 = gm_field_t0,
-        .idle = gm_system_idle,
-        .settle = settle,
-        .setup = gm_field_setup,
-        .close = kind->close,
-        .start = gm_field_start,
-        .draw = kind->draw,
-        .point = gm_field_point,
-        .failure = kind->failure ? kind->failure : gm_field_failure,
-    };
+    gm_system_describe(of_file,
+                       (struct gm_scene){
+                           .title = title_of(field),
+                           .blurb = "A user-defined field.",
+                           .time = in_potential && !system->alone ? "what light needs for a length of 1"
+                                                                  : "the unit of the equation",
+                           .tracks = moves ? &gm_mesh_paths_track : &gm_surface_track,
+                           .track_count = !kind->paint,
+                           .work = &of_file->work,
+                           .asked = law,
+                           .asked_count = by_matrices ? GM_COUNT(law) : 0,
+                           .preferences = kind->preferences,
+                           .t0 = gm_field_t0,
+                           .idle = gm_system_idle,
+                           .setup = gm_field_setup,
+                           .close = kind->close,
+                           .start = gm_field_start,
+                           .draw = kind->draw,
+                           .point = gm_field_point,
+                           .failure = kind->failure ? kind->failure : gm_field_failure,
+                       });
     if (moves) {
         of_file->scene.elsewhere = system->alone ? NULL : on_a_ring;
         of_file->scene.start_with = gm_field_start_mesh;
@@ -461,16 +412,13 @@ static void make(struct gm_arena *arena, void *data)
     if (moves && !system->alone) {
         of_file->scene.asked = gm_mesh_asked;
         of_file->scene.asked_count = GM_COUNT(gm_mesh_asked);
-    } else if (in_potential && making->words && !of_file->initial->grid.walls) {
+    } else if (in_potential && words && !of_file->initial->grid.walls) {
         of_file->scene.elsewhere = on_a_mesh;
-    } else if (is_known && making->words) {
+    } else if (is_known && words) {
         of_file->scene.elsewhere = kind->equation ? on_rates : of_equations[known].is_for;
     }
     gm_system_open_items(of_file);
-    if (!gm_field_setup(of_file->initial, &making->problem, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
-    gm_arena_keep(arena, making, close_problem);
+    gm_system_open_problem(making);
     make_observables(field);
     make_schemes(field, &making->problem);
     if (!gm_system_item_of(system, GM_WORD_COLOURS, 0)) {
@@ -478,30 +426,6 @@ static void make(struct gm_arena *arena, void *data)
     }
     make_work(field);
     gm_system_make_studies(of_file, &making->problem, NULL);
-    gm_arena_drop(arena, making);
 }
 
-/* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
-                                        const char *const *words, bool elsewhere, char *sentence)
-{
-    struct making making = {.system = system, .name = name, .words = words, .elsewhere = elsewhere};
-    return gm_system_scene_make(make, &making, system, sentence) ? &making.field->of_file : NULL;
-}
-
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence)
-{
-    const bool elsewhere = ((const struct gm_user_field *)first)->elsewhere;
-    return open_one(system, first->scene.name, first->scene.words, elsewhere, sentence);
-}
-
-const struct gm_scene *gm_user_field_open(struct gm_user_system *system, const char *name,
-                                          const char *const *words, bool elsewhere, struct gm_fault *fault,
-                                          char *sentence)
-{
-    const bool choices = system->choices.count > 0;
-    struct gm_system_scene *first = open_one(system, name, words, elsewhere, sentence);
-    *fault = (struct gm_fault){0};
-    return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
-}
+const struct gm_system_maker gm_system_fields = {.size = sizeof(struct gm_user_field), .make = make};

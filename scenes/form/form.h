@@ -17,8 +17,6 @@ struct gm_form_subject {
 struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
-    const char *path; /* of the file; NULL: none */
-    struct gm_form_subject subjects[GM_MOST_FORM_OBSERVABLES];
     const char *shows[GM_MOST_SHOWN_FORMS + 3];        /* words of show=: forms, then "numbers" and "mesh" */
     struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */
     size_t show_count;                                 /* forms */

@@ -390,7 +390,7 @@ void gm_form_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
         return;
     }
     for (size_t i = 0; i < scene->of_file.observable_count && graph_count < MOST_GRAPHS; i++) {
-        const struct gm_form_subject *subject = &scene->subjects[i];
+        const struct gm_system_measure *subject = &scene->of_file.measures[i];
         const struct gm_observable *row = &scene->of_file.observables[i];
         if (subject->what != GM_FORM_FACT && subject->what != GM_FORM_CONTRADICTION &&
             strcmp(row->key, "solution_error") != 0) {

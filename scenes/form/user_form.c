@@ -2,7 +2,7 @@
 /* A system of forms as a scene: its parameters and its star are keys; errors, invariants, what it observes and
    the facts of its mesh are observables. The scene is made while the program runs, and does not change
    afterwards; each lane has its own mesh. */
-#include "scenes/form/user_form.h"
+#include "scenes/form/form.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,11 +14,9 @@
 #include "core/schemes.h"
 #include "render/files/regular_file.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/rows.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/common/system/variants.h"
 #include "scenes/common/written.h"
-#include "scenes/form/form.h"
 
 enum { DT, UNTIL };
 enum { SHOW, STAR, INTERIOR, LINES, GRID, DUAL, NUMBERS, COMMON_ROWS = NUMBERS + 1 + GM_CAMERA_KEYS };
@@ -61,19 +59,18 @@ static double fact(const struct gm_complex *complex, enum fact fact)
 
 static double observe(const struct gm_view *view)
 {
-    const struct gm_form_scene *scene = gm_form_scene_of(view->parameters);
-    const struct gm_form_subject subject = scene->subjects[view->observable - scene->of_file.observables];
-    switch (subject.what) {
+    const struct gm_system_measure *subject = gm_system_measure_of(view);
+    switch (subject->what) {
     case GM_FORM_ERROR:
-        return gm_form_error(view->problem, view->state, view->t, subject.index);
+        return gm_form_error(view->problem, view->state, view->t, subject->index);
     case GM_FORM_CONTRADICTION:
-        return gm_form_contradiction(view->problem, view->state, view->t, subject.index);
+        return gm_form_contradiction(view->problem, view->state, view->t, subject->index);
     case GM_FORM_REMAINDER:
-        return gm_form_remainder(view->problem, view->state, view->t, subject.index);
+        return gm_form_remainder(view->problem, view->state, view->t, subject->index);
     case GM_FORM_OBSERVED:
-        return *gm_form_observed(view->problem, view->state, view->t, subject.index);
+        return *gm_form_observed(view->problem, view->state, view->t, subject->index);
     default:
-        return fact(gm_form_space_of(view->problem)->complex, (enum fact)subject.index);
+        return fact(gm_form_space_of(view->problem)->complex, (enum fact)subject->index);
     }
 }
 
@@ -89,7 +86,8 @@ static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm
         gm_arena_refuse(of_file->arena, "a system of forms has at most %d observables",
                         GM_MOST_FORM_OBSERVABLES);
     }
-    scene->subjects[of_file->observable_count] = subject;
+    of_file->measures[of_file->observable_count] =
+        (struct gm_system_measure){.what = subject.what, .index = subject.index};
     of_file->observables[of_file->observable_count++] = row;
 }
 
@@ -116,7 +114,7 @@ static void make_observables(struct gm_form_scene *scene)
     struct gm_arena *arena = of_file->arena;
     const struct gm_user_system *system = &of_file->system;
     bool first = true;
-    of_file->observables = gm_arena_take(arena, GM_MOST_FORM_OBSERVABLES, sizeof *of_file->observables);
+    gm_system_take_observables(of_file, GM_MOST_FORM_OBSERVABLES);
     for (size_t i = 0; i < system->n; i++) {
         if (system->forms[i].exact != GM_NO_NODE) {
             add_error(scene, i, first);
@@ -161,7 +159,6 @@ static void make_observables(struct gm_form_scene *scene)
         add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
             (struct gm_form_subject){GM_FORM_FACT, i});
     }
-    of_file->scene.observables = of_file->observables;
     of_file->scene.observable_count = of_file->observable_count;
 }
 
@@ -281,14 +278,6 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     gm_form_start(problem, y);
 }
 
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence);
-
-static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
-{
-    return gm_system_settle(parameters, keys, count, open_other, sentence);
-}
-
 /* The longest step of explicit schemes is not known: rk4, or verlet where the fields split. */
 static void make_schemes(struct gm_form_scene *scene, const struct gm_problem *problem)
 {
@@ -300,24 +289,11 @@ static void make_schemes(struct gm_form_scene *scene, const struct gm_problem *p
     of_file->scene.lanes = of_file->system.texts[GM_WORD_LANES];
 }
 
-/* A scene that is being made. */
-struct making {
-    struct gm_user_system *system;
-    const char *name;
-    const char *const *words;
-    const char *path;
-    struct gm_fault *fault;
-    struct gm_form_scene *scene;
-    bool unread;               /* the file of the mesh */
-    struct gm_problem problem; /* of the file's own values */
-};
-
 /* Reads the file of the mesh: its name is relative to the system's file, or else to the folder where the program
    runs. */
-static void read_mesh(struct making *making)
+static void read_mesh(struct gm_form_scene *scene, bool *unread)
 {
-    struct gm_form_scene *scene = making->scene;
-    const char *path = making->path;
+    const char *path = scene->of_file.origin.path;
     enum { LARGEST = 1 << 29 };
     struct gm_arena *arena = scene->of_file.arena;
     const char *name = gm_system_item_of(&scene->of_file.system, GM_WORD_MESH, 0)->name;
@@ -325,71 +301,45 @@ static void read_mesh(struct making *making)
     const char *beside =
         gm_arena_print(arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path ? path : "", name);
     char reason[GM_REGULAR_REASON];
-    scene->path = path ? gm_arena_print(arena, "%s", path) : NULL;
     scene->model.mesh_name = name;
     char *text =
         gm_regular_read(access(beside, F_OK) == 0 ? beside : name, LARGEST, &scene->model.mesh_size, reason);
-    making->unread = !text;
+    *unread = !text;
     if (!text) {
         gm_arena_refuse(arena, "mesh: %.130s could not be read: %s", name, reason);
     }
     scene->model.mesh_text = gm_arena_keep(arena, text, free);
 }
 
-static void close_problem(void *problem)
+static void make(struct gm_system_making *making)
 {
-    gm_form_problem_close(problem);
-}
-
-static void make(struct gm_arena *arena, void *data)
-{
-    struct making *making = data;
-    struct gm_form_scene *scene = making->scene = gm_system_scene_take(arena, making->system, sizeof *scene);
-    struct gm_system_scene *of_file = &scene->of_file;
+    struct gm_form_scene *scene = (struct gm_form_scene *)making->scene;
+    struct gm_system_scene *of_file = making->scene;
+    struct gm_arena *arena = of_file->arena;
     struct gm_user_system *system = &of_file->system;
-    const char *const *words = making->words;
-    char sentence[GM_MESSAGE];
     if (!gm_form_model_open(&scene->model, system, making->fault)) {
         gm_arena_refuse(arena, "%s",
                         making->fault->sentence[0] ? making->fault->sentence : "not enough memory");
     }
     if (gm_form_reads_mesh(system)) {
-        read_mesh(making);
+        read_mesh(scene, &making->unread);
     }
     make_shows(scene);
     if (scene->show_count == 0) {
         gm_arena_refuse(arena, "the file has no form: a line field, unknown or let");
     }
     make_rows(scene);
-    char *const *texts = system->texts;
-    of_file->scene = (struct gm_scene){
-        .name = making->name,
-        .title = gm_system_title(system) ? gm_system_title(system) : "Forms on triangles",
-        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined system of forms.",
-        .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
-        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : "the unit of the equations",
-        .size = sizeof *of_file->initial + of_file->row_count * (sizeof(double) + 1),
-        .initial = of_file->initial,
-        .words = words,
-        .source = words ? system->source : NULL,
-        .text = words ? system->source : NULL,
-        .mark = words ? gm_written_mark(arena, making->name, system->source) : NULL,
-        .parameters = of_file->rows,
-        .parameter_count = of_file->row_count + of_file->common_count,
-        .variant = gm_system_variant,
-        .idle = idle,
-        .settle = settle,
-        .setup = setup,
-        .close = gm_form_problem_close,
-        .start = start,
-        .draw = gm_form_draw,
-        .work = &of_file->work,
-    };
+    gm_system_describe(of_file, (struct gm_scene){.title = "Forms on triangles",
+                                                  .blurb = "A user-defined system of forms.",
+                                                  .time = "the unit of the equations",
+                                                  .idle = idle,
+                                                  .setup = setup,
+                                                  .close = gm_form_problem_close,
+                                                  .start = start,
+                                                  .draw = gm_form_draw,
+                                                  .work = &of_file->work});
     gm_system_open_items(of_file);
-    if (!setup(of_file->initial, &making->problem, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
-    gm_arena_keep(arena, &making->problem, close_problem);
+    gm_system_open_problem(making);
     make_observables(scene);
     make_schemes(scene, &making->problem);
     /* the mesh has an error of its own, so that errors of steps are distances from a finer run */
@@ -399,35 +349,6 @@ static void make(struct gm_arena *arena, void *data)
                                      .schemes = of_file->scene.schemes,
                                      .reference = "rk4"};
     gm_system_make_studies(of_file, &making->problem, NULL);
-    gm_arena_drop(arena, &making->problem);
 }
 
-/* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(struct making *making, char *sentence)
-{
-    return gm_system_scene_make(make, making, making->system, sentence) ? &making->scene->of_file : NULL;
-}
-
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence)
-{
-    struct gm_fault fault = {0};
-    return open_one(&(struct making){.system = system,
-                                     .name = first->scene.name,
-                                     .words = first->scene.words,
-                                     .path = ((const struct gm_form_scene *)first)->path,
-                                     .fault = &fault},
-                    sentence);
-}
-
-const struct gm_scene *gm_form_scene_open(struct gm_user_system *system, struct gm_form_source *source,
-                                          struct gm_fault *fault, char *sentence)
-{
-    const bool choices = system->choices.count > 0;
-    *fault = (struct gm_fault){0};
-    struct making making = {
-        .system = system, .name = source->name, .words = source->words, .path = source->path, .fault = fault};
-    struct gm_system_scene *first = open_one(&making, sentence);
-    source->unread = making.unread;
-    return gm_system_unite(first, &(struct gm_system_opening){choices ? open_other : NULL, fault, sentence});
-}
+const struct gm_system_maker gm_system_forms = {.size = sizeof(struct gm_form_scene), .make = make};

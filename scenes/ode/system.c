@@ -6,7 +6,6 @@
    With `members` the start is a disc in the plane that is shown, a grid of it, or a line along its first
    axis: the last member is in the middle, all others of a disc are on the edge. Observables are values of the
    centre; if the state is a plane, also the disc's area. */
-#include "scenes/ode/system.h"
 #include "scenes/common/system/hook.h"
 
 #include <math.h>
@@ -24,11 +23,8 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "scenes/common/system/pieces.h"
-#include "scenes/common/system/rows.h"
-#include "scenes/common/system/studies.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/common/system/variants.h"
-#include "scenes/common/trails.h"
 #include "scenes/common/written.h"
 #include "scenes/ode/system/optional.h"
 #include "scenes/ode/system/parts.h"
@@ -147,14 +143,6 @@ static void record_crossing(const struct gm_view *view, double *entry)
 }
 
 /* ---- from parameters to problem and start ---- */
-
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence);
-
-static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
-{
-    return gm_system_settle(parameters, keys, count, open_other, sentence);
-}
 
 static bool starts_on_manifold(const struct gm_problem *problem, const double *values, char *sentence)
 {
@@ -363,7 +351,7 @@ static bool is_stiff(const struct gm_system_lane *lane, double until)
         memcpy(y, values, lane->owner->system.n * sizeof *y);
     }
     problem.m = 1;
-    const bool stiff = values && y && gm_stiffness_of(&problem, y, until).is_stiff;
+    const bool stiff = values && y && gm_is_stiff(&problem, y, until);
     free(values);
     free(y);
     gm_user_problem_close(&problem);
@@ -595,16 +583,13 @@ static void make_schemes(struct gm_system_scene *system_scene, const struct gm_p
     system_scene->scene.lanes = system_scene->system.texts[GM_WORD_LANES];
 }
 
-/* Returns the title in the file, or the formula if that is short. */
+/* Returns the title of a file that has none: the formula if that is short. */
 static const char *title_of(struct gm_system_scene *system_scene)
 {
     enum { SHORT = 48 };
     const struct gm_user_system *system = &system_scene->system;
     const bool rates = system->kind == GM_RATES;
     const struct gm_naming naming = gm_system_naming(system);
-    if (gm_system_title(system)) {
-        return gm_system_title(system);
-    }
     char text[4 * SHORT] = "";
     bool whole = true;
     for (size_t i = 0; i < (rates ? system->n : 1) && strlen(text) <= SHORT && whole; i++) {
@@ -622,73 +607,36 @@ static const char *title_of(struct gm_system_scene *system_scene)
                                           : "A user-defined system";
 }
 
-/* A scene that is being made. */
-struct making {
-    struct gm_user_system *system;
-    const char *name;
-    const char *const *words;
-    bool typed;
-    struct gm_system_scene *system_scene;
-    struct gm_problem problem; /* of the file's own values */
-};
-
-static void close_made_problem(void *problem)
+static void make(struct gm_system_making *making)
 {
-    gm_user_problem_close(problem);
-}
-
-static void close_model(void *model)
-{
-    gm_user_model_close(model);
-}
-
-static void make(struct gm_arena *arena, void *data)
-{
-    struct making *making = data;
-    const char *const *words = making->words;
     const unsigned long refusals = gm_memory_refusals();
-    struct gm_system_scene *system_scene = making->system_scene =
-        gm_system_scene_take(arena, making->system, sizeof *system_scene);
+    struct gm_system_scene *system_scene = making->scene;
+    struct gm_arena *arena = system_scene->arena;
     struct gm_user_system *system = &system_scene->system;
-    char sentence[GM_MESSAGE];
+    const bool typed = system_scene->origin.typed;
     gm_system_find_hook(system_scene);
-    gm_arena_keep(arena, &system_scene->model, close_model);
+    gm_arena_keep(arena, &system_scene->model, gm_user_model_close);
     gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
-    make_rows(system_scene, making->typed);
-    system_scene->scene = (struct gm_scene){
-        .name = making->name,
-        .title = title_of(system_scene),
-        .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A user-defined system.",
-        .time = system->texts[GM_WORD_TIME] ? system->texts[GM_WORD_TIME] : "the unit of its equations",
-        .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
-        .size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1),
-        .initial = system_scene->initial,
-        .words = words,
-        .source = making->typed || !words ? NULL : system->source,
-        .text = words ? system->source : NULL,
-        .mark = words ? gm_written_mark(arena, making->name, system->source) : NULL,
-        .parameters = system_scene->rows,
-        .parameter_count = system_scene->row_count + GM_COMMON_ROWS - gm_system_skipped(system_scene),
-        .variant = gm_system_variant,
-        .idle = idle,
-        .settle = settle,
-        .setup = setup,
-        .close = gm_user_problem_close,
-        .start = start,
-        .draw = gm_system_draw,
-        .portrait = gm_system_portrait,
-        .point = point,
-        .failure = gm_system_tell_failure,
-    };
+    make_rows(system_scene, typed);
+    gm_system_describe(system_scene, (struct gm_scene){.title = title_of(system_scene),
+                                                       .blurb = "A user-defined system.",
+                                                       .time = "the unit of its equations",
+                                                       .idle = idle,
+                                                       .setup = setup,
+                                                       .close = gm_user_problem_close,
+                                                       .start = start,
+                                                       .draw = gm_system_draw,
+                                                       .portrait = gm_system_portrait,
+                                                       .point = point,
+                                                       .failure = gm_system_tell_failure});
+    system_scene->scene.source = typed ? NULL : system_scene->scene.source;
+    system_scene->scene.parameter_count -= GM_CAMERA_KEYS; /* unless it is in space */
     gm_system_open_items(system_scene);
     make_timing(system_scene);
     make_shows(system_scene);
     gm_system_check_levels(system_scene);
     gm_system_open_surfaces(system_scene);
-    if (!setup(system_scene->initial, &making->problem, sentence)) {
-        gm_arena_refuse(arena, "%s", sentence);
-    }
-    gm_arena_keep(arena, &making->problem, close_made_problem);
+    gm_system_open_problem(making);
     make_tracks(system_scene);
     system_scene->scene.parameter_count += system_scene->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
     gm_system_make_observables(system_scene, &making->problem);
@@ -700,9 +648,7 @@ static void make(struct gm_arena *arena, void *data)
                GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
                    (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0),
                making->problem.n);
-    gm_arena_drop(arena, &making->problem);
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
-    system_scene->scene.draw_asked = gm_draw_modified;
     for (size_t i = 0; i < system->choices.count; i++) {
         const char *key = system->choices.list[i].name;
         if (gm_scene_observable(&system_scene->scene, key) >= 0) {
@@ -716,25 +662,5 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_need(arena, gm_memory_refusals() == refusals); /* a default would have another value */
 }
 
-/* Opens the scene of a system, which it takes. */
-static struct gm_system_scene *open_one(struct gm_user_system *system, const char *name,
-                                        const char *const *words, bool typed, char *sentence)
-{
-    struct making making = {.system = system, .name = name, .words = words, .typed = typed};
-    return gm_system_scene_make(make, &making, system, sentence) ? making.system_scene : NULL;
-}
-
-static struct gm_system_scene *open_other(struct gm_user_system *system, const struct gm_system_scene *first,
-                                          char *sentence)
-{
-    return open_one(system, first->scene.name, first->scene.words, false, sentence);
-}
-
-const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, const char *name,
-                                            const char *const *words, bool typed, struct gm_fault *fault,
-                                            char *sentence)
-{
-    struct gm_system_scene *first = open_one(system, name, words, typed, sentence);
-    *fault = (struct gm_fault){0};
-    return gm_system_unite(first, &(struct gm_system_opening){open_other, fault, sentence});
-}
+const struct gm_system_maker gm_system_motions = {
+    .size = sizeof(struct gm_system_scene), .rebuilt = true, .make = make};

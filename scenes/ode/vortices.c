@@ -19,7 +19,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
-#include "scenes/common/trails.h"
+#include "scenes/common/graph.h"
 #include "scenes/ode/system/optional.h"
 
 extern const struct gm_scene gm_scene_vortices;
@@ -393,18 +393,11 @@ static double natural_energy(const struct gm_view *view)
     return strength * strength / (4 * M_PI);
 }
 
-static double radius(const struct gm_view *view)
-{
-    return (void)view, 1;
-}
-
 static const struct gm_observable observables[] = {
     GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
                        .scale_text = "strength²/4π"),
-    GM_KEPT_OBSERVABLE("impulse_x_error", impulse_x, "X", "impulse error, x", .scale = radius,
-                       .scale_text = "1"),
-    GM_KEPT_OBSERVABLE("impulse_y_error", impulse_y, "Y", "impulse error, y", .scale = radius,
-                       .scale_text = "1"),
+    GM_KEPT_OBSERVABLE("impulse_x_error", impulse_x, "X", "impulse error, x", .least = 1, .scale_text = "1"),
+    GM_KEPT_OBSERVABLE("impulse_y_error", impulse_y, "Y", "impulse error, y", .least = 1, .scale_text = "1"),
     GM_KEPT_OBSERVABLE("angular_impulse_error", angular_impulse, "I", "angular impulse error"),
     GM_OBSERVABLE("section_shift", section_shift, "shift of the section"),
     GM_LOG_OBSERVABLE("symmetry_defect", symmetry_defect, "asymmetry  |z₁ + z₃|, |z₂ + z₄|",
@@ -547,7 +540,6 @@ const struct gm_scene gm_scene_vortices = {
     .asked = gm_ode_asked,
     .asked_count = GM_ODE_ASKED,
     .asked_shown = gm_modified_shown,
-    .draw_asked = gm_draw_modified,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

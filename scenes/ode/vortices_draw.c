@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "scenes/common/graph.h"
-#include "scenes/common/trails.h"
+#include "scenes/ode/system/optional.h"
 #include "scenes/ode/vortices_draw.h"
 
 /* The greatest distance from the middle that is drawn; the number of vortices from which on a dye shows them,
@@ -238,6 +238,9 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     const struct gm_vortices *self = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     const bool one_step = gm_one_step(lanes, count);
+    if (gm_draw_modified(lanes, count, picture)) {
+        return;
+    }
     bool one_start = true, one_strength = true;
     for (size_t i = 1; i < count; i++) {
         const struct gm_vortices *other = lanes[i]->parameters;

@@ -750,10 +750,57 @@ def refusals():
         check(json.loads(str(saved["meta"]))["status"] != "ok" and len(saved["t"]) >= 1, "a run that fails")
 
 
+def kepler_at(t, e):
+    """The orbit of the unit of time 2 pi from its pericentre, by Kepler's equation."""
+    angle = t
+    for _ in range(60):
+        angle -= (angle - e * numpy.sin(angle) - t) / (1 - e * numpy.cos(angle))
+    side, distance = numpy.sqrt(1 - e * e), 1 - e * numpy.cos(angle)
+    return numpy.array([numpy.cos(angle) - e, side * numpy.sin(angle), -numpy.sin(angle) / distance,
+                        side * numpy.cos(angle) / distance])
+
+
+PLEIADES = """parameter: m[1..7] = 1, 2, 3, 4, 5, 6, 7
+coordinates: x[1..7] y[1..7]
+let: r(i, j) = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2)
+H: sum(i = 1 .. 7, (p_x[i]^2 + p_y[i]^2)/(2*m[i])) - sum(i = 1 .. 7, j = i+1 .. 7, m[i]*m[j]/r(i, j))
+start: x[1] = 3, x[2] = 3, x[3] = -1, x[4] = -3, x[5] = 2, x[6] = -2, x[7] = 2
+start: y[1] = 3, y[2] = -3, y[3] = 2, y[4] = 0, y[5] = 0, y[6] = -4, y[7] = 4
+start: p_x[i] = 0, p_y[i] = 0
+monitor: sum(i = 1 .. 7, j = i+1 .. 7, r(i, j)^-1.5)
+dt: 0.05
+until: 3
+""".replace("p_x[i] = 0, p_y[i] = 0", ", ".join(
+    [f"p_x[{i}] = {p}" for i, p in zip(range(1, 8), (0, 0, 0, 0, 0, 10.5, -10.5))] +
+    [f"p_y[{i}] = {p}" for i, p in zip(range(1, 8), (0, 0, 0, -5, 5, 0, 0))]))
+
+
+def ends():
+    """Schemes that choose their steps end at `until`, and go on from a checkpoint as if they had not ended."""
+    for scheme, off in (("controlled-gauss8", 1e-9), ("controlled-kahan-li8", 1e-8), ("poincare-gauss8", 1e-9),
+                        ("logh-sofroniou-spaletta10", 1e-8), ("levi-civita", 1e-4), ("controlled-verlet2", 1e-3)):
+        words = f"kepler scheme={scheme} eccentricity=0.5 dt=0.01"
+        told = json.loads(geomint(f"run {words} until=7.3 --json --state --save e.csv").stdout)
+        check(abs(told["t"] - 7.3) <= 4 * numpy.spacing(7.3) and told["message"] == "", f"{words}: it ends at {told['t']!r}")
+        check(abs(numpy.array(told["state"]) - kepler_at(7.3, 0.5)).max() < off, f"{words}: the state at its end")
+        with open("e.csv", encoding="utf-8") as file:
+            check(float(list(csv.DictReader(file))[-1]["t"]) == told["t"], f"{words}: the last row is the end")
+        geomint(f"run {words} until=7.3 --checkpoint e.check")
+        one, other = (json.loads(geomint(f"run {words} until=9 --json --state {more}").stdout)
+                      for more in ("", "--continue e.check"))
+        check(same(one["state"], other["state"]) and one["steps"] == other["steps"], f"{words}: it is gone on with")
+    with open("stars.system", "w", encoding="utf-8") as file:
+        file.write(PLEIADES)
+    told = json.loads(geomint("run ./stars.system scheme=controlled-gauss8 --json --state").stdout)
+    check(told["t"] == 3 and abs(told["state"][0] - 0.370613914) < 1e-8, f"the Pleiades: {told['t']}, {told['state'][0]}")
+    told = json.loads(geomint("run oscillator scheme=variational-midpoint until=7.3 --json").stdout)
+    check(told["t"] > 7.3 and "is adaptive" in told["message"], "steps of a variational principle stay whole")
+
+
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for part in (rows_equal_states, shapes, flows, vtk, series, warm, tables, rows, profiles, tracks, memory, continued, killed, interrupted,
-                 full, beside, beginnings, together, pipes, refusals):
+                 full, beside, beginnings, together, pipes, refusals, ends):
         if sys.argv[2:] == ["few"] and part in (memory, killed):  # where a sanitizer watches: they are long
             continue
         if sys.argv[2:] in ([], ["few"]) or part.__name__ in sys.argv[2:]:

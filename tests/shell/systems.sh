@@ -739,6 +739,15 @@ assert abs(kept["event_work"] - 490*(r**4 - 1)) < 1e-9, kept
 ' || fail "a ball: $(cat out)"
 "$geomint" run ball.system scheme=explicit-euler until=10 --json >out || fail 'a ball of Euler'
 python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] > 1e-2' || fail "a ball of Euler: $(cat out)"
+printf 'rate: x = v, v = 0, w = 0\ninvariant: V = v\ninvariant: W = w\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\n' >gate.system
+"$geomint" run gate.system scheme=rk4 until=3 --json >out || fail 'invariants that events change'
+python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["events"] == 2 and kept["V_error"] == kept["W_error"] == 0, kept' || fail "invariants that events change: $(cat out)"
+printf 'choice: kind = one of one, two; which\nrate: x = v, v = 0, w = 0\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\ninvariant: W = w\nwhen: kind = two\nobserve: a = x\nobserve: b = v\ninvariant: V = v\nwhen: always\nuntil: 3\n' >gates.system
+"$geomint" run gates.system kind=two scheme=rk4 --json >out || fail 'events of another word of a choice'
+python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["b"] == 2 and kept["V_error"] == kept["W_error"] == 0, kept' || fail "events of another word of a choice: $(cat out)"
+printf 'choice: kind = one of one, two; which\nmesh: strip 1 n\nparameter: n = 2; 1 .. 60; triangles in a row\nunknown: u = 0-form\nequation: u; u = 2 + 3*x^2\nwhen: kind = two\nobserve: least = min(u)\nwhen: always\nobserve: largest = max(u)\n' >strip.system
+"$geomint" run strip.system kind=two --json >out || fail 'forms of another word of a choice'
+python3 -c 'import json; found = json.load(open("out"))["observables"]; assert abs(found["least"] - 2) < 1e-9 and found["largest"] > 4, found' || fail "forms of another word of a choice: $(cat out)"
 "$geomint" run ball.system scheme=gauss4 until=40 --json >out
 [ $? = 2 ] && value out status | grep -q events-accumulate || fail "bounces accumulate: $(cat out)"
 python3 -c 'import json, math; t = json.load(open("out"))["t"]; assert abs(t - math.sqrt(100/9.8)*(1 + 2*.8/.2)) < 1e-9, t' || fail "bounces accumulate at $(value out t)"

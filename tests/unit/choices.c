@@ -16,8 +16,7 @@
 #include "core/schemes.h"
 #include "render/message.h"
 #include "scenes/common/lane.h"
-#include "scenes/common/system/pieces.h"
-#include "scenes/ode/system.h"
+#include "scenes/common/system/variants.h"
 #include "tests/common/lane.h"
 
 /* One mass on a spring, or two beside each other of which the second is at rest. */
@@ -52,7 +51,8 @@ static const struct gm_scene *open_scene(const char *text, struct gm_fault *faul
         snprintf(sentence, GM_MESSAGE, "%s", fault->sentence);
         return NULL;
     }
-    return gm_system_scene_open(&system, "test", words, false, fault, sentence);
+    return gm_system_scene_open(&system, (struct gm_system_origin){.name = "test", .words = words},
+                                &(struct gm_system_opening){.fault = fault, .sentence = sentence});
 }
 
 static struct gm_lane *lane_of(const struct gm_scene *scene, const char *key, const char *word)
@@ -185,7 +185,9 @@ static void combinations_are_checked(void **unused)
     struct gm_fault fault;
     struct gm_user_system system;
     assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
-    const struct gm_scene *scene = gm_system_scene_open(&system, "test", NULL, false, &fault, sentence);
+    const struct gm_scene *scene =
+        gm_system_scene_open(&system, (struct gm_system_origin){.name = "test"},
+                             &(struct gm_system_opening){.fault = &fault, .sentence = sentence});
     if (!scene) {
         fail_msg("%s", sentence);
     }

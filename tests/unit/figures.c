@@ -125,11 +125,13 @@ static void what_is_said_can_be_measured(void **unused)
 {
     (void)unused;
     char message[GM_MESSAGE];
-    for (size_t i = 0; i < gm_published_count(); i++) {
+    size_t count;
+    const struct gm_published *published = gm_published_figures(&count);
+    for (size_t i = 0; i < count; i++) {
         const struct gm_scene *scene = NULL;
-        const struct gm_figure *figure = find(gm_published_at(i)->figure, &scene);
+        const struct gm_figure *figure = find(published[i].figure, &scene);
         if (!figure) {
-            fail_msg("%s is no figure", gm_published_at(i)->figure);
+            fail_msg("%s is no figure", published[i].figure);
         }
         struct gm_figure_job job;
         gm_figure_plan(&job, scene, figure, false);
@@ -189,10 +191,12 @@ static void quick_figures_are_coarser(void **unused)
     gm_figure_plan(&job, scene, figure, false);
     assert_false(job.shortened);
     assert_string_equal(job.arguments, figure->arguments);
-    for (size_t i = 0; i < gm_published_count(); i++) {
+    size_t count;
+    const struct gm_published *published = gm_published_figures(&count);
+    for (size_t i = 0; i < count; i++) {
         char message[GM_MESSAGE];
-        const char *quick = gm_published_at(i)->quick;
-        figure = find(gm_published_at(i)->figure, &scene);
+        const char *quick = published[i].quick;
+        figure = find(published[i].figure, &scene);
         gm_figure_plan(&job, scene, figure, true);
         if (quick && (strstr(quick, "until=") || strstr(quick, "steps="))) {
             fail_msg("%s ends before its time: %s", figure->name, quick);

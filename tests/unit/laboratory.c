@@ -80,8 +80,8 @@ static void sections_survive_stepping_back(void **unused)
     gm_trial_run(&straight, "henon-heiles scheme=verlet dt=.1 until=200", false);
     gm_trial_run(&bent, "henon-heiles scheme=verlet dt=.1 until=100", false);
     struct gm_lane *lane = bent.drive.lane;
-    void *snapshot = malloc(gm_lane_snapshot_size(lane));
-    gm_lane_save(lane, snapshot);
+    void *snapshot = malloc(gm_run_snapshot_size(lane->run));
+    gm_run_save(lane->run, snapshot);
     gm_lane_to(lane, lane->run->steps + 500, INFINITY);
     gm_lane_load(lane, snapshot);
     gm_lane_to(lane, lane->run->steps + 1000, INFINITY);

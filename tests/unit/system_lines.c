@@ -18,8 +18,7 @@
 #include "render/message.h"
 #include "scenes/common/lane.h"
 #include "scenes/common/system/look.h"
-#include "scenes/common/system/pieces.h"
-#include "scenes/ode/system.h"
+#include "scenes/common/system/variants.h"
 #include "tests/common/lane.h"
 
 #define OSCILLATOR                                                                                           \
@@ -35,7 +34,8 @@ static const struct gm_scene *open_scene(const char *text, char *sentence)
     if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    return gm_system_scene_open(&system, "test", words, false, &fault, sentence);
+    return gm_system_scene_open(&system, (struct gm_system_origin){.name = "test", .words = words},
+                                &(struct gm_system_opening){.fault = &fault, .sentence = sentence});
 }
 
 static const struct gm_scene *scene_of(const char *text)

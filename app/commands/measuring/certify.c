@@ -34,7 +34,7 @@ static void print_given_up(const struct gm_certificate *certificate)
     const char *before = "  given up: ";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (lost >> bit & 1) {
-            printf("%s%s", before, gm_claim_word(bit));
+            printf("%s%s", before, gm_claims[bit].word);
             before = ", ";
         }
     }
@@ -95,7 +95,7 @@ static void print_certificate(const struct gm_certificate *certificate)
                               : measure->undecided           ? "inconclusive"
                               : reason                       ? "not measured"
                                                              : "BROKEN: it could not be measured";
-        printf("  %s %-30s %-12s", gm_claim_letter(bit), gm_claim_word(bit), verdict);
+        printf("  %s %-30s %-12s", gm_claims[bit].letter, gm_claims[bit].word, verdict);
         if (measure->measured && isfinite(measure->defect)) {
             printf(" defect %.1e (%s)", measure->defect, measure->problem);
         } else if (measure->measured) {

@@ -57,10 +57,8 @@ static bool is_typed(const struct work *work, const char *key)
 
 static const char *component_of(size_t component, const void *work)
 {
-    char name[64];
     const struct work *of = work;
-    gm_component_name(of->lane->run, component, name, sizeof name);
-    return gm_arena_print(of->options->arena, "%s", name);
+    return gm_component_name(of->options->arena, of->lane->run, component);
 }
 
 /* Ends the command if the lane has no periodic orbits that can be followed. */
@@ -255,11 +253,6 @@ static void place_start(const struct work *work)
     timing->until = orbit->period;
 }
 
-static bool write_text(FILE *stream, const void *text)
-{
-    return fputs(*(char *const *)text, stream) >= 0;
-}
-
 static int save(const struct work *work)
 {
     char message[GM_MESSAGE];
@@ -267,8 +260,7 @@ static int save(const struct work *work)
     char *text = gm_system_now(work->request->scene, work->request->lanes[0].parameters);
     gm_arena_need(work->options->arena, text);
     gm_arena_keep(work->options->arena, text, free);
-    const bool written = gm_folder_make_for(path, message) && gm_temporary_make(path, write_text, &text);
-    if (!written) {
+    if (!gm_folder_make_for(path, message) || gm_temporary_write(path, text, strlen(text)) != 0) {
         return gm_give_up(GM_EXIT_FILE, "%.360s could not be written", path);
     }
     gm_complain("wrote %s", path);

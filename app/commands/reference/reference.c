@@ -34,7 +34,7 @@ void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters)
     size_t used = 0;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (scheme->claims >> bit & 1) {
-            letters[used++] = gm_claim_letter(bit)[0];
+            letters[used++] = gm_claims[bit].letter[0];
         }
     }
     letters[used] = '\0';
@@ -138,7 +138,7 @@ static void put_claims(const struct gm_scheme *scheme)
     const char *comma = "";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (scheme->claims >> bit & 1) {
-            printf("%s%s", comma, gm_claim_word(bit));
+            printf("%s%s", comma, gm_claims[bit].word);
             comma = ", ";
         }
     }

@@ -78,8 +78,8 @@ static void put_claims(struct page *page)
 {
     put_heading(page, "CLAIMS");
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        put(page, 0, gm_claim_letter(bit), GM_INK, true);
-        put_wrapped(page, 8, gm_claim_word(bit), GM_INK);
+        put(page, 0, gm_claims[bit].letter, GM_INK, true);
+        put_wrapped(page, 8, gm_claims[bit].word, GM_INK);
     }
     put_wrapped(page, 0, "`geomint certify` measures every one of them.", GM_SECONDARY);
 }

@@ -28,7 +28,7 @@ static void claims_text(unsigned claims, unsigned columns, bool close, char *tex
     text[0] = '\0';
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         if (claims >> bit & 1) {
-            gm_append(text, size, "%s", gm_claim_letter(bit));
+            gm_append(text, size, "%s", gm_claims[bit].letter);
         } else if ((columns >> bit & 1) && text[0] && !close) {
             gm_append(text, size, " ");
         }

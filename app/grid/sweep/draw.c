@@ -45,19 +45,6 @@ struct gm_sweep_chart {
     size_t status;             /* the number of its cell in a row */
 };
 
-/* Returns true if a word is along an axis; of many values a run only the first key is. */
-static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
-{
-    const struct gm_parameter *row = gm_word_parameter(sweep->scene, word->key);
-    const bool number = gm_word_is_number(sweep->scene, word->key) && !(row && row->automatic);
-    bool first = true;
-    for (const struct gm_word *before = sweep->words.list; sweep->values && before < word && first;
-         before++) {
-        first = !is_axis(sweep, before);
-    }
-    return number && word->count > 1 && first;
-}
-
 /* Plans the picture's axes and lines; returns false with a sentence if the sweep has none. */
 static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, char *message)
 {
@@ -65,7 +52,10 @@ static bool plan(struct gm_sweep_chart *chart, const struct gm_sweep *sweep, cha
     *chart = (struct gm_sweep_chart){.sweep = sweep, .lines = 1};
     for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
-        if (is_axis(sweep, word)) {
+        const struct gm_parameter *row = gm_word_parameter(sweep->scene, word->key);
+        const bool number = gm_word_is_number(sweep->scene, word->key) && !(row && row->automatic);
+        /* of many values a run only the first key is along an axis */
+        if (number && word->count > 1 && !(sweep->values && axes > 0)) {
             chart->keys[axes % 2] = i;
             axes++;
         } else if (!sweep->words.zip) {
@@ -105,12 +95,18 @@ bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message)
     return plan(&chart, sweep, message);
 }
 
+/* Returns true if a word is along an axis. */
+static bool is_axis(const struct gm_sweep_chart *chart, size_t word)
+{
+    return word == chart->keys[0] || (chart->key_count == 2 && word == chart->keys[1]);
+}
+
 static size_t line_of(const struct gm_sweep_chart *chart, size_t run)
 {
     const struct gm_words *words = &chart->sweep->words;
     size_t line = 0;
     for (size_t i = 0; i < words->count && chart->lines > 1; i++) {
-        if (!is_axis(chart->sweep, &words->list[i])) {
+        if (!is_axis(chart, i)) {
             line = line * words->list[i].count + gm_words_choice(words, i, run);
         }
     }
@@ -218,12 +214,11 @@ struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct 
 
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message)
 {
-    struct gm_csv_lines table = {.stream = fopen(path, "r")};
+    struct gm_csv_lines table = {.stream = fopen(path, "r"), .group = gm_sweep_index_cell(chart->sweep)};
     if (!table.stream) {
         return gm_refuse(message, "%.360s could not be read: %s", path, strerror(errno));
     }
     gm_csv_next(&table);
-    table.group = gm_sweep_index_cell(chart->sweep);
     for (size_t run = 0; run < chart->sweep->count && gm_csv_next(&table); run++) {
         gm_sweep_chart_take(chart, run, table.line);
     }
@@ -339,7 +334,7 @@ static const char *line_name(const struct gm_sweep_chart *chart, size_t line, st
     const char *name = "";
     for (size_t i = words->count; i-- > 0;) {
         const struct gm_word *word = &words->list[i];
-        if (is_axis(chart->sweep, word) || words->zip) {
+        if (is_axis(chart, i) || words->zip) {
             continue;
         }
         char text[GM_TEXT_SIZE];
@@ -524,7 +519,7 @@ bool gm_sweep_pick(const struct gm_sweep_chart *chart, size_t map, double x, dou
     for (size_t i = sweep->words.count; i-- > 0;) { /* the last list changes fastest */
         const struct gm_word *word = &sweep->words.list[i];
         size_t choice = i == chart->keys[0] ? chosen[0] : chosen[1];
-        if (!is_axis(sweep, word)) {
+        if (!is_axis(chart, i)) {
             choice = line % word->count;
             line /= word->count;
         }

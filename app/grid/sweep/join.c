@@ -93,18 +93,13 @@ static void allow_files(void)
     }
 }
 
-static void close_lines(void *lines)
-{
-    gm_csv_close(lines);
-}
-
 /* Opens a table, which may be missing, after its head. Refuses one that has another head, or is being written. */
 static void open_table(const struct gm_sweep *sweep, const char *path, const char *other,
                        struct gm_csv_lines *table)
 {
     struct gm_arena *arena = sweep->arena;
-    gm_arena_keep(arena, table, close_lines);
-    table->stream = fopen(path, "r");
+    gm_arena_keep(arena, table, gm_csv_close);
+    *table = (struct gm_csv_lines){.stream = fopen(path, "r"), .group = gm_sweep_index_cell(sweep)};
     if (!table->stream && errno != ENOENT) {
         gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));
     }
@@ -113,7 +108,6 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
     gm_csv_next(table);
     gm_arena_refuse_if(arena, table->line && table->line[0] && strcmp(table->line, sweep->head) != 0,
                        "%.360s is %s", path, other);
-    table->group = gm_sweep_index_cell(sweep);
 }
 
 struct joining {

@@ -3,7 +3,6 @@
 #include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -186,25 +185,68 @@ static char *text_of(const struct gm_sweep *sweep, size_t run,
     return stream && fclose(stream) == 0 ? text : NULL;
 }
 
-static void put_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
+/* Puts the cells before the status of a run, or their names. */
+static void put_front(const struct gm_sweep *sweep, size_t run, struct gm_row *row)
 {
-    (void)run;
-    fputs("scene,scheme", stream);
-    for (size_t i = 0; i < sweep->words.count; i++) {
-        if (is_column(&sweep->words.list[i])) {
-            const char *key = sweep->words.list[i].key;
+    char text[GM_TEXT_SIZE];
+    gm_row_text(row, "scene", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
+    for (size_t pass = 0; pass < 2; pass++) { /* the scheme, wherever it was typed, is the first column */
+        for (size_t i = 0; i < sweep->words.count; i++) {
+            const struct gm_word *word = &sweep->words.list[i];
+            if (is_of_the_list(word) || is_column(word) != (pass == 1)) {
+                continue;
+            }
             /* the number of steps made is a column after the status */
-            fprintf(stream, ",%s", strcmp(key, "steps") == 0 ? "steps_asked" : key);
+            const char *key = strcmp(word->key, "steps") == 0 ? "steps_asked" : word->key;
+            const char *value = gm_word_value(word, gm_words_choice(&sweep->words, i, run), text);
+            const struct gm_scheme *scheme = pass == 0 ? gm_scheme_find(value) : NULL;
+            double number = 0;
+            if (gm_word_is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
+                gm_row_number(row, key, number, 17);
+            } else {
+                gm_row_text(row, key, scheme ? gm_scheme_word(scheme) : value);
+            }
         }
     }
-    fputs(",status,warning,t,steps,evaluations,solves,seconds", stream);
-    for (size_t i = 0; i < sweep->chosen.count; i++) {
-        fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
+}
+
+/* Puts the cells after the front, for a run that has ended or could not begin (no lane), or their names. */
+static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
+                    const char *warning, const double *values, struct gm_row *row)
+{
+    const struct gm_run *run = drive->lane ? drive->lane->run : NULL;
+    gm_row_put(row, "status %s, warning %s", status, "");
+    if (warning[0]) {
+        gm_csv_put_quoted(row->stream, warning);
     }
+    if (run) {
+        gm_row_put(row, "t %.17g, steps %.0f, evaluations %.0f, solves %.0f, seconds %.6g", run->t,
+                   (double)run->steps, gm_run_per_member(run, run->evaluations),
+                   gm_run_per_member(run, run->solves), drive->seconds);
+    } else {
+        gm_row_put(row, "t %s, steps %s, evaluations %s, solves %s, seconds %s", "", "", "", "", "");
+    }
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        gm_row_number(row, gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key,
+                      run ? values[i] : NAN, 17);
+    }
+}
+
+static void write_head(const struct gm_sweep *sweep, size_t run, FILE *stream)
+{
+    struct gm_row row = {.stream = stream, .form = GM_ROW_HEAD};
+    put_front(sweep, run, &row);
+    put_end(sweep, &(const struct gm_drive){0}, "", "", NULL, &row);
     if (sweep->values) {
         fprintf(stream, ",index,t,%s", sweep->name);
     }
     fputc('\n', stream);
+}
+
+static void write_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
+{
+    put_front(sweep, run, &(struct gm_row){.stream = stream, .form = GM_ROW_CSV});
+    fputc(',', stream);
 }
 
 static void close_sweep(void *data)
@@ -259,7 +301,7 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
         read_values(sweep, options);
     }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
-    sweep->head = gm_arena_keep(arena, text_of(sweep, 0, put_head), free);
+    sweep->head = gm_arena_keep(arena, text_of(sweep, 0, write_head), free);
 }
 
 size_t gm_sweep_index_cell(const struct gm_sweep *sweep)
@@ -284,65 +326,16 @@ size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
 
 /* ---- rows ---- */
 
-static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
-{
-    char text[GM_TEXT_SIZE];
-    fprintf(stream, "%s,", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
-    for (size_t pass = 0; pass < 2; pass++) { /* the scheme, wherever it was typed, is the first column */
-        for (size_t i = 0; i < sweep->words.count; i++) {
-            const struct gm_word *word = &sweep->words.list[i];
-            if (is_of_the_list(word) || is_column(word) != (pass == 1)) {
-                continue;
-            }
-            const char *value = gm_word_value(word, gm_words_choice(&sweep->words, i, run), text);
-            const struct gm_scheme *scheme = strcmp(word->key, "scheme") == 0 ? gm_scheme_find(value) : NULL;
-            value = scheme ? gm_scheme_word(scheme) : value;
-            double number = 0;
-            if (gm_word_is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
-                fprintf(stream, "%.17g,", number);
-            } else {
-                gm_csv_put_text(stream, value);
-                fputc(',', stream);
-            }
-        }
-    }
-}
-
 size_t gm_sweep_front(const struct gm_sweep *sweep, size_t run, const char *line)
 {
-    char *front = text_of(sweep, run, put_front);
+    char *front = text_of(sweep, run, write_front);
     const size_t length = front ? strlen(front) : 0;
     const bool same = front && strncmp(line, front, length) == 0;
     free(front);
     return same ? length : 0;
 }
 
-/* Puts the cells after the front, for a run that has ended or could not begin (no lane). */
-static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
-                    const char *warning, const double *values, FILE *stream)
-{
-    const struct gm_lane *lane = drive->lane;
-    fprintf(stream, "%s,", status);
-    if (warning[0]) {
-        gm_csv_put_quoted(stream, warning);
-    }
-    if (lane) {
-        const struct gm_run *run = lane->run;
-        fprintf(stream, ",%.17g,%" PRId64 ",%.0f,%.0f,%.6g", run->t, run->steps,
-                gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
-                drive->seconds);
-    } else {
-        fputs(",,,,,", stream);
-    }
-    for (size_t i = 0; i < sweep->chosen.count; i++) {
-        fputc(',', stream);
-        if (lane && !isnan(values[i])) {
-            fprintf(stream, "%.17g", values[i]);
-        }
-    }
-}
-
-/* Puts the rows of a run with many values, each after the same cells; a run without values has one row. */
+/* Puts the rows of a run, one for each of its values after the same cells; a run without values has one row. */
 static void put_values(const struct gm_sweep *sweep, const char *cells, const struct gm_sweep_series *series,
                        FILE *stream)
 {
@@ -352,7 +345,7 @@ static void put_values(const struct gm_sweep *sweep, const char *cells, const st
         fprintf(stream, "%s,%zu,%.17g,%.17g\n", cells, i, pair[0], pair[1]);
     }
     if (count == 0) {
-        fprintf(stream, "%s,,,\n", cells);
+        fprintf(stream, "%s%s\n", cells, sweep->values ? ",,," : "");
     }
 }
 
@@ -393,17 +386,14 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
         gm_drive_warning(&drive, row->sentence, GM_MESSAGE);
     }
     if (stream) {
-        put_front(sweep, run, stream);
-        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, stream);
+        struct gm_row line = {.stream = stream, .form = GM_ROW_CSV};
+        put_front(sweep, run, &line);
+        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, &line);
         fclose(stream);
     }
     series.count = row->ok ? series.count : 0;
-    if (rows && sweep->values) {
-        put_values(sweep, cells, &series, rows);
-    } else if (rows) {
-        fprintf(rows, "%s\n", cells);
-    }
     if (rows) {
+        put_values(sweep, cells, &series, rows);
         fclose(rows);
     }
     free(cells);

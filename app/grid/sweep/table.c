@@ -133,7 +133,6 @@ static void read_head(struct gm_sweep_table *table)
     const char *line = gm_csv_next(&table->old), *torn = table->old.line ? table->old.line : "";
     if (line && strcmp(line, head) == 0) {
         table->size = (off_t)strlen(head);
-        table->old.group = gm_sweep_index_cell(table->sweep);
     } else if (line || strncmp(torn, head, strlen(torn)) != 0) {
         gm_arena_refuse(table->arena, "%.360s is not a table of this sweep: %s; it is left as it is",
                         table->path,
@@ -202,10 +201,7 @@ static bool begin_anew(struct gm_sweep_table *table, char *message)
     table->size = 0;
     rewind(table->old.stream);
     table->old.is_ahead = false;
-    table->old.group = 0;
-    const bool read = gm_csv_next(&table->old) != NULL;
-    table->old.group = gm_sweep_index_cell(table->sweep);
-    return read && append(table, table->sweep->head, message);
+    return gm_csv_next(&table->old) && append(table, table->sweep->head, message);
 }
 
 /* The file, locked, read and made ready for the next row. */
@@ -223,6 +219,7 @@ static void open_file(struct gm_sweep_table *table, const char *retry)
                        "%.360s is being written by another process", table->path);
     const int copy = dup(table->fd);
     table->old.stream = copy >= 0 ? fdopen(copy, "r") : NULL;
+    table->old.group = gm_sweep_index_cell(table->sweep);
     if (!table->old.stream) {
         close(copy);
         gm_arena_need(table->arena, false);

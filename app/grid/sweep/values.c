@@ -19,16 +19,6 @@ enum { MOST_VALUES = 1000000, PASSAGES = 16 /* in a step */ };
 
 static const char *const places[] = {"step", "section", "maximum"};
 
-/* Returns the scene's first section, or NULL. */
-static const struct gm_track *section_of(const struct gm_scene *scene)
-{
-    size_t i = 0;
-    while (i < scene->track_count && !scene->tracks[i].section) {
-        i++;
-    }
-    return i < scene->track_count ? &scene->tracks[i] : NULL;
-}
-
 /* The names that values may have: components, then observables. */
 struct names {
     struct gm_arena *arena;
@@ -39,12 +29,8 @@ struct names {
 static const char *name_at(size_t i, const void *data)
 {
     const struct names *names = data;
-    char name[64];
-    if (i >= names->components) {
-        return gm_scene_observable_at(names->lane->scene, i - names->components)->key;
-    }
-    gm_component_name(names->lane->run, i, name, sizeof name);
-    return gm_arena_print(names->arena, "%s", name);
+    return i < names->components ? gm_component_name(names->arena, names->lane->run, i)
+                                 : gm_scene_observable_at(names->lane->scene, i - names->components)->key;
 }
 
 void gm_sweep_read_values(struct gm_sweep *sweep, const char *values, const char *at,
@@ -75,7 +61,8 @@ void gm_sweep_read_values(struct gm_sweep *sweep, const char *values, const char
     gm_arena_refuse_if(arena, sweep->number == count,
                        "--values: %.60s is not a component or an observable of %s%s%s", sweep->name,
                        scene->name, near ? "; did you mean " : "", near ? near : "");
-    sweep->place = section_of(scene) && fabs(lane->run->dt) != 1 ? GM_AT_SECTION : GM_AT_STEP;
+    const bool has_section = gm_scene_section(scene) < scene->track_count;
+    sweep->place = has_section && fabs(lane->run->dt) != 1 ? GM_AT_SECTION : GM_AT_STEP;
     if (at) {
         size_t place = 0;
         while (place < GM_COUNT(places) && strcmp(places[place], at) != 0) {
@@ -85,12 +72,12 @@ void gm_sweep_read_values(struct gm_sweep *sweep, const char *values, const char
                            at);
         sweep->place = (enum gm_sweep_place)place;
     }
-    gm_arena_refuse_if(arena, sweep->place == GM_AT_SECTION && !section_of(scene),
+    gm_arena_refuse_if(arena, sweep->place == GM_AT_SECTION && !has_section,
                        "--at section: %s has no section: in its file", scene->name);
     sweep->at = places[sweep->place];
 }
 
-/* Returns the value of a view, whose state is one member's if `alone`. */
+/* Returns the value of a view, of its last member if it is a component. */
 static double value_of(const struct gm_sweep *sweep, const struct gm_view *view)
 {
     const size_t components = view->problem->n - 2 * view->problem->passive, m = view->problem->m;
@@ -147,7 +134,7 @@ static void follow(struct gm_arena *arena, void *data)
     struct gm_behind behind = {0};
     const struct gm_view start = gm_lane_view(lane);
     if (sweep->place == GM_AT_SECTION) {
-        track = *section_of(sweep->scene);
+        track = sweep->scene->tracks[gm_scene_section(sweep->scene)];
         track.numbers = 0;
         track.width = width;
         track.record = record;

@@ -32,21 +32,11 @@ struct search {
     double guess; /* of the period */
 };
 
-static void close_run(void *run)
-{
-    gm_run_close(run);
-}
-
-static void close_tangent(void *tangent)
-{
-    gm_tangent_close(tangent);
-}
-
 static struct gm_run *open_run(const struct gm_periodic *orbit, struct gm_arena *arena, const double *y,
                                double dt)
 {
     struct gm_run *run = gm_run_open(orbit->problem, orbit->scheme, orbit->settings, orbit->t0, dt, y);
-    return gm_arena_keep(arena, run, close_run);
+    return gm_arena_keep(arena, run, gm_run_close);
 }
 
 /* Makes the steps of a period from y, the frame with them if that is wanted. Returns the residual; infinity if a step
@@ -59,7 +49,7 @@ static double follow(struct search *search, const double *y, double period, bool
     bool good = run->status == GM_OK;
     if (with_frame) {
         struct gm_tangent *tangent = gm_tangent_open(run);
-        gm_arena_keep(search->arena, tangent, close_tangent);
+        gm_arena_keep(search->arena, tangent, gm_tangent_close);
         search->stride = gm_tangent_size(tangent);
         memset(search->frame, 0, search->n * search->stride * sizeof *search->frame);
         for (size_t k = 0; k < search->n; k++) {
@@ -212,7 +202,6 @@ static bool refine(struct search *search)
         for (size_t c = 0; c < n && there; c++) {
             apart = fmax(apart, fabs(search->end[c] - search->trial[c]));
         }
-        apart = isfinite(apart) ? apart : INFINITY;
         done = apart < settled * scale_of(search) ||
                (before < resolved * scale_of(search) && apart > before / 8);
     }
@@ -367,33 +356,30 @@ const char *gm_periodic_kind(const struct gm_periodic *orbit)
 {
     const double close = 1e-5;
     const double *re = orbit->multipliers, *im = re + orbit->count;
-    double volume = 0, farthest = 0, modulus = 0, real = 0;
-    size_t outside = 0, near = 0, left_out = 0;
+    double volume = 0, farthest = 0, real = 0;
+    bool near = false;
     for (size_t i = 0; i < orbit->count; i++) {
         size_t nearer = 0;
         for (size_t k = 0; k < orbit->count; k++) { /* those nearest to 1 are those of the structure */
             const double one = hypot(re[k] - 1, im[k]), own = hypot(re[i] - 1, im[i]);
             nearer += one < own || (one == own && k < i);
         }
-        volume += log(hypot(re[i], im[i]));
+        const double modulus = hypot(re[i], im[i]);
+        volume += log(modulus);
         if (nearer < orbit->by_structure) {
-            left_out++;
             continue;
         }
-        modulus = hypot(re[i], im[i]);
         if (modulus > farthest) {
             farthest = modulus;
             real = fabs(im[i]) <= close ? re[i] : 0;
         }
-        outside += modulus > 1 + close;
-        near += fabs(modulus - 1) <= close && (im[i] == 0 || fabs(im[i]) <= close);
+        near = near || (fabs(modulus - 1) <= close && fabs(im[i]) <= close);
     }
-    const bool preserved = fabs(volume) <= close;
-    return left_out == orbit->count || (near > 0 && outside == 0) ? "parabolic"
-           : !preserved || (outside > 0 && real == 0)             ? (outside > 0            ? "unstable"
-                                                                     : farthest < 1 - close ? "stable"
-                                                                                            : "parabolic")
-           : outside == 0                                         ? "elliptic"
-           : real > 0                                             ? "hyperbolic"
-                                                                  : "inverse hyperbolic";
+    const bool preserved = fabs(volume) <= close, outside = farthest > 1 + close;
+    return orbit->count <= orbit->by_structure || (near && !outside) ? "parabolic"
+           : !preserved && !outside  ? farthest < 1 - close ? "stable" : "parabolic"
+           : !outside                ? "elliptic"
+           : !preserved || real == 0 ? "unstable"
+           : real > 0                ? "hyperbolic"
+                                     : "inverse hyperbolic";
 }

@@ -23,26 +23,25 @@ static double decay_at(const struct gm_problem *problem, const double *y, double
     return fastest;
 }
 
-struct gm_stiffness gm_stiffness_of(const struct gm_problem *problem, const double *y0, double until)
+bool gm_is_stiff(const struct gm_problem *problem, const double *y0, double until)
 {
     enum { POINTS = 4, PART = 100 };
     const size_t n = problem->n;
     const struct gm_settings settings = {0};
     const struct gm_scheme *scheme = gm_scheme_find("gsl-msbdf");
     const bool fits = problem->m == 1 && gm_matrix_size(problem) > 0 && gm_scheme_fits(scheme, problem);
-    struct gm_stiffness found = {0};
     double *matrix = fits ? calloc(n * n + 4 * n, sizeof *matrix) : NULL;
     struct gm_run *run =
         matrix && until > 0 ? gm_run_open(problem, scheme, &settings, 0, until / PART / POINTS, y0) : NULL;
     if (!run) {
         free(matrix);
-        return found;
+        return false;
     }
     double *sizes = matrix + n * n + 2 * n, *rates = sizes + n, scale = 0;
-    found.fast = decay_at(problem, y0, matrix);
+    double fast = decay_at(problem, y0, matrix), slow = 0;
     for (int i = 0; i < POINTS && gm_run_advance(run, 1) == GM_OK; i++) {
         const double *y = gm_run_state(run);
-        found.fast = fmax(found.fast, decay_at(problem, y, matrix));
+        fast = fmax(fast, decay_at(problem, y, matrix));
         for (size_t c = 0; c < n; c++) {
             scale = fmax(scale, fmax(fabs(y0[c]), fabs(y[c])));
             sizes[c] = i == 0 ? fabs(y[c]) : sizes[c];
@@ -52,10 +51,10 @@ struct gm_stiffness gm_stiffness_of(const struct gm_problem *problem, const doub
         }
     }
     for (size_t c = 0; c < n && scale > 0; c++) {
-        found.slow = fmax(found.slow, fabs(rates[c]) / (sizes[c] + scale));
+        slow = fmax(slow, fabs(rates[c]) / (sizes[c] + scale));
     }
-    found.is_stiff = run->status == GM_OK && found.fast > 1e3 * found.slow && found.fast * until > 1e4;
+    const bool stiff = run->status == GM_OK && fast > 1e3 * slow && fast * until > 1e4;
     gm_run_close(run);
     free(matrix);
-    return found;
+    return stiff;
 }

@@ -212,8 +212,9 @@ struct gm_tangent *gm_tangent_open(struct gm_run *run)
     return opening.tangent;
 }
 
-void gm_tangent_close(struct gm_tangent *tangent)
+void gm_tangent_close(void *data)
 {
+    struct gm_tangent *tangent = data;
     if (tangent) {
         gm_run_close(tangent->probe);
         gm_arena_close(tangent->arena);

@@ -18,7 +18,7 @@ struct gm_tangent;
    the scheme's word is not "none". Without a Jacobian, or with too large a one, differences are used. Returns
    NULL when out of memory. */
 struct gm_tangent *gm_tangent_open(struct gm_run *run);
-void gm_tangent_close(struct gm_tangent *tangent);
+void gm_tangent_close(void *tangent);
 
 /* Returns the length of a vector: the state and the scheme's memory. */
 size_t gm_tangent_size(const struct gm_tangent *tangent);

@@ -57,11 +57,6 @@ static gm_node_id declared(const struct naming *naming, bool *trusted)
                : GM_NO_NODE;
 }
 
-static void close_system(void *system)
-{
-    gm_system_close(system);
-}
-
 /* A system and its invariants; the last searches of the process are kept. */
 struct found {
     struct gm_arena *arena;
@@ -83,7 +78,7 @@ static void find(struct gm_arena *arena, void *data)
     const struct finding *finding = data;
     struct found *found = finding->found;
     found->system = gm_arena_take(arena, 1, sizeof *found->system);
-    gm_arena_keep(arena, found->system, close_system);
+    gm_arena_keep(arena, found->system, gm_system_close);
     gm_user_system_again(arena, finding->data->model->system, finding->data->values, false, found->system);
     gm_invariants_find(found->system, arena, DEGREE, &found->invariants);
 }

@@ -69,68 +69,63 @@ static void field_at(const struct gm_problem *problem, const double *look, doubl
 
 /* The parts of S. */
 struct saltation {
-    double *slopes, *before, *after,
-        *v;                        /* slopes of an event; f-, f+ and an error, of components and the time */
+    double *slopes;                /* of the event, malloc'ed with all else */
+    double *before, *after, *v;    /* f-, f+ and an error, of components and the time */
     double *along_rates, *along_v; /* slopes_along f- and the error */
-    double *memory;
+    double size;                   /* of the terms of the first of along_rates */
 };
 
-static bool open_saltation(const struct gm_problem *problem, size_t event, struct saltation *saltation)
+/* Takes the memory, and writes what follows from the state before an event. Returns false when out of memory. */
+static bool open_saltation(const struct gm_problem *problem, size_t event, const double *before,
+                           struct saltation *saltation)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
     const size_t width = problem->n + 1, rows = 1 + formulas->changed;
-    double *next = saltation->memory =
-        malloc((formulas->slopes.count + 3 * width + 2 * rows) * sizeof *saltation->memory);
-    saltation->slopes = next;
-    saltation->before = next ? next + formulas->slopes.count : NULL;
-    saltation->after = next ? saltation->before + width : NULL;
-    saltation->v = next ? saltation->after + width : NULL;
-    saltation->along_rates = next ? saltation->v + width : NULL;
-    saltation->along_v = next ? saltation->along_rates + rows : NULL;
-    return next != NULL;
+    saltation->slopes = malloc((formulas->slopes.count + 3 * width + 2 * rows) * sizeof *saltation->slopes);
+    if (!saltation->slopes) {
+        return false;
+    }
+    saltation->before = saltation->slopes + formulas->slopes.count;
+    saltation->after = saltation->before + width;
+    saltation->v = saltation->after + width;
+    saltation->along_rates = saltation->v + width;
+    saltation->along_v = saltation->along_rates + rows;
+    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation->slopes, 1);
+    field_at(problem, before, saltation->before);
+    slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
+                 &saltation->size);
+    return true;
 }
 
 static double rate(const struct gm_problem *problem, size_t event, const double *look)
 {
     struct saltation saltation;
-    double sum = NAN, size;
-    if (open_saltation(problem, event, &saltation)) {
-        gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], look, saltation.slopes, 1);
-        field_at(problem, look, saltation.before);
-        slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
-        sum = saltation.along_rates[0];
-    }
-    free(saltation.memory);
+    const double sum = open_saltation(problem, event, look, &saltation) ? saltation.along_rates[0] : NAN;
+    free(saltation.slopes);
     return sum;
 }
 
-/* to := S from, for an error, or with `of_state` for every tangent that the state holds. Returns false where the motion
-   only touches g = 0, or when out of memory. */
+/* to := S from, for every tangent that the state holds, or for an error if it holds none. Returns false where the
+   motion only touches g = 0, or when out of memory. */
 static bool carry_all(const struct gm_problem *problem, size_t event, const double *before,
-                      const double *after, const double *from, double *to, bool of_state)
+                      const double *after, const double *from, double *to)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
     const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
-    const size_t vectors = of_state ? system->tangents : 1,
-                 motion = of_state ? gm_system_motion(system) : system->n;
+    const size_t motion = gm_system_motion(system);
     struct saltation saltation;
-    double size;
-    if (!open_saltation(problem, event, &saltation)) {
+    if (!open_saltation(problem, event, before, &saltation)) {
         return false;
     }
-    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation.slopes, 1);
-    field_at(problem, before, saltation.before);
     field_at(problem, after, saltation.after);
-    slopes_along(problem, event, saltation.slopes, saltation.before, saltation.along_rates, &size);
-    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * size;
-    for (size_t k = 1; k <= vectors && passes; k++) {
+    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * saltation.size;
+    for (size_t k = system->tangents > 0; k <= system->tangents && passes; k++) {
         double *v = saltation.v, unused;
         memset(v, 0, (problem->n + 1) * sizeof *v);
         for (size_t c = 0; c < motion; c++) {
-            const size_t place = of_state ? gm_system_component(system, c, k) : c;
-            v[of_state ? gm_system_component(system, c, 0) : c] = from[place];
+            v[gm_system_component(system, c, 0)] = from[gm_system_component(system, c, k)];
         }
-        v[system->n] = !of_state && problem->n > system->n ? from[system->n] : 0;
+        v[system->n] = k == 0 && problem->n > system->n ? from[system->n] : 0;
         slopes_along(problem, event, saltation.slopes, v, saltation.along_v, &unused);
         const double late = saltation.along_v[0] / saltation.along_rates[0];
         for (size_t c = 0, row = 0; c < system->n; c++) {
@@ -140,11 +135,10 @@ static bool carry_all(const struct gm_problem *problem, size_t event, const doub
                            : v[c] + (saltation.after[c] - saltation.before[c]) * late;
         }
         for (size_t c = 0; c < motion; c++) {
-            const size_t place = of_state ? gm_system_component(system, c, k) : c;
-            to[place] = v[of_state ? gm_system_component(system, c, 0) : c];
+            to[gm_system_component(system, c, k)] = v[gm_system_component(system, c, 0)];
         }
     }
-    free(saltation.memory);
+    free(saltation.slopes);
     return passes;
 }
 
@@ -152,7 +146,7 @@ static bool carry(const struct gm_problem *problem, size_t event, const double *
                   double *v)
 {
     return gm_user_data_of(problem)->model->system->tangents == 0 &&
-           carry_all(problem, event, before, after, v, v, false);
+           carry_all(problem, event, before, after, v, v);
 }
 
 /* Tangents among the components are carried; NaN where the motion only touches g = 0. */
@@ -166,17 +160,11 @@ static void change(const struct gm_problem *problem, size_t event, const double 
         y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
     }
     free(outcome);
-    double *after = system->tangents > 0 ? malloc((problem->n + 1) * sizeof *after) : NULL;
-    if (after) {
-        memcpy(after, y, problem->n * sizeof *y);
-        after[problem->n] = look[problem->n];
-    }
-    if (system->tangents > 0 && !(after && carry_all(problem, event, look, after, look, y, true))) {
+    if (system->tangents > 0 && !carry_all(problem, event, look, y, look, y)) {
         for (size_t c = 0; c < gm_system_motion(system); c++) {
             y[gm_system_component(system, c, 1)] = NAN;
         }
     }
-    free(after);
 }
 
 static void conserved(const struct gm_problem *problem, const double *look, double *quantities)

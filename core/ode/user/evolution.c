@@ -163,8 +163,9 @@ bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_use
                         &(struct deriving){.evolution = evolution, .system = system});
 }
 
-void gm_user_evolution_close(struct gm_user_evolution *evolution)
+void gm_user_evolution_close(void *data)
 {
+    struct gm_user_evolution *evolution = data;
     gm_arena_close(evolution->arena);
     evolution->arena = NULL;
 }

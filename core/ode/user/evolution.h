@@ -31,7 +31,7 @@ struct gm_user_evolution {
 /* Derives the formulas; the graph grows. Returns false when out of memory. The caller closes in both cases.
    */
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system);
-void gm_user_evolution_close(struct gm_user_evolution *evolution);
+void gm_user_evolution_close(void *evolution);
 
 /* Opens the problem with these values of all variables (gm_equations_start) on this ring. Returns false when
    out of memory. The caller closes in both cases. */

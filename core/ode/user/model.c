@@ -277,8 +277,9 @@ const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *mode
     return &model->rates[i > 1 ? i - 1 : 0];
 }
 
-void gm_user_model_close(struct gm_user_model *model)
+void gm_user_model_close(void *data)
 {
+    struct gm_user_model *model = data;
     gm_arena_close(model->arena);
     *model = (struct gm_user_model){0};
 }

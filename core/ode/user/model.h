@@ -8,7 +8,7 @@
 /* Opens the model; the system outlives it, and its graph grows. Returns false when out of memory. The caller
    closes it in both cases. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
-void gm_user_model_close(struct gm_user_model *model);
+void gm_user_model_close(void *model);
 
 /* Reads a system again with these values of its parameters, or its motion without tangents; inside a body of the
    arena, which is left when out of memory. The caller closes it in all cases. */

@@ -230,7 +230,7 @@ static void write(struct polishing *polishing, const struct gm_written_scheme *w
         fprintf(stream, "%sclaims:%s", is_word ? "; " : "\n", polishing->polish->claims ? "" : " none");
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
             if (polishing->polish->claims >> bit & 1) {
-                fprintf(stream, " %s", gm_claim_key(bit));
+                fprintf(stream, " %s", gm_claims[bit].key);
             }
         }
     }

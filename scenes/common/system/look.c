@@ -7,25 +7,16 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
-#include "scenes/common/trails.h"
-
-/* The bright end of a path is this part of the whole run. */
-static const double bright = 0.15;
 
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
 {
     return ((const struct gm_system_lane *)view->parameters)->owner;
 }
 
-const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane)
+const struct gm_system_measure *gm_system_measure_of(const struct gm_view *view)
 {
-    const struct gm_user_system *system = &lane->owner->system;
-    size_t i = 0;
-    while (i < system->item_count &&
-           strcmp(gm_system_option_text(&system->items[i], GM_OPTION_SHOW, ""), lane->show) != 0) {
-        i++;
-    }
-    return i < system->item_count ? &system->items[i] : NULL;
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    return &system_scene->measures[view->observable - system_scene->observables];
 }
 
 size_t gm_system_centre(const struct gm_view *view)
@@ -36,24 +27,6 @@ size_t gm_system_centre(const struct gm_view *view)
 size_t gm_sight_numbers(const struct gm_sight *sight)
 {
     return sight->dimensions * (sight->bodies + 2 * sight->rods);
-}
-
-size_t gm_system_bright_from(const struct gm_lane *lane)
-{
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST];
-    const struct gm_timing *timing = lane->parameters;
-    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
-    size_t first = past->count;
-    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
-        first--;
-    }
-    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
-}
-
-size_t gm_system_trail_from(const struct gm_lane *lane, size_t track)
-{
-    const struct gm_system_lane *parameters = lane->parameters;
-    return gm_trails_from(parameters->trails, &lane->entries[track], lane->run->t);
 }
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
@@ -75,13 +48,6 @@ const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
     const struct gm_sight *sight = &system_scene->sights[i < system_scene->sight_count ? i : 0];
     const bool is_plane = sight->over_time || (sight->components[0] == 0 && sight->components[1] == 1);
     return lane->portrait && !is_plane ? &system_scene->sights[system_scene->sight_count - 1] : sight;
-}
-
-const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start)
-{
-    return view->state +
-           gm_system_component(&gm_system_scene_of(view)->system, component > 0, start > 0 ? 2 : 1) *
-               view->problem->m;
 }
 
 /* Writes the exact solution at the current time, from the file, or from the problem. */
@@ -166,6 +132,12 @@ static void fill(double *row, double value, size_t count)
     }
 }
 
+/* Other states of one member, each with its time: component c of the k-th is states[c * count + k]. */
+struct states {
+    const double *states, *times;
+    size_t count, member;
+};
+
 /* The exact solution of `count` states beside each other, whose other variables are set. */
 static void put_all_exact(const struct gm_view *view, double *variables, size_t count)
 {
@@ -185,8 +157,9 @@ static void put_all_exact(const struct gm_view *view, double *variables, size_t 
     free(one);
 }
 
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
-                         const struct gm_states *states, double *values)
+/* Writes the values of a tape for these states: output i of the k-th is values[i * count + k]. */
+static void values_of(const struct gm_tape *tape, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     const struct gm_system_lane *lane = view->parameters;
     const struct gm_user_system *system = &lane->owner->system;
@@ -214,8 +187,8 @@ void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
 }
 
 /* Writes the values of a curve. When out of memory they are NaN. */
-static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
-                      const struct gm_states *states, double *values)
+static void put_curve(const struct gm_curve *curve, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     const size_t n = gm_system_scene_of(view)->system.n, all = view->problem->n, count = states->count;
     if (!curve->tape && curve->number < n) {
@@ -227,7 +200,7 @@ static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
     if (!numbers) {
         fill(values, NAN, count);
     } else if (curve->tape) {
-        gm_system_values_of(curve->tape, view, states, numbers);
+        values_of(curve->tape, view, states, numbers);
         for (size_t k = 0; k < count; k++) {
             values[k] = rows == 1 || numbers[count + k] > 0 ? numbers[k] : NAN;
         }
@@ -242,12 +215,12 @@ static void put_curve(const struct gm_curve *curve, const struct gm_view *view,
     free(numbers);
 }
 
-/* Writes the numbers of a sight for these states, as gm_system_values_of. */
-static void put_sight(const struct gm_sight *sight, const struct gm_view *view,
-                      const struct gm_states *states, double *values)
+/* Writes the numbers of a sight for these states, as values_of. */
+static void put_sight(const struct gm_sight *sight, const struct gm_view *view, const struct states *states,
+                      double *values)
 {
     if (!sight->curves) {
-        gm_system_values_of(&sight->tape, view, states, values);
+        values_of(&sight->tape, view, states, values);
         return;
     }
     for (size_t i = 0; i < sight->bodies; i++, values += 2 * states->count) {
@@ -264,7 +237,7 @@ void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, s
         state[c] = view->state[c * m + member];
     }
     if (state) {
-        put_sight(sight, view, &(struct gm_states){state, &view->t, 1, member}, values);
+        put_sight(sight, view, &(struct states){state, &view->t, 1, member}, values);
     } else if (sight->curves) {
         fill(values, NAN, gm_sight_numbers(sight));
     } else {
@@ -303,7 +276,7 @@ struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *
             states[i] = entries->values[(first + i % count) * entries->width + shown * n + i / count];
         }
         double *values = states + n * count;
-        put_sight(sight, &view, &(struct gm_states){states, entries->times + first, count, member}, values);
+        put_sight(sight, &view, &(struct states){states, entries->times + first, count, member}, values);
         for (size_t i = 0; i < width * count; i++) {
             points[first * width + i] = values[i % width * count + i / width];
         }

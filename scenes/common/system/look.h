@@ -60,12 +60,34 @@ enum { GM_SHOW_ALL, GM_SHOW_SECTION };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_MEMBERS, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
 enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_SURFACES = 8, GM_MOST_OVER_TIME = 8 };
 
-struct gm_hook; /* scenes/common/system/hook.h */
+struct gm_hook;         /* scenes/common/system/hook.h */
+struct gm_system_maker; /* scenes/common/system/variants.h */
+
+/* The source of a system. */
+struct gm_system_origin {
+    const char *name;         /* of the scene */
+    const char *const *words; /* NULL-terminated (struct gm_scene); NULL: it is a scene of the program */
+    const char *path;         /* of its file; NULL: none */
+    bool typed;               /* its values were given with its formula, so none is a default */
+    /* A wave equation is on a moving mesh; an equation that is recognised by its rates has the state of the schemes for
+       it. */
+    bool elsewhere;
+};
+
+/* The source of an observable's values. */
+struct gm_system_measure {
+    struct gm_tape *formula; /* NULL: a function of its own */
+    struct gm_tape *terms;   /* of an error: the sum of the magnitudes of its terms; else NULL */
+    size_t booked;           /* 1 + the number of the quantity whose jumps at events count; else 0 */
+    size_t what, index;      /* of forms: enum gm_form_subject, and the number of such a subject */
+};
 
 /* The data that follows from a system once. */
 struct gm_system_scene {
     struct gm_scene scene;
     struct gm_arena *arena; /* holds all of this, and the system */
+    const struct gm_system_maker *maker;
+    struct gm_system_origin origin;
     struct gm_user_system system;
     struct gm_user_model model;
     const struct gm_hook *hook;           /* NULL: the file names none */
@@ -75,10 +97,7 @@ struct gm_system_scene {
     struct gm_system_scene *first, *next; /* systems of one file (variants.h); NULL: it is alone */
     const char **lacks; /* for each row: why this system lacks it, or NULL; NULL: it is alone */
     struct gm_observable *observables;
-    struct gm_tape **formulas; /* for each observable; NULL: a function of its own */
-    struct gm_tape **terms;    /* for each error: the sum of the magnitudes of its terms; else NULL */
-    size_t
-        *booked; /* for each observable 1 + the number of the quantity whose jumps at events count; else 0 */
+    struct gm_system_measure *measures; /* for each observable */
     size_t observable_count;
     struct gm_track tracks[GM_SYSTEM_TRACKS];
     struct gm_sight *sights; /* the first is the one of show=all; the last pair_count are planes */
@@ -139,8 +158,9 @@ bool gm_system_is_parameter(const struct gm_system_scene *system_scene, size_t r
 /* Puts a lane's parameters among the values of all variables. */
 void gm_system_put_parameters(const struct gm_system_lane *lane, double *variables);
 
-/* Returns the scene of a view. */
+/* Returns the scene of a view, and the source of the observable that it evaluates. */
 const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
+const struct gm_system_measure *gm_system_measure_of(const struct gm_view *view);
 
 /* Returns the number of common rows that a scene lacks: the rows of members, which its hook places. */
 static inline size_t gm_system_skipped(const struct gm_system_scene *system_scene)
@@ -148,29 +168,14 @@ static inline size_t gm_system_skipped(const struct gm_system_scene *system_scen
     return system_scene->hook ? GM_ROW_SHOW : 0;
 }
 
-/* Returns the line whose picture the lane's show= names alone; NULL: it names none. */
-const struct gm_system_item *gm_system_alone(const struct gm_system_lane *lane);
-
 /* Returns the number of the observed member. */
 size_t gm_system_centre(const struct gm_view *view);
-
-/* Returns the members' derivatives of a component over the start of another one, by the tangents that a plane's
-   members carry. */
-const double *gm_system_tangent(const struct gm_view *view, size_t component, size_t start);
 
 /* Writes the values of all variables for one member of a view's state; velocities are NaN, and so is the
    exact solution, if it is not requested or not known. */
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
 /* Writes the values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
-/* Other states of one member, each with its time: component c of the k-th is states[c * count + k]. */
-struct gm_states {
-    const double *states, *times;
-    size_t count, member;
-};
-/* Writes the values of a tape for these states: output i of the k-th is values[i * count + k]. */
-void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view,
-                         const struct gm_states *states, double *values);
 /* Writes the numbers of a sight for one member of a view's state. */
 void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values);
 /* The numbers of a sight's bodies in every entry of a track: `width` per entry. */
@@ -194,10 +199,6 @@ size_t gm_system_followed(const struct gm_view *view);
 size_t gm_system_followed_member(const struct gm_view *view, size_t shown);
 /* Returns the count of numbers that a sight has for a state. */
 size_t gm_sight_numbers(const struct gm_sight *sight);
-/* Returns the first entry of the past where the path is bright: a part of the whole run. */
-size_t gm_system_bright_from(const struct gm_lane *lane);
-/* Returns the first entry of a track that trails= lets be drawn. */
-size_t gm_system_trail_from(const struct gm_lane *lane, size_t track);
 /* Returns the sight that a lane shows. One without bodies and rods is completed by gm_system_curves. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/model/equations.h"
 
@@ -46,44 +47,6 @@ double gm_system_half_length(const struct gm_system_lane *lane)
     return half;
 }
 
-static void close_system(void *thing)
-{
-    gm_system_close(&((struct gm_system_scene *)thing)->system);
-}
-
-void *gm_system_scene_take(struct gm_arena *arena, struct gm_user_system *system, size_t size)
-{
-    /* a block of its own: a pointer to it makes all that the arena has reachable for checks of leaks */
-    struct gm_system_scene *system_scene = gm_arena_keep(arena, calloc(1, size), free);
-    system_scene->arena = arena;
-    system_scene->system = *system;
-    *system = (struct gm_user_system){0};
-    return gm_arena_keep(arena, system_scene, close_system);
-}
-
-bool gm_system_scene_make(void (*body)(struct gm_arena *arena, void *making), void *making,
-                          struct gm_user_system *system, char *sentence)
-{
-    struct gm_arena *arena = gm_arena_open();
-    if (gm_arena_run(arena, body, making)) {
-        return true;
-    }
-    gm_system_close(system);
-    gm_refuse(sentence, "%s", gm_arena_reason(arena));
-    gm_arena_close(arena);
-    return false;
-}
-
-void gm_system_scene_close(const struct gm_scene *scene)
-{
-    const struct gm_system_scene *system_scene =
-        (const struct gm_system_scene *)scene; /* the scene is its first member */
-    if (system_scene->next) {
-        gm_system_scene_close(&system_scene->next->scene);
-    }
-    gm_arena_close(system_scene->arena);
-}
-
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count)
 {
@@ -91,4 +54,83 @@ void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *t
     const double *unused = gm_arena_take(system_scene->arena, inputs, sizeof *unused);
     gm_tape_keep(system_scene->arena, tape,
                  gm_tape_open(tape, &system_scene->system.graph, nodes, count, inputs, unused));
+}
+
+struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const gm_node_id *nodes,
+                                    size_t count)
+{
+    struct gm_tape *tape = gm_arena_take(system_scene->arena, 1, sizeof *tape);
+    gm_system_open_tape(system_scene, tape, nodes, count);
+    return tape;
+}
+
+void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most)
+{
+    system_scene->observables = gm_arena_take(system_scene->arena, most, sizeof *system_scene->observables);
+    system_scene->measures = gm_arena_take(system_scene->arena, most, sizeof *system_scene->measures);
+    system_scene->scene.observables = system_scene->observables;
+}
+
+/* ---- keys ---- */
+
+void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
+                         const struct gm_parameter *common, size_t count, bool typed)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters,
+                 starts = gm_system_is_field(system) || gm_system_is_form(system) ? 0 : n;
+    const size_t choices = system->choices.count, most = GM_SYSTEM_ROWS + choices + parameters + starts;
+    struct gm_arena *arena = system_scene->arena;
+    system_scene->rows = gm_arena_take(arena, most + count, sizeof *system_scene->rows);
+    system_scene->variables = gm_arena_take(arena, most, sizeof *system_scene->variables);
+    system_scene->initial =
+        gm_arena_take(arena, 1, sizeof *system_scene->initial + most * (sizeof(double) + 1));
+    const double *start = gm_arena_keep(arena, gm_equations_start(system, NULL), free);
+    for (size_t i = 0; i < choices; i++) {
+        system_scene->variables[GM_SYSTEM_ROWS + i] = GM_NO_VARIABLE;
+        system_scene->rows[GM_SYSTEM_ROWS + i] = gm_written_choice(
+            arena, system, i, "", offsetof(struct gm_system_lane, values) + i * sizeof(double));
+    }
+    size_t row = GM_SYSTEM_ROWS + choices;
+    for (size_t i = 0; i < parameters + starts; i++) {
+        const bool is_start = i >= parameters;
+        size_t number = is_start ? i - parameters : system->parameters + i;
+        if (is_start && system->variables[number].start == GM_NO_NODE) {
+            number = system->velocities + number - half; /* it is the velocity that the file gives */
+        }
+        const struct gm_system_variable *variable = &system->variables[number];
+        if (variable->derived) {
+            continue;
+        }
+        system_scene->variables[row] = number;
+        system_scene->rows[row] =
+            gm_written_row(arena, variable, start[number], is_start ? "where it starts" : "a parameter",
+                           offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row++].required = typed;
+    }
+    system_scene->row_count = row;
+    system_scene->common = system_scene->rows + row;
+    system_scene->common_count = count;
+    memcpy(system_scene->rows, timing, GM_SYSTEM_ROWS * sizeof *timing);
+    memcpy(system_scene->common, common, count * sizeof *common);
+    system_scene->initial->owner = system_scene;
+}
+
+void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES])
+{
+    struct gm_arena *arena = system_scene->arena;
+    const double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
+    for (size_t i = 0; i < GM_SYSTEM_TIMES; i++) {
+        const struct gm_system_item *item =
+            gm_system_item_of(&system_scene->system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
+        numbers[i] = NAN;
+        if (item) {
+            gm_system_open_tape(system_scene, &system_scene->timing[i], item->nodes, 1);
+            gm_tape_values(&system_scene->timing[i], values, &numbers[i], 1);
+        }
+    }
+    const double steps = numbers[GM_SYSTEM_TIMES - 1];
+    if (steps < 0 || (isfinite(steps) && steps != floor(steps))) {
+        gm_arena_refuse(arena, "steps: %.10g is not a whole number", steps);
+    }
 }

@@ -16,19 +16,28 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 /* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
 double gm_system_half_length(const struct gm_system_lane *lane);
 
-/* Takes the memory of a scene, of `size` bytes, which begins with a struct gm_system_scene, and the system itself. Both live
-   as long as the arena. */
-void *gm_system_scene_take(struct gm_arena *arena, struct gm_user_system *system, size_t size);
-/* Calls the body that makes a scene of a system, with an arena that is the scene's. On failure closes the
-   system, and returns false with a sentence. */
-bool gm_system_scene_make(void (*body)(struct gm_arena *arena, void *making), void *making,
-                          struct gm_user_system *system, char *sentence);
-/* Closes the scene, and the other systems of its file. */
-void gm_system_scene_close(const struct gm_scene *scene);
+/* Takes the tables of at most that many observables, which are those of the scene; in a body of its arena. */
+void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most);
 
 /* Opens a tape whose inputs are all variables, so that lanes with different parameters share it. It lives as
    long as the scene. In a body of the scene's arena. */
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
                          size_t count);
+/* The same with a tape that it takes. */
+struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const gm_node_id *nodes,
+                                    size_t count);
+
+/* Makes the rows: `timing`, which are dt and until, then the system's own, then `count` common ones. If
+   `typed`, the values of the system's own have no defaults. */
+void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
+                         const struct gm_parameter *common, size_t count, bool typed);
+/* Opens the formulas of dt, until and steps, and sets their values, NaN without a line. */
+void gm_system_open_timing(struct gm_system_scene *system_scene, double numbers[GM_SYSTEM_TIMES]);
+
+/* Makes figures, work and stability of a scene that has rows, observables and schemes. `radian` is 1 / the
+   largest frequency at the start, the unit of steps unless the file names another; NULL: a field, which has a
+   map of stability if its file does, and whose work is set. */
+void gm_system_make_studies(struct gm_system_scene *system_scene, const struct gm_problem *problem,
+                            double (*radian)(const void *parameters));
 
 #endif

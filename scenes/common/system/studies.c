@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies of a system: lines work: and stability:, or default ones. */
-#include "scenes/common/system/studies.h"
+#include "scenes/common/system/pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,6 @@
 
 #include "core/model/scope.h"
 #include "core/schemes.h"
-#include "scenes/common/system/pieces.h"
 
 /* Refuses an option unless it names an observable. */
 static void check_observable(const struct gm_system_scene *system_scene, const struct gm_system_item *item,

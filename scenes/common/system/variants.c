@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The systems of one file, and the rows that their tables have in common. */
+/* The systems of one file, the rows that their tables have in common, and the values of a lane of one of them. */
 #include "scenes/common/system/variants.h"
 
 #include <math.h>
@@ -10,6 +10,7 @@
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "scenes/common/system/pieces.h"
+#include "scenes/common/system/texts.h"
 
 /* Guards the list of a scene's systems, which grows while lanes are opened. */
 static pthread_mutex_t listing = PTHREAD_MUTEX_INITIALIZER;
@@ -76,7 +77,7 @@ static double nothing(const struct gm_view *view)
     return NAN;
 }
 
-/* Gives a system the rows, and moves its values and formulas to them. */
+/* Gives a system the rows, and moves its values and measures to them. */
 static void take(struct gm_arena *arena, struct gm_system_scene *own, const struct tables *tables)
 {
     const size_t rows = tables->row_count, count = tables->observable_count,
@@ -87,8 +88,7 @@ static void take(struct gm_arena *arena, struct gm_system_scene *own, const stru
     own->variables = gm_arena_take(arena, rows, sizeof *own->variables);
     own->initial = gm_arena_take(arena, 1, size);
     own->observables = gm_arena_take(arena, count + 1, sizeof *own->observables);
-    own->formulas = gm_arena_take(arena, count + 1, sizeof *own->formulas);
-    own->terms = gm_arena_take(arena, count + 1, sizeof *own->terms);
+    own->measures = gm_arena_take(arena, count + 1, sizeof *own->measures);
     own->lacks = gm_arena_take(arena, rows, sizeof *own->lacks);
     for (size_t row = 0; row < rows; row++) {
         const struct gm_parameter *to = &tables->rows[row];
@@ -104,8 +104,7 @@ static void take(struct gm_arena *arena, struct gm_system_scene *own, const stru
         const size_t from = find(before.observables, sizeof *row, before.observable_count, row->key);
         if (from < before.observable_count) {
             own->observables[i] = before.observables[from];
-            own->formulas[i] = before.formulas[from];
-            own->terms[i] = before.terms[from];
+            own->measures[i] = before.measures[from];
         } else {
             own->observables[i] = (struct gm_observable){.key = row->key,
                                                          .title = row->title,
@@ -204,6 +203,79 @@ static void explain(struct gm_arena *arena, struct gm_system_scene *own)
     }
 }
 
+/* ---- one system ---- */
+
+static void close_problem(void *thing)
+{
+    struct gm_system_making *making = thing;
+    making->scene->scene.close(&making->problem);
+}
+
+void gm_system_open_problem(struct gm_system_making *making)
+{
+    char sentence[GM_MESSAGE];
+    struct gm_system_scene *system_scene = making->scene;
+    gm_arena_check(system_scene->arena,
+                   system_scene->scene.setup(system_scene->initial, &making->problem, sentence), sentence);
+    gm_arena_keep(system_scene->arena, making, close_problem);
+}
+
+struct taking {
+    struct gm_user_system *system;
+    const struct gm_system_maker *maker;
+    const struct gm_system_origin *origin;
+    struct gm_system_making making;
+};
+
+static void make(struct gm_arena *arena, void *data)
+{
+    struct taking *taking = data;
+    /* a block of its own: a pointer to it makes all that the arena has reachable for checks of leaks */
+    struct gm_system_scene *system_scene = gm_arena_keep(arena, calloc(1, taking->maker->size), free);
+    taking->making.scene = system_scene;
+    system_scene->arena = arena;
+    system_scene->maker = taking->maker;
+    system_scene->origin = *taking->origin;
+    if (taking->origin->path) {
+        system_scene->origin.path = gm_arena_print(arena, "%s", taking->origin->path);
+    }
+    system_scene->system = *taking->system;
+    *taking->system = (struct gm_user_system){0};
+    gm_arena_keep(arena, &system_scene->system, gm_system_close);
+    taking->maker->make(&taking->making);
+    gm_arena_drop(arena, &taking->making);
+}
+
+/* Makes the scene of a system, which it takes; NULL with a sentence, and possibly a fault. */
+static struct gm_system_scene *open_one(struct gm_user_system *system, const struct gm_system_maker *maker,
+                                        const struct gm_system_origin *origin,
+                                        struct gm_system_opening *opening)
+{
+    struct gm_arena *arena = gm_arena_open();
+    struct taking taking = {system, maker, origin, {.fault = opening->fault}};
+    const bool made = gm_arena_run(arena, make, &taking);
+    opening->unread = taking.making.unread;
+    if (made) {
+        return taking.making.scene;
+    }
+    gm_system_close(system);
+    gm_refuse(opening->sentence, "%s", gm_arena_reason(arena));
+    gm_arena_close(arena);
+    return NULL;
+}
+
+void gm_system_scene_close(const struct gm_scene *scene)
+{
+    const struct gm_system_scene *system_scene =
+        (const struct gm_system_scene *)scene; /* the scene is its first member */
+    if (system_scene->next) {
+        gm_system_scene_close(&system_scene->next->scene);
+    }
+    gm_arena_close(system_scene->arena);
+}
+
+/* ---- several ---- */
+
 /* Opens the system of the text of `first` with other values, and adds it to its list. */
 static struct gm_system_scene *open_other(struct gm_system_scene *first, const struct gm_system_value *values,
                                           size_t count, const struct gm_system_opening *opening)
@@ -219,7 +291,12 @@ static struct gm_system_scene *open_other(struct gm_system_scene *first, const s
         gm_refuse(opening->sentence, "choice: %s=%s is %s, and other words are %s", last->name, last->text,
                   field ? "another equation" : "a field", field ? "of one kind" : "none");
     } else {
-        struct gm_system_scene *made = opening->open(&system, first, opening->sentence);
+        struct gm_fault unplaced = {0};
+        struct gm_system_origin origin = first->origin;
+        origin.typed = false;
+        struct gm_system_scene *made =
+            open_one(&system, first->maker, &origin,
+                     &(struct gm_system_opening){.fault = &unplaced, .sentence = opening->sentence});
         if (made) {
             made->next = first->next;
             first->next = made;
@@ -336,15 +413,20 @@ static void unite(struct gm_arena *arena, void *data)
     }
 }
 
-const struct gm_scene *gm_system_unite(struct gm_system_scene *first, const struct gm_system_opening *opening)
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struct gm_system_origin origin,
+                                            struct gm_system_opening *opening)
 {
+    const struct gm_system_maker *maker = gm_system_is_form(system)    ? &gm_system_forms
+                                          : gm_system_is_field(system) ? &gm_system_fields
+                                                                       : &gm_system_motions;
+    const bool alone = !maker->rebuilt && system->choices.count == 0;
+    *opening->fault = (struct gm_fault){0};
+    struct gm_system_scene *first = open_one(system, maker, &origin, opening);
     const unsigned long refusals = gm_memory_refusals();
     if (!first) {
         return NULL;
     }
-    const bool united = !opening->open || gm_arena_run(first->arena, unite,
-                                                       &(struct uniting){.first = first, .opening = opening});
-    if (!united) {
+    if (!alone && !gm_arena_run(first->arena, unite, &(struct uniting){.first = first, .opening = opening})) {
         gm_refuse(opening->sentence, "%s", gm_arena_reason(first->arena));
     } else if (gm_memory_refusals() != refusals) {
         gm_refuse(opening->sentence, "not enough memory");
@@ -423,10 +505,11 @@ static struct gm_system_scene *add_variant(struct gm_system_scene *first, const 
     return NULL;
 }
 
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence)
+/* Gives a lane the system of its values. False with a sentence on failure. */
+static bool choose(struct gm_system_lane *lane, char *sentence)
 {
     struct gm_fault fault = {0};
-    const struct gm_system_opening opening = {open, &fault, sentence};
+    const struct gm_system_opening opening = {.fault = &fault, .sentence = sentence};
     struct gm_system_scene *first = lane->owner->first, *other = first;
     if (!first) {
         return true;
@@ -439,4 +522,141 @@ bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *
     pthread_mutex_unlock(&listing);
     lane->owner = other ? other : lane->owner;
     return other != NULL;
+}
+
+/* ---- the values of a lane ---- */
+
+enum { DT, UNTIL };
+
+/* Returns the bytes after the values: 1 if the row was given. */
+static char *given_of(struct gm_system_lane *lane)
+{
+    return (char *)(lane->values + (lane->owner->row_count - GM_SYSTEM_ROWS));
+}
+
+struct settling {
+    struct gm_system_lane *lane;
+    const char *const *keys;
+    size_t count;
+};
+
+static void check_range(struct gm_arena *arena, const struct gm_parameter *row, double value)
+{
+    gm_arena_refuse_if(arena, !(value >= row->lowest && value <= row->highest),
+                       "%s is %g with these values, and lies between %g and %g", row->key, value, row->lowest,
+                       row->highest);
+}
+
+/* Derives the values that were not given. */
+static void settle(struct gm_arena *arena, void *data)
+{
+    const struct settling *settling = data;
+    struct gm_system_lane *lane = settling->lane;
+    const struct gm_system_scene *system_scene = lane->owner;
+    char *given = given_of(lane), sentence[GM_MESSAGE];
+    bool by_steps = false;
+    for (size_t i = 0; i < settling->count; i++) {
+        const char *key = settling->keys[i];
+        lane->grid.points_given |= strcmp(key, "points") == 0;
+        by_steps |= strcmp(key, "steps") == 0;
+        for (size_t row = 0; row < system_scene->row_count; row++) {
+            given[row] |= strcmp(key, system_scene->rows[row].key) == 0;
+        }
+    }
+    double *values = gm_arena_keep(arena, gm_system_start_values(lane, given), free);
+    gm_arena_check(arena, gm_system_is_admitted(lane, values, sentence), sentence);
+    for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count; row++) {
+        if (system_scene->variables[row] == GM_NO_VARIABLE) {
+            continue;
+        }
+        const double value = lane->values[row - GM_SYSTEM_ROWS] = values[system_scene->variables[row]];
+        gm_arena_refuse_if(arena, !isfinite(value), "%s is not finite with these values",
+                           system_scene->rows[row].key);
+        check_range(arena, &system_scene->rows[row], value);
+    }
+    if (gm_system_is_field(&system_scene->system) && gm_system_points_follow(&system_scene->system)) {
+        double *points = &values[system_scene->system.velocities - 1];
+        *points = round(*points);
+        check_range(arena, gm_scene_parameter(&system_scene->scene, "points"), *points);
+        lane->grid.points = (long)*points;
+    }
+    for (size_t i = 0; i < GM_COUNT(system_scene->timing); i++) {
+        double number = NAN;
+        const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
+        if (gm_system_item_of(&system_scene->system, word, 0)) {
+            gm_tape_values(&system_scene->timing[i], values, &number, 1);
+        }
+        if (word == GM_WORD_DT && !given[DT] && number > 0) {
+            lane->timing.dt = number;
+        } else if (word == GM_WORD_UNTIL && !given[UNTIL] && number >= 0) {
+            lane->timing.until = number;
+        } else if (word == GM_WORD_STEPS && !given[UNTIL] && !by_steps && number >= 0) {
+            lane->timing.until = number * lane->timing.dt;
+        }
+    }
+    const struct gm_system_item *line = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
+    for (size_t row = GM_SYSTEM_ROWS; line && row < system_scene->row_count; row++) {
+        if (system_scene->variables[row] == line->variable) {
+            const char *key = system_scene->rows[row].key;
+            double unit, *value = &lane->values[row - GM_SYSTEM_ROWS];
+            gm_tape_values(&system_scene->of_items[line - system_scene->system.items], values, &unit, 1);
+            const double follows = *value * unit, dt = lane->timing.dt;
+            const bool by_step = gm_is_given("dt", settling->keys, settling->count);
+            gm_arena_refuse_if(arena,
+                               by_step && gm_is_given(key, settling->keys, settling->count) &&
+                                   !(fabs(follows - dt) <= 1e-9 * follows),
+                               "dt= and %s= are both given; one of them follows from the other", key);
+            *value = by_step ? dt / unit : *value;
+            lane->timing.dt = by_step ? dt : follows;
+        }
+    }
+}
+
+static bool settle_lane(void *parameters, const char *const *keys, size_t count, char *sentence)
+{
+    struct settling settling = {parameters, keys, count};
+    struct gm_arena *arena = gm_arena_open();
+    const bool settled = choose(parameters, sentence) && (gm_arena_run(arena, settle, &settling) ||
+                                                          gm_refuse(sentence, "%s", gm_arena_reason(arena)));
+    gm_arena_close(arena);
+    return settled;
+}
+
+static const struct gm_scene *variant_of(const void *parameters)
+{
+    return &((const struct gm_system_lane *)parameters)->owner->scene;
+}
+
+const char *gm_system_idle(const void *parameters, const char *key)
+{
+    const struct gm_system_scene *owner = ((const struct gm_system_lane *)parameters)->owner;
+    for (size_t row = GM_SYSTEM_ROWS; row < owner->row_count; row++) {
+        const struct gm_parameter *at = &owner->rows[row];
+        if (strcmp(at->key, key) == 0 && at->type != GM_CHOICE && owner->variables[row] == GM_NO_VARIABLE) {
+            return owner->lacks[row];
+        }
+    }
+    return NULL;
+}
+
+void gm_system_describe(struct gm_system_scene *system_scene, struct gm_scene scene)
+{
+    const struct gm_system_origin *origin = &system_scene->origin;
+    const struct gm_user_system *system = &system_scene->system;
+    char *const *texts = system->texts;
+    scene.name = origin->name;
+    scene.title = gm_system_title(system) ? gm_system_title(system) : scene.title;
+    scene.blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : scene.blurb;
+    scene.watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "";
+    scene.time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : scene.time;
+    scene.size = sizeof *system_scene->initial + system_scene->row_count * (sizeof(double) + 1);
+    scene.initial = system_scene->initial;
+    scene.words = origin->words;
+    scene.source = scene.text = origin->words ? system->source : NULL;
+    scene.mark = origin->words ? gm_written_mark(system_scene->arena, origin->name, system->source) : NULL;
+    scene.parameters = system_scene->rows;
+    scene.parameter_count = system_scene->row_count + system_scene->common_count;
+    scene.variant = variant_of;
+    scene.settle = settle_lane;
+    system_scene->scene = scene;
 }

@@ -6,23 +6,45 @@
 
 #include "scenes/common/system/look.h"
 
-/* Opens the scene of a system, which it takes, beside the first one of a file; NULL with a sentence. */
-typedef struct gm_system_scene *(*gm_system_opener)(struct gm_user_system *system,
-                                                    const struct gm_system_scene *first, char *sentence);
-
-/* Opens the other systems of a file, and takes a fault of its text, or only a sentence. */
-struct gm_system_opening {
-    gm_system_opener open;
-    struct gm_fault *fault;
-    char *sentence;
+/* The scene of a system while it is made. */
+struct gm_system_making {
+    struct gm_system_scene *scene; /* zeros, but for its arena, system, maker and origin */
+    struct gm_fault *fault;        /* of the system's text; its sentence is "" at first */
+    bool unread;                   /* a file that the system names could not be read */
+    struct gm_problem problem;     /* of the file's own values: gm_system_open_problem */
 };
 
-/* Opens the systems of all words of the choices, and gives all of them, and the first, the same rows; without an opener the
-   first one is alone. Returns the scene of the first; NULL if that is NULL, or with a fault, or only a sentence, and then
-   closes it. */
-const struct gm_scene *gm_system_unite(struct gm_system_scene *first,
-                                       const struct gm_system_opening *opening);
-/* Gives a lane the system of its values. False with a sentence on failure. */
-bool gm_system_choose(struct gm_system_lane *lane, gm_system_opener open, char *sentence);
+/* A kind of systems, and how their scenes are made. */
+struct gm_system_maker {
+    size_t size;  /* of the scene, which begins with a struct gm_system_scene */
+    bool rebuilt; /* parameters that equations are built on make other systems, as words of choices do */
+    /* Makes the scene, in a body of its arena. */
+    void (*make)(struct gm_system_making *making);
+};
+/* Makers of motions, fields, and forms. */
+extern const struct gm_system_maker gm_system_motions, gm_system_fields, gm_system_forms;
+
+/* Fills what all scenes of files have: names, texts and rows. The title, blurb and time that are given are those of a
+   file that has none. */
+void gm_system_describe(struct gm_system_scene *system_scene, struct gm_scene scene);
+/* Opens the problem of the file's own values, which lasts until the scene is made. */
+void gm_system_open_problem(struct gm_system_making *making);
+
+/* The failure of an opening: a fault of the text, or only a sentence. */
+struct gm_system_opening {
+    struct gm_fault *fault;
+    char *sentence; /* GM_MESSAGE bytes */
+    bool unread;    /* a file that the system names could not be read */
+};
+
+/* Makes the scene of a system opened by gm_equations_open, and takes it: the scene's end, or a failure here, closes it.
+   Opens also the systems of all words of its choices, and gives all of them the same rows. Returns NULL on failure. */
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struct gm_system_origin origin,
+                                            struct gm_system_opening *opening);
+/* Closes the scene, and the other systems of its file. */
+void gm_system_scene_close(const struct gm_scene *scene);
+
+/* Returns why a key has no effect in a lane's system; NULL: it has one. */
+const char *gm_system_idle(const void *parameters, const char *key);
 
 #endif

@@ -6,35 +6,70 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The state of the search for the coordinates. */
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include "core/memory.h"
+
+/* The search for the coordinates. */
 struct aim {
     const struct gm_sight *sight;
-    size_t body, places;
-    double target[2];
+    size_t body;
+    size_t places[GM_CHOICES], count; /* the coordinates that the body depends on */
+    const double *start, *target;
     double *variables, *numbers; /* the variables of the system; the numbers of the sight */
-    double *slopes, *step;       /* the Jacobian of the body's two numbers by the coordinates; the step */
-    double *before;              /* the coordinates before the step */
 };
 
-/* Returns the squared distance of the body from the point; `way` leads there. */
-static double distance(const struct aim *aim, size_t body, double way[2])
+/* The way from the point to the body, and the changes of the coordinates, of which the shortest are wanted: they weigh so
+   little that the body is on the point to more digits than are written. */
+static int ways(const gsl_vector *x, void *data, gsl_vector *f)
 {
-    way[0] = aim->target[0] - aim->numbers[2 * body];
-    way[1] = aim->target[1] - aim->numbers[2 * body + 1];
-    return way[0] * way[0] + way[1] * way[1];
+    const double weight = 1e-6;
+    const struct aim *aim = data;
+    for (size_t i = 0; i < aim->count; i++) {
+        const size_t c = aim->places[i];
+        aim->variables[c] = gsl_vector_get(x, i);
+        gsl_vector_set(f, 2 + i, weight * (aim->variables[c] - aim->start[c]));
+    }
+    gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
+    for (size_t k = 0; k < 2; k++) {
+        gsl_vector_set(f, k, aim->numbers[2 * aim->body + k] - aim->target[k]);
+    }
+    return GSL_SUCCESS;
 }
 
-static void look(const struct aim *aim)
+/* Moves the coordinates by the method of Levenberg and Marquardt. */
+static bool move(void *data)
 {
-    gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
+    enum { MOST_STEPS = 100 };
+    const double settled = 1e-12;
+    const struct aim *aim = data;
+    int info;
+    double places[GM_CHOICES];
+    for (size_t i = 0; i < aim->count; i++) {
+        places[i] = aim->start[aim->places[i]];
+    }
+    gsl_multifit_nlinear_fdf ways_of = {.f = ways, .n = 2 + aim->count, .p = aim->count, .params = data};
+    const gsl_multifit_nlinear_parameters usual = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_workspace *search =
+        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &usual, ways_of.n, ways_of.p);
+    if (search) {
+        const gsl_vector_const_view start = gsl_vector_const_view_array(places, aim->count);
+        gsl_multifit_nlinear_init(&start.vector, &ways_of, search);
+        gsl_multifit_nlinear_driver(MOST_STEPS, settled, settled, 0, NULL, NULL, &info, search);
+        ways(gsl_multifit_nlinear_position(search), data, gsl_multifit_nlinear_residual(search));
+        gsl_multifit_nlinear_free(search);
+    }
+    return search;
 }
 
 /* Chooses the nearest moving body; false without one. */
 static bool choose_body(struct aim *aim)
 {
-    double nearest = INFINITY, way[2];
+    double nearest = INFINITY;
+    gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
     for (size_t i = 0; i < aim->sight->bodies; i++) {
-        const double apart = distance(aim, i, way);
+        const double apart =
+            hypot(aim->target[0] - aim->numbers[2 * i], aim->target[1] - aim->numbers[2 * i + 1]);
         if (!aim->sight->fixed[i] && apart < nearest) {
             nearest = apart;
             aim->body = i;
@@ -43,91 +78,36 @@ static bool choose_body(struct aim *aim)
     return nearest < INFINITY;
 }
 
-static void find_slopes(struct aim *aim)
+/* Finds the coordinates among the first `count` that change the body's place; false if they are none or too many. */
+static bool choose_places(struct aim *aim, size_t count)
 {
-    for (size_t c = 0; c < aim->places; c++) {
-        const double here = aim->variables[c], reach = 1e-6 * fmax(1, fabs(here));
-        for (int side = -1; side <= 1; side += 2) {
-            aim->variables[c] = here + side * reach;
-            look(aim);
-            for (size_t k = 0; k < 2; k++) {
-                double *slope = &aim->slopes[2 * c + k];
-                *slope = (side > 0 ? *slope : 0) + side * aim->numbers[2 * aim->body + k] / (2 * reach);
+    const double before[] = {aim->numbers[2 * aim->body], aim->numbers[2 * aim->body + 1]};
+    for (size_t c = 0; c < count; c++) {
+        aim->variables[c] += 0.7312;
+        gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
+        aim->variables[c] = aim->start[c];
+        if (memcmp(aim->numbers + 2 * aim->body, before, sizeof before) != 0) {
+            if (aim->count == GM_CHOICES) {
+                return false;
             }
+            aim->places[aim->count++] = c;
         }
-        aim->variables[c] = here;
     }
-}
-
-/* Finds the step of the coordinates to the point by the linear map: J' (J J' + m)^-1 r, the shortest one for
-   m = 0. A larger m shortens it and turns it straight towards the point. K. Levenberg, Q. Appl. Math. 2
-   (1944) 164. */
-static void find_step(struct aim *aim, const double way[2], double m)
-{
-    double xx = 0, xy = 0, yy = 0;
-    for (size_t c = 0; c < aim->places; c++) {
-        const double *slope = &aim->slopes[2 * c];
-        xx += slope[0] * slope[0];
-        xy += slope[0] * slope[1];
-        yy += slope[1] * slope[1];
-    }
-    m *= xx + yy;
-    xx += m;
-    yy += m;
-    const double determinant = xx * yy - xy * xy;
-    const double along[2] = {(yy * way[0] - xy * way[1]) / determinant,
-                             (xx * way[1] - xy * way[0]) / determinant};
-    for (size_t c = 0; c < aim->places; c++) {
-        const double *slope = &aim->slopes[2 * c];
-        aim->step[c] = slope[0] * along[0] + slope[1] * along[1];
-    }
-}
-
-/* Returns the squared distance from the point after the step; the coordinates stay. */
-static double try_step(struct aim *aim, double way[2])
-{
-    memcpy(aim->before, aim->variables, aim->places * sizeof *aim->before);
-    for (size_t c = 0; c < aim->places; c++) {
-        aim->variables[c] += aim->step[c];
-    }
-    look(aim);
-    memcpy(aim->variables, aim->before, aim->places * sizeof *aim->before);
-    return distance(aim, aim->body, way);
-}
-
-/* Takes the step that leads nearest; false if none leads nearer. */
-static bool go(struct aim *aim, double *apart, double way[2])
-{
-    double best = -1, nearest = *apart, next[2];
-    for (double m = 1e-9; m < 1e9; m *= 3) {
-        find_step(aim, way, m);
-        const double now = try_step(aim, next);
-        best = now < nearest ? m : best;
-        nearest = fmin(nearest, now);
-    }
-    if (best < 0) {
-        return false;
-    }
-    find_step(aim, way, best);
-    *apart = try_step(aim, way);
-    for (size_t c = 0; c < aim->places; c++) {
-        aim->variables[c] += aim->step[c];
-    }
-    return true;
+    return aim->count > 0;
 }
 
 /* Writes the coordinates as values of the start's rows. */
-static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, const double *start,
+static size_t tell(const struct aim *aim, const struct gm_system_scene *system_scene,
                    struct gm_choice *choices)
 {
-    const struct gm_system_scene *system_scene = lane->owner;
     size_t count = 0;
     for (size_t row = GM_SYSTEM_ROWS; row < system_scene->row_count; row++) {
         const size_t c = system_scene->variables[row];
-        if (c >= aim->places || fabs(aim->variables[c] - start[c]) <= 1e-9 * fmax(1, fabs(start[c]))) {
+        if (c >= system_scene->system.n ||
+            fabs(aim->variables[c] - aim->start[c]) <= 1e-9 * fmax(1, fabs(aim->start[c]))) {
             continue;
         }
-        if (count == GM_CHOICES || !isfinite(aim->variables[c])) {
+        if (!isfinite(aim->variables[c])) {
             return 0;
         }
         const bool angle = system_scene->system.variables[c].angle;
@@ -140,40 +120,24 @@ static size_t tell(const struct aim *aim, const struct gm_system_lane *lane, con
 size_t gm_system_aim(const struct gm_system_lane *lane, const double *start, double x, double y,
                      struct gm_choice *choices)
 {
-    enum { MOST_STEPS = 100 };
     const struct gm_user_system *system = &lane->owner->system;
     const struct gm_sight *sight = gm_system_sight(lane);
-    struct aim aim = {.sight = sight,
-                      .places = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n,
-                      .target = {x, y}};
+    const size_t places = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
+    struct aim aim = {.sight = sight, .start = start, .target = (const double[]){x, y}};
     if (sight == &lane->owner->section || sight->dimensions != 2 || sight->bodies == 0 ||
         lane->owner->model.constraints.count > 0) {
         return 0;
     }
-    aim.variables =
-        calloc(system->variable_count + gm_sight_numbers(sight) + 4 * aim.places + 1, sizeof *aim.variables);
+    aim.variables = calloc(system->variable_count + gm_sight_numbers(sight), sizeof *aim.variables);
     if (!aim.variables) {
         return 0;
     }
     aim.numbers = aim.variables + system->variable_count;
-    aim.slopes = aim.numbers + gm_sight_numbers(sight);
-    aim.step = aim.slopes + 2 * aim.places;
-    aim.before = aim.step + aim.places;
     memcpy(aim.variables, start, system->n * sizeof *start);
     memcpy(aim.variables + system->initial, start, system->n * sizeof *start);
     gm_system_put_parameters(lane, aim.variables);
-    look(&aim);
-    size_t count = 0;
-    if (choose_body(&aim)) {
-        double way[2], apart = distance(&aim, aim.body, way);
-        for (int i = 0; i < MOST_STEPS && apart > 0; i++) {
-            find_slopes(&aim);
-            if (!go(&aim, &apart, way)) {
-                break;
-            }
-        }
-        count = tell(&aim, lane, start, choices);
-    }
+    const bool found = choose_body(&aim) && choose_places(&aim, places) && gm_memory_guard_gsl(move, &aim);
+    const size_t count = found ? tell(&aim, lane->owner, choices) : 0;
     free(aim.variables);
     return count;
 }

@@ -27,7 +27,7 @@ static const struct gm_observable *formula_of(const struct gm_system_scene *syst
     for (size_t i = 0; i < system_scene->observable_count; i++) {
         const char *key = system_scene->observables[i].key;
         if (strncmp(key, name, length) == 0 && (!key[length] || strcmp(key + length, "_error") == 0) &&
-            system_scene->formulas[i]) {
+            system_scene->measures[i].formula) {
             return &system_scene->observables[i];
         }
     }
@@ -67,7 +67,7 @@ static bool find_curve(const struct gm_system_scene *system_scene, const char *t
             const bool is_formula = i >= system_scene->system.n + velocity_count(&system_scene->system);
             *curve = (struct gm_curve){.name = name, .number = i};
             if (is_formula) {
-                curve->tape = system_scene->formulas[row - system_scene->observables];
+                curve->tape = system_scene->measures[row - system_scene->observables].formula;
                 curve->period = row->period;
             }
             return true;

@@ -8,6 +8,7 @@
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
+#include "scenes/ode/system/optional.h"
 #include "scenes/ode/system/parts.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
@@ -192,15 +193,10 @@ static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const cha
     }
 }
 
-static double wrapped(double angle)
-{
-    return angle - 2 * M_PI * round(angle / (2 * M_PI));
-}
-
 static void wrap(const struct gm_sight *sight, double *point)
 {
     for (size_t k = 0; k < 2; k++) {
-        point[k] = sight->angles[k] ? wrapped(point[k]) : point[k];
+        point[k] -= sight->angles[k] ? 2 * M_PI * round(point[k] / (2 * M_PI)) : 0;
     }
 }
 
@@ -302,13 +298,33 @@ static bool is_curve(const struct stage *stage, const double *points, size_t cou
     return chords == 0 || sum < longest_chord * (double)(stage->space ? count : chords);
 }
 
+/* Returns the first entry of the past where the path is bright: a part of the whole run. */
+static size_t bright_from(const struct gm_lane *lane)
+{
+    const double bright = 0.15;
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST];
+    const struct gm_timing *timing = lane->parameters;
+    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
+    size_t first = past->count;
+    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
+        first--;
+    }
+    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
+}
+
+/* Returns the first entry of a track that trails= lets be drawn. */
+static size_t trail_from(const struct gm_lane *lane, size_t track)
+{
+    return gm_trails_from(own_of(lane)->trails, &lane->entries[track], lane->run->t);
+}
+
 static void draw_path(const struct stage *stage, const struct gm_lane *lane, const struct gm_paths *paths,
                       size_t body, const double *now)
 {
     const struct gm_sight *sight = paths->sight;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    const size_t past = gm_system_trail_from(lane, GM_TRACK_PAST),
-                 bright = gm_system_bright_from(lane) > past ? gm_system_bright_from(lane) : past;
+    const size_t past = trail_from(lane, GM_TRACK_PAST),
+                 bright = bright_from(lane) > past ? bright_from(lane) : past;
     const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
     double *points = gm_picture_memory(stage->picture, 3 * (2 * most + 4) * sizeof *points);
     if (!points) {
@@ -322,7 +338,7 @@ static void draw_path(const struct stage *stage, const struct gm_lane *lane, con
         return;
     }
     put_points(stage, style_of(stage, role, DOTS), points, count);
-    const size_t trail = gm_system_trail_from(lane, GM_TRACK_TRAIL), half = paths->trail.count / 2;
+    const size_t trail = trail_from(lane, GM_TRACK_TRAIL), half = paths->trail.count / 2;
     const size_t recent = path_of(&paths->trail, sight, body, trail > half ? trail : half, now, points);
     if (is_curve(stage, points, recent)) {
         put_line(stage, style_of(stage, role, RECENT), true, points, recent);
@@ -512,10 +528,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     const struct gm_lane *leader = NULL; /* the first lane of the panel */
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        size_t lane = 0;
-        while (lanes[lane] != walk.lane) {
-            lane++;
-        }
+        const size_t lane = walk.next - 1;
         const struct gm_sight *sight = paths[lane].sight;
         const struct gm_view view = gm_lane_view(walk.lane);
         if (walk.first) {
@@ -589,14 +602,11 @@ static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, c
                    points, points ? crossings->count : 0);
 }
 
-static const char *section_title(const struct gm_lane *lane)
-{
-    return own_of(lane)->owner->stroboscopic ? "Stroboscopic section" : "Poincaré section";
-}
-
 static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, section_title(lanes[0]));
+    const bool driven = own_of(lanes[0])->owner->stroboscopic;
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH, driven ? "Stroboscopic section" : "Poincaré section");
     panel->title_role = GM_INK;
     set_section(picture, panel, lanes, count);
     gm_system_draw_levels(picture, panel, lanes[0], &own_of(lanes[0])->owner->section);
@@ -715,11 +725,23 @@ static const char *told(struct gm_picture *picture, const struct gm_lane *const 
     return text;
 }
 
+/* Returns the line whose picture the lane's show= names alone; NULL: it names none. */
+static const struct gm_system_item *alone_of(const struct gm_system_lane *lane)
+{
+    const struct gm_user_system *system = &lane->owner->system;
+    size_t i = 0;
+    while (i < system->item_count &&
+           strcmp(gm_system_option_text(&system->items[i], GM_OPTION_SHOW, ""), lane->show) != 0) {
+        i++;
+    }
+    return i < system->item_count ? &system->items[i] : NULL;
+}
+
 void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_system_lane *lane = own_of(lanes[0]);
     const struct gm_system_scene *system_scene = lane->owner;
-    const struct gm_system_item *alone = gm_system_alone(lane);
+    const struct gm_system_item *alone = alone_of(lane);
     const bool graph_alone = alone && alone->word == GM_WORD_GRAPH;
     const bool one_scheme = gm_one_scheme(lanes, count);
     const bool only_section =
@@ -727,6 +749,9 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     const char *name = gm_system_title(&system_scene->system)
                            ? system_scene->scene.title
                            : gm_typeset(picture, system_scene->scene.title);
+    if (gm_draw_modified(lanes, count, picture)) {
+        return;
+    }
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
     if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
         picture->title =

@@ -11,10 +11,20 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
+enum { PARTS = 16, STEPS = 2 }; /* of the way ahead that is searched */
+
+/* The view of a run that failed, and where the reason is written. */
+struct failed {
+    const struct gm_view *view;
+    const struct gm_system_scene *scene;
+    char *text;
+    size_t size;
+};
+
 /* Writes a formula that is not finite: "log(x) is not finite where x = -0.3". */
-static void tell_node(const struct gm_user_system *system, gm_node_id node, const double *values, char *text,
-                      size_t size)
+static void tell_node(const struct failed *failed, gm_node_id node, const double *values)
 {
+    const struct gm_user_system *system = &failed->scene->system;
     const struct gm_naming naming = gm_system_naming(system);
     const struct gm_node *at = &system->graph.nodes[node];
     const gm_node_id operand = at->operation == GM_OPERATION_DIVIDE ? at->b : at->a;
@@ -22,52 +32,60 @@ static void tell_node(const struct gm_user_system *system, gm_node_id node, cons
     if (at->operation != GM_VARIABLE) {
         inside = gm_formula_text(&system->graph, operand, &naming);
     }
-    snprintf(text, size, inside ? "%.120s is not finite where %.80s = %.4g" : "%.120s is not finite",
+    snprintf(failed->text, failed->size,
+             inside ? "%.120s is not finite where %.80s = %.4g" : "%.120s is not finite",
              part ? part : "a long formula", inside ? inside : "", inside ? values[operand] : 0);
     free(part);
     free(inside);
 }
 
-/* The values of all nodes in a member's state; the caller frees. NULL when out of memory. */
-static double *values_at(const struct gm_system_scene *system_scene, const struct gm_view *view,
-                         const double *state, size_t member)
+/* Appends the first components of a member's state: "q = 1.5, p = 0". */
+static void tell_components(const struct failed *failed, const double *state, size_t member, size_t count,
+                            int digits)
 {
-    const struct gm_user_system *system = &system_scene->system;
-    const struct gm_formula *graph = &system->graph;
-    const size_t m = view->problem->m;
-    double *variables = malloc(system->variable_count * sizeof *variables);
-    double *values = variables ? malloc((graph->count + (size_t)1) * sizeof *values) : NULL;
-    for (size_t i = 0; variables && i < system->variable_count; i++) {
-        const bool is_time = i == system->n && !system->timed;
-        variables[i] = i < view->problem->n ? state[i * m + member] : is_time ? view->t : NAN;
+    size_t length = strlen(failed->text);
+    for (size_t i = 0; i < count && length + 60 < failed->size; i++) {
+        length += (size_t)snprintf(failed->text + length, failed->size - length, "%s%.16s = %.*g",
+                                   i > 0 ? ", " : "", failed->scene->system.variables[i].name, digits,
+                                   state[i * failed->view->problem->m + member]);
     }
+}
+
+/* The values of all nodes in a member's state; the caller frees. NULL when out of memory. */
+static double *values_at(const struct failed *failed, const double *state, size_t member)
+{
+    const struct gm_user_system *system = &failed->scene->system;
+    struct gm_view there = *failed->view;
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = variables ? malloc((system->graph.count + (size_t)1) * sizeof *values) : NULL;
+    there.state = state;
+    there.t = system->timed ? state[system->n * there.problem->m + member] : there.t;
     if (values) {
-        gm_system_put_parameters(view->parameters, variables);
-        gm_formula_evaluate(graph, graph->count, variables, values);
+        gm_system_variables(&there, member, false, variables);
+        gm_formula_evaluate(&system->graph, system->graph.count, variables, values);
     }
     free(variables);
     return values;
 }
 
 /* Writes the first part of H, else of a rate, that is not finite in a member's state; false without one. */
-static bool tell_part(const struct gm_system_scene *system_scene, const struct gm_view *view,
-                      const double *state, size_t member, char *text, size_t size)
+static bool tell_part(const struct failed *failed, const double *state, size_t member)
 {
-    const struct gm_user_system *system = &system_scene->system;
-    const struct gm_formula *graph = &system->graph;
-    double *values = values_at(system_scene, view, state, member);
+    const struct gm_user_system *system = &failed->scene->system;
+    double *values = values_at(failed, state, member);
     bool told = false;
     for (size_t i = 0; values && i <= system->n && !told; i++) {
         const gm_node_id root = i > 0                      ? system->rates[i - 1]
                                 : system->kind != GM_RATES ? system->energy
                                                            : GM_NO_NODE;
         size_t count = 0;
-        gm_node_id *parts =
-            root != GM_NO_NODE && !isfinite(values[root]) ? gm_formula_parts(graph, root, &count) : NULL;
+        gm_node_id *parts = root != GM_NO_NODE && !isfinite(values[root])
+                                ? gm_formula_parts(&system->graph, root, &count)
+                                : NULL;
         for (size_t k = 0; parts && k < count && !told; k++) {
             told = !isfinite(values[parts[k]]);
             if (told) {
-                tell_node(system, parts[k], values, text, size);
+                tell_node(failed, parts[k], values);
             }
         }
         free(parts);
@@ -77,26 +95,21 @@ static bool tell_part(const struct gm_system_scene *system_scene, const struct g
 }
 
 /* Writes where the Pfaffian of theta's form changes its sign on the line of the next two steps of the first member. */
-static void tell_form(const struct gm_view *view, const double *slope, double *ahead, char *text, size_t size)
+static void tell_form(const struct failed *failed, const double *slope, double *ahead)
 {
-    enum { PARTS = 16, STEPS = 2 };
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const struct gm_user_system *system = &system_scene->system;
+    const struct gm_view *view = failed->view;
     const size_t total = view->problem->n * view->problem->m;
     double before = 0;
-    for (int part = 0; part <= STEPS * PARTS && !text[0]; part++) {
+    for (int part = 0; part <= STEPS * PARTS && !failed->text[0]; part++) {
         for (size_t i = 0; i < total; i++) {
             ahead[i] = view->state[i] + view->dt * part / PARTS * slope[i];
         }
-        double *values = values_at(system_scene, view, ahead, 0);
-        const double here = values ? values[system->pfaffian] : NAN;
+        double *values = values_at(failed, ahead, 0);
+        const double here = values ? values[failed->scene->system.pfaffian] : NAN;
         free(values);
         if (here == 0 || here * before < 0) {
-            size_t length = (size_t)snprintf(text, size, "the form of theta loses its rank near ");
-            for (size_t i = 0; i < system->n && length + 60 < size; i++) {
-                length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.4g", i > 0 ? ", " : "",
-                                           system->variables[i].name, ahead[i * view->problem->m]);
-            }
+            snprintf(failed->text, failed->size, "the form of theta loses its rank near ");
+            tell_components(failed, ahead, 0, failed->scene->system.n, 4);
         }
         before = here;
     }
@@ -104,10 +117,10 @@ static void tell_form(const struct gm_view *view, const double *slope, double *a
 
 /* Writes a state of a Lagrangian system in which a member stops: its momenta have no velocities, or no
    rates. */
-static bool tell_velocities(const struct gm_system_scene *system_scene, const struct gm_view *view,
-                            const double *state, const double *slope, size_t member, char *text, size_t size)
+static bool tell_velocities(const struct failed *failed, const double *state, const double *slope,
+                            size_t member)
 {
-    const size_t m = view->problem->m, half = system_scene->system.n / 2;
+    const size_t m = failed->view->problem->m, half = failed->scene->system.n / 2;
     bool placed = true, moves = true, turns = true;
     for (size_t i = 0; i < 2 * half; i++) {
         const bool finite = isfinite(slope[i * m + member]);
@@ -118,15 +131,10 @@ static bool tell_velocities(const struct gm_system_scene *system_scene, const st
     if (!placed || (moves && turns)) {
         return false;
     }
-    size_t length =
-        (size_t)snprintf(text, size, "%s where ",
-                         moves ? "dL/dq is not finite"
-                               : "momenta do not determine velocities (the Legendre transform of L is "
-                                 "singular)");
-    for (size_t i = 0; i < half && length + 60 < size; i++) {
-        length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
-                                   system_scene->system.variables[i].name, state[i * m + member]);
-    }
+    snprintf(failed->text, failed->size, "%s where ",
+             moves ? "dL/dq is not finite"
+                   : "momenta do not determine velocities (the Legendre transform of L is singular)");
+    tell_components(failed, state, member, half, 6);
     return true;
 }
 
@@ -148,60 +156,57 @@ static double depth_at_rest(const struct gm_problem *problem, double *y)
 
 /* Finds the density here, and the first that is not above 0 on the line of the next two steps. */
 static void look_ahead(const struct gm_view *view, const double *slope, density_at *density, double *y,
-                       double *here, double *there)
+                       double found[2])
 {
-    enum { PARTS = 16, STEPS = 2 };
     const struct gm_problem *problem = view->problem;
     memcpy(y, view->state, problem->n * sizeof *y);
-    *here = *there = density(problem, y);
-    for (int part = 1; part <= STEPS * PARTS && *there > 0; part++) {
+    found[0] = found[1] = density(problem, y);
+    for (int part = 1; part <= STEPS * PARTS && found[1] > 0; part++) {
         for (size_t i = 0; i < problem->n; i++) {
-            y[i] = view->state[i] + view->dt / *here * part / PARTS * slope[i];
+            y[i] = view->state[i] + view->dt / found[0] * part / PARTS * slope[i];
         }
-        *there = density(problem, y);
+        found[1] = density(problem, y);
     }
 }
 
 /* Writes how fast the monitor falls, if it decides the step size. */
-static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
-                         size_t size)
+static void tell_monitor(const struct failed *failed, const double *slope, double *ahead)
 {
-    double here, there;
-    look_ahead(view, slope, density_of_monitor, ahead, &here, &there);
-    if (!(there > 0)) {
-        snprintf(text, size, "the monitor, the density of steps, is %.3g, and %.3g where the step leads",
-                 here, there);
+    double found[2];
+    look_ahead(failed->view, slope, density_of_monitor, ahead, found);
+    if (!(found[1] > 0)) {
+        snprintf(failed->text, failed->size,
+                 "the monitor, the density of steps, is %.3g, and %.3g where the step leads", found[0],
+                 found[1]);
     }
 }
 
 /* Writes if the energy at rest, which decides the step size, is not negative. */
-static void tell_rest(const struct gm_view *view, const double *slope, double *ahead, char *text, size_t size)
+static void tell_rest(const struct failed *failed, const double *slope, double *ahead)
 {
-    double here, there;
-    look_ahead(view, slope, depth_at_rest, ahead, &here, &there);
-    if (!(here > 0)) {
-        snprintf(text, size, "the energy at rest, which has to be negative, is %.3g", -here);
-    } else if (!(there > 0)) {
-        snprintf(text, size,
-                 "the energy at rest, which has to be negative, is %.3g, and %.3g where the step leads",
-                 -here, -there);
+    double found[2];
+    look_ahead(failed->view, slope, depth_at_rest, ahead, found);
+    if (!(found[1] > 0)) {
+        snprintf(failed->text, failed->size,
+                 found[0] > 0 ? "the energy at rest, which has to be negative, is %.3g, and %.3g where the "
+                                "step leads"
+                              : "the energy at rest, which has to be negative, is %.3g",
+                 -found[0], -found[1]);
     }
 }
 
 /* Writes the fault of these states with slopes `slope`; false if all is finite. */
-static bool tell_states(const struct gm_view *view, const double *states, const double *slope, char *text,
-                        size_t size)
+static bool tell_states(const struct failed *failed, const double *states, const double *slope)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const bool lagrangian = system_scene->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
-    const size_t n = view->problem->n, m = view->problem->m;
+    const bool lagrangian = failed->scene->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
+    const size_t n = failed->view->problem->n, m = failed->view->problem->m;
     for (size_t member = 0; member < m; member++) {
         bool finite = true;
         for (size_t i = 0; i < n; i++) {
             finite = finite && isfinite(slope[i * m + member]);
         }
-        if (!finite && (lagrangian ? tell_velocities(system_scene, view, states, slope, member, text, size)
-                                   : tell_part(system_scene, view, states, member, text, size))) {
+        if (!finite && (lagrangian ? tell_velocities(failed, states, slope, member)
+                                   : tell_part(failed, states, member))) {
             return true;
         }
     }
@@ -222,7 +227,8 @@ static bool goes_on(const struct gm_view *view, const double *states)
    steps, since stages overshoot. The search ends at the run's limit, which ends the run by itself. */
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
 {
-    enum { PARTS = 8 };
+    enum { COARSE = 8 };
+    const struct failed failed = {view, gm_system_scene_of(view), text, size};
     const struct gm_problem *problem = view->problem;
     const size_t total = problem->n * problem->m;
     double *slope = malloc(3 * total * sizeof *slope);
@@ -233,26 +239,24 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     double *const ahead = slope + total, *const there = ahead + total;
     gm_field(problem, view->state, slope, problem->m);
     memcpy(ahead, view->state, total * sizeof *ahead);
-    bool told = tell_states(view, ahead, slope, text, size);
-    bool within = true;
-    for (int part = 1; part <= 3 * PARTS && !told && within; part++) {
-        const bool from_here = part <= PARTS + 1;
-        const double h = view->dt * (part <= PARTS ? part : 1) / PARTS;
+    bool within = !tell_states(&failed, ahead, slope);
+    for (int part = 1; part <= 3 * COARSE && within; part++) {
+        const bool from_here = part <= COARSE + 1;
+        const double h = view->dt * (part <= COARSE ? part : 1) / COARSE;
         for (size_t i = 0; i < total; i++) {
             ahead[i] = from_here ? view->state[i] + h * slope[i] : ahead[i] + h * there[i];
         }
-        within = goes_on(view, ahead);
         gm_field(problem, ahead, there, problem->m);
-        told = within && tell_states(view, ahead, there, text, size);
+        within = goes_on(view, ahead) && !tell_states(&failed, ahead, there);
     }
-    if (!told && (view->scheme->needs & GM_NEEDS_MONITOR)) {
-        tell_monitor(view, slope, ahead, text, size);
+    if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
+        tell_monitor(&failed, slope, ahead);
     }
-    if (!text[0] && gm_system_scene_of(view)->system.theta) {
-        tell_form(view, slope, ahead, text, size);
+    if (!text[0] && failed.scene->system.theta) {
+        tell_form(&failed, slope, ahead);
     }
     if (!text[0] && (view->scheme->needs & GM_NEEDS_ATTRACTION)) {
-        tell_rest(view, slope, ahead, text, size);
+        tell_rest(&failed, slope, ahead);
     }
     free(slope);
 }

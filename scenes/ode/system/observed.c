@@ -21,35 +21,26 @@
 
 /* ---- formulas during the run ---- */
 
-static double value_of(const struct gm_tape *tape, const struct gm_view *view)
-{
-    double value;
-    gm_system_values(tape, view, gm_system_centre(view), &value);
-    return value;
-}
-
 /* The jumps that events have made in a conserved quantity; 0 for other observables. */
 static double booked(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    const size_t quantity = system_scene->booked[view->observable - system_scene->observables];
+    const size_t quantity = gm_system_measure_of(view)->booked;
     return view->booked && quantity > 0 ? gm_events_booked(view->problem, view->booked, quantity - 1) : 0;
 }
 
 /* Returns an observable's formula while its condition, if any, holds; else NaN. */
 static double observed(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[2] = {0, 1};
-    gm_system_values(system_scene->formulas[view->observable - system_scene->observables], view,
-                     gm_system_centre(view), values);
+    gm_system_values(gm_system_measure_of(view)->formula, view, gm_system_centre(view), values);
     return values[1] > 0 ? values[0] - booked(view) : NAN;
 }
 
 static double terms(const struct gm_view *view)
 {
-    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
-    return value_of(system_scene->terms[view->observable - system_scene->observables], view);
+    double value;
+    gm_system_values(gm_system_measure_of(view)->terms, view, gm_system_centre(view), &value);
+    return value;
 }
 
 /* Returns p q' - L of a Lagrangian system, whose formulas hold velocities, or the magnitudes of its terms. */
@@ -242,13 +233,12 @@ static void add_observable(struct gm_system_scene *system_scene, struct gm_obser
     if (node == GM_NO_NODE) {
         return;
     }
-    system_scene->formulas[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
-    gm_system_open_tape(system_scene, system_scene->formulas[i], nodes, condition == GM_NO_NODE ? 1 : 2);
+    struct gm_system_measure *measure = &system_scene->measures[i];
+    measure->formula = gm_system_take_tape(system_scene, nodes, condition == GM_NO_NODE ? 1 : 2);
     if (row.error) {
         const gm_node_id sizes = sizes_of(system_scene, node);
         system_scene->observables[i].terms = terms;
-        system_scene->terms[i] = gm_arena_take(system_scene->arena, 1, sizeof(struct gm_tape));
-        gm_system_open_tape(system_scene, system_scene->terms[i], &sizes, 1);
+        measure->terms = gm_system_take_tape(system_scene, &sizes, 1);
     }
 }
 
@@ -273,10 +263,9 @@ static double momentum_scale(struct gm_system_scene *system_scene, const struct 
 {
     struct gm_arena *arena = system_scene->arena;
     const size_t half = system_scene->system.n / 2, mark = gm_arena_mark(arena);
-    struct gm_tape *tape = gm_arena_take(arena, 1, sizeof *tape);
+    const struct gm_tape *tape = gm_system_take_tape(system_scene, item->nodes, half);
     const double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free);
     double *generator = gm_arena_take(arena, half, sizeof *generator), sum = 0;
-    gm_system_open_tape(system_scene, tape, item->nodes, half);
     gm_tape_values(tape, values, generator, 1);
     for (size_t i = 0; i < half; i++) {
         sum += fabs(generator[i] * values[half + i]);
@@ -322,7 +311,7 @@ static void add_events(struct gm_system_scene *system_scene, const struct gm_pro
 static void book(struct gm_system_scene *system_scene, const struct gm_problem *problem, size_t quantity)
 {
     if (problem->events && problem->events->changes) {
-        system_scene->booked[system_scene->observable_count - 1] = 1 + quantity;
+        system_scene->measures[system_scene->observable_count - 1].booked = 1 + quantity;
     }
 }
 
@@ -380,7 +369,7 @@ static void add_invariant(struct gm_system_scene *system_scene, const struct gm_
         .scale_text = scale > 0 ? gm_arena_print(system_scene->arena, "%.3g", scale) : NULL);
     gm_written_options(&row, item);
     row.kept = item->check != GM_NOT_ZERO; /* else forces change it, for every scheme */
-    add_observable(system_scene, row, item->nodes[symmetry ? system_scene->system.n / 2 : 0], GM_NO_NODE);
+    add_observable(system_scene, row, gm_system_conserved(&system_scene->system, item), GM_NO_NODE);
 }
 
 enum { FOLLOWED = 64 };
@@ -429,28 +418,18 @@ static void add_steps(struct gm_system_scene *system_scene)
 }
 
 /* Adds the quantities in the file: observe:, invariant:, casimir:, symmetry:. */
-static void add_named(struct gm_system_scene *system_scene)
+static void add_named(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
     const struct gm_user_system *system = &system_scene->system;
-    size_t nameless = 0;
+    size_t nameless = 0, quantity = 0;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        switch (item->word) {
-        case GM_WORD_OBSERVE:
+        nameless += item->word == GM_WORD_SYMMETRY && !item->name[0];
+        if (item->word == GM_WORD_OBSERVE) {
             add_observed(system_scene, item);
-            break;
-        case GM_WORD_SYMMETRY:
-            nameless += !item->name[0];
-            if (system->kind <= GM_LAGRANGIAN) {
-                add_invariant(system_scene, item, nameless);
-            }
-            break;
-        case GM_WORD_INVARIANT:
-        case GM_WORD_CASIMIR:
-            add_invariant(system_scene, item, 0);
-            break;
-        default:
-            break;
+        } else if (gm_system_conserved(system, item) != GM_NO_NODE) {
+            add_invariant(system_scene, item, nameless);
+            book(system_scene, problem, quantity++);
         }
     }
 }
@@ -525,14 +504,9 @@ static void refuse_twice(const struct gm_system_scene *system_scene, const char 
 
 void gm_system_make_observables(struct gm_system_scene *system_scene, const struct gm_problem *problem)
 {
-    struct gm_arena *arena = system_scene->arena;
     const struct gm_hook *hook = system_scene->hook;
-    const size_t of_hook = hook ? hook->observable_count : 0,
-                 most = 2 * system_scene->system.item_count + 12 + of_hook;
-    system_scene->observables = gm_arena_take(arena, most, sizeof *system_scene->observables);
-    system_scene->formulas = gm_arena_take(arena, most, sizeof *system_scene->formulas);
-    system_scene->terms = gm_arena_take(arena, most, sizeof *system_scene->terms);
-    system_scene->booked = gm_arena_take(arena, most, sizeof *system_scene->booked);
+    const size_t of_hook = hook ? hook->observable_count : 0;
+    gm_system_take_observables(system_scene, 2 * system_scene->system.item_count + 12 + of_hook);
     for (size_t i = 0; i < of_hook; i++) {
         add_function(system_scene, hook->observables[i]);
     }
@@ -542,14 +516,13 @@ void gm_system_make_observables(struct gm_system_scene *system_scene, const stru
     }
     add_energy(system_scene, problem);
     add_steps(system_scene);
-    add_named(system_scene);
+    add_named(system_scene, problem);
     add_events(system_scene, problem);
     add_defects(system_scene, problem);
     add_solution_error(system_scene);
     if (!carried) {
         add_areas(system_scene);
     }
-    system_scene->scene.observables = system_scene->observables;
     system_scene->scene.observable_count = system_scene->observable_count;
     for (size_t i = 0; i < system_scene->observable_count; i++) {
         for (size_t k = 0; k < i; k++) {

@@ -129,19 +129,9 @@ static const char *why_no_modified(const struct gm_view *view)
 
 /* ---- returning, and leaving ---- */
 
-/* Returns the number of the scene's first section; its count of tracks without one. */
-static size_t section_of(const struct gm_scene *scene)
-{
-    size_t found = 0;
-    while (found < scene->track_count && !scene->tracks[found].section) {
-        found++;
-    }
-    return found;
-}
-
 static double return_time(const struct gm_view *view)
 {
-    const size_t section = section_of(view->scene);
+    const size_t section = gm_scene_section(view->scene);
     if (section == view->scene->track_count || !view->tracks) {
         return NAN;
     }
@@ -158,8 +148,8 @@ static double return_time(const struct gm_view *view)
 
 static const char *why_no_return(const struct gm_view *view)
 {
-    return section_of(view->scene) < view->scene->track_count ? "the section was not passed yet"
-                                                              : "there is no section to pass";
+    return gm_scene_section(view->scene) < view->scene->track_count ? "the section was not passed yet"
+                                                                    : "there is no section to pass";
 }
 
 static double escape_time(const struct gm_view *view)
@@ -177,8 +167,6 @@ static const char *why_no_escape(const struct gm_view *view)
 struct followed {
     const struct gm_scheme *scheme; /* the lane may change it */
     struct gm_growth *growth;
-    double *start; /* the start of the last member, active components */
-    size_t n;
     const char *why; /* the reason that there are no values; NULL: there are */
 };
 
@@ -186,68 +174,67 @@ static void forget(void *data)
 {
     struct followed *followed = data;
     gm_growth_close(followed->growth);
-    free(followed->start);
     free(followed);
 }
 
-/* Returns component c of the last member. */
-static double last_of(const struct gm_view *view, const double *state, size_t c)
+/* Returns the active components of the last member; malloc'ed, NULL when out of memory. */
+static double *last_of(const struct gm_view *view, const double *state)
 {
-    const size_t m = view->problem->m;
-    return state[c * m + m - 1];
+    const size_t n = view->problem->n - 2 * view->problem->passive, m = view->problem->m;
+    double *last = malloc(n * sizeof *last);
+    for (size_t c = 0; last && c < n; c++) {
+        last[c] = state[c * m + m - 1];
+    }
+    return last;
 }
 
-/* Opens the copy of the orbit; NULL when out of memory, which is noted. */
+static const char *why_none(const struct gm_view *view, size_t kind)
+{
+    const struct gm_family *family = view->scheme->family;
+    const size_t n = view->problem->n - 2 * view->problem->passive;
+    if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
+        return family->by_tolerance
+                   ? "the lengths of its steps follow a tolerance and have no derivative"
+                   : "the state of the scheme is in a library: its steps have no derivative here";
+    }
+    return kind != GM_WORKED_VOLUME ? NULL
+           : n > GM_NEWTON_LARGEST  ? "the volume of more than 64 components is not followed"
+           : gm_action_constraints(view->problem) > 0 ? "constraints leave no volume"
+           : family->adaptive                         ? "its steps have other lengths beside the orbit"
+                                                      : NULL;
+}
+
+/* Opens the copy of the orbit; without a growth if there are no values, or when out of memory, which is noted. */
 static struct followed *open_followed(const struct gm_view *view, size_t kind)
 {
-    struct gm_worked *worked = &view->worked[kind];
     struct followed *followed = calloc(1, sizeof *followed);
-    worked->data = followed;
-    worked->forget = forget;
+    view->worked[kind] = (struct gm_worked){followed, forget};
     if (!followed) {
         return NULL;
     }
     followed->scheme = view->scheme;
-    followed->n = view->problem->n - 2 * view->problem->passive;
-    followed->start = malloc(followed->n * sizeof *followed->start);
-    for (size_t c = 0; followed->start && c < followed->n; c++) {
-        followed->start[c] = last_of(view, view->start, c);
+    followed->why = why_none(view, kind);
+    double *start = followed->why ? NULL : last_of(view, view->start);
+    if (start) {
+        followed->growth =
+            gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt, start);
     }
-    if (!followed->start) {
-        return NULL;
-    }
-    if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
-        followed->why = view->scheme->family->by_tolerance
-                            ? "the lengths of its steps follow a tolerance and have no derivative"
-                            : "the state of the scheme is in a library: its steps have no derivative here";
-    } else if (kind == GM_WORKED_VOLUME) {
-        followed->why = followed->n > GM_NEWTON_LARGEST
-                            ? "the volume of more than 64 components is not followed"
-                        : gm_action_constraints(view->problem) > 0 ? "constraints leave no volume"
-                        : view->scheme->family->adaptive ? "its steps have other lengths beside the orbit"
-                                                         : NULL;
-    }
-    if (followed->why) {
-        return followed;
-    }
-    followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,
-                                      followed->start);
     if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_all(followed->growth)) {
         gm_growth_close(followed->growth);
         followed->growth = NULL;
     }
-    return followed->growth ? followed : NULL;
+    free(start);
+    return followed;
 }
 
 /* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its
    run. */
 static bool is_same(const struct gm_view *view, const struct followed *followed)
 {
-    const double *state = gm_run_state(gm_growth_run(followed->growth));
-    bool same = true;
-    for (size_t c = 0; c < followed->n; c++) {
-        same = same && state[c] == last_of(view, view->state, c);
-    }
+    const struct gm_run *run = gm_growth_run(followed->growth);
+    double *last = last_of(view, view->state);
+    const bool same = last && memcmp(gm_run_state(run), last, run->problem->n * sizeof *last) == 0;
+    free(last);
     return same;
 }
 
@@ -295,32 +282,25 @@ static double growth(const struct gm_view *view)
                                               : (megno ? values.megno : values.exponent);
 }
 
-/* The size that a scheme of this family noted of the last member's last step. */
-static double correction(const struct gm_view *view, const struct gm_family *family)
+static bool is_projection(const struct gm_view *view)
 {
+    return view->observable->key[0] == 'p';
+}
+
+/* The size that a projected or a relaxed scheme noted of the last member's last step. */
+static double correction(const struct gm_view *view)
+{
+    const struct gm_family *family = is_projection(view) ? &gm_family_projected : &gm_family_relaxed;
     const struct gm_holding *holding = view->scheme->family == family ? view->scheme->coefficients : NULL;
     const size_t m = view->problem->m;
     return holding && !holding->constraints ? view->memory[GM_HELD_CORRECTION * m + m - 1] : NAN;
 }
 
-static double projection(const struct gm_view *view)
+static const char *why_no_correction(const struct gm_view *view)
 {
-    return correction(view, &gm_family_projected);
-}
-
-static const char *why_no_projection(const struct gm_view *view)
-{
-    return isnan(projection(view)) ? "the scheme is not projected(...; an invariant, ...)" : NULL;
-}
-
-static double relaxation(const struct gm_view *view)
-{
-    return correction(view, &gm_family_relaxed);
-}
-
-static const char *why_no_relaxation(const struct gm_view *view)
-{
-    return isnan(relaxation(view)) ? "the scheme is not relaxed(...; an invariant)" : NULL;
+    return !isnan(correction(view)) ? NULL
+           : is_projection(view)    ? "the scheme is not projected(...; an invariant, ...)"
+                                    : "the scheme is not relaxed(...; an invariant)";
 }
 
 static const char *why_no_growth(const struct gm_view *view)
@@ -518,8 +498,8 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
      .recalls = true,
      .why = why_no_return},
     INDICATOR("escape_time", escape_time, why_no_escape, "time until the orbit has left"),
-    INDICATOR("projection", projection, why_no_projection, "length of the last move back to the invariants"),
-    INDICATOR("relaxation", relaxation, why_no_relaxation, "length of the last step beside Δt, −1"),
+    INDICATOR("projection", correction, why_no_correction, "length of the last move back to the invariants"),
+    INDICATOR("relaxation", correction, why_no_correction, "length of the last step beside Δt, −1"),
     INDICATOR("volume_error", volume_error, why_no_volume, "error of the volume against exp(∫ div f dt)"),
     INDICATOR("log_volume", log_volume, why_no_volume, "ln of the volume that the steps make of 1"),
     INDICATOR("loop_action", loop_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
@@ -565,7 +545,7 @@ size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters)
     return chosen ? GM_MODIFIED_OBSERVABLES : 0;
 }
 
-void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+bool gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     static const struct gm_together together[] = {
         {"energy_error", "H"},
@@ -574,6 +554,9 @@ void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct g
         {"modified_energy6_error", "to Δt⁶"},
     };
     const bool one = gm_one_step(lanes, count);
+    if (gm_lane_asked_shown(lanes[0]) == 0) {
+        return false;
+    }
     picture->title = "The conserved quantity: the modified energy";
     picture->subtitle =
         gm_picture_text(picture, "%s%s%s;  errors of H + Δt H₁ + Δt² H₂ + …, cut off", lanes[0]->scene->title,
@@ -583,4 +566,5 @@ void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct g
         "of it are taken, the flatter the line.";
     gm_draw_clock(picture, lanes, count);
     gm_draw_together(picture, lanes, count, together, GM_COUNT(together));
+    return true;
 }

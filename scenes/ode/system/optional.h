@@ -35,7 +35,8 @@ const char *gm_ring_why(const struct gm_view *view);
 /* Returns the number of errors to show, all or 0: gm_scene.asked_shown. */
 size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters);
 
-/* Draws a picture without states: for every lane the errors of H and of its modifications, in one graph. */
-void gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+/* Draws a picture without states: for every lane the errors of H and of its modifications, in one graph. Returns false if
+   the lanes show another one. */
+bool gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 #endif

@@ -37,6 +37,15 @@ static bool is_known(const double *angles, size_t stride, size_t count)
     return known;
 }
 
+/* Returns the members' derivatives of a component over the start of another one, by the tangents that a plane's
+   members carry. */
+static const double *tangent_of(const struct gm_view *view, size_t component, size_t start)
+{
+    return view->state +
+           gm_system_component(&gm_system_scene_of(view)->system, component > 0, start > 0 ? 2 : 1) *
+               view->problem->m;
+}
+
 /* Writes the edge as pairs, `pieces` for each member: on a cubic between two members whose ends have the
    derivatives M d(start)/d(angle), M the tangent map that each member carries. */
 static void put_edge(const struct gm_lane *lane, size_t pieces, double *points)
@@ -53,8 +62,8 @@ static void put_edge(const struct gm_lane *lane, size_t pieces, double *points)
             const double *y = view.state + disc[k] * m;
             points[2 * i + k] = y[from];
             if (s > 0) {
-                const double *along_x = gm_system_tangent(&view, disc[k], disc[0]),
-                             *along_y = gm_system_tangent(&view, disc[k], disc[1]);
+                const double *along_x = tangent_of(&view, disc[k], disc[0]),
+                             *along_y = tangent_of(&view, disc[k], disc[1]);
                 const double leave = cos(a) * along_y[from] - sin(a) * along_x[from],
                              arrive = cos(b) * along_y[to] - sin(b) * along_x[to];
                 points[2 * i + k] = r * r * (1 + 2 * s) * y[from] + s * s * (3 - 2 * s) * y[to] +

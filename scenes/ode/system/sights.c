@@ -22,10 +22,9 @@ static bool is_angle(struct gm_system_scene *system_scene, gm_node_id node)
     }
     struct gm_arena *arena = system_scene->arena;
     const size_t mark = gm_arena_mark(arena);
-    struct gm_tape *tape = gm_arena_take(arena, 1, sizeof *tape);
+    const struct gm_tape *tape = gm_system_take_tape(system_scene, &node, 1);
     double *values = gm_arena_keep(arena, gm_system_start_values(system_scene->initial, NULL), free), before,
            after;
-    gm_system_open_tape(system_scene, tape, &node, 1);
     gm_tape_values(tape, values, &before, 1);
     for (size_t i = 0; i < system->n && !found; i++) {
         if (system->variables[i].angle) {

@@ -5,9 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* The length of axes out of a surface, as a multiple of its size. */
-static const double axes_reach = 1.18;
-
 void gm_system_take_surfaces(struct gm_picture *picture, const struct gm_lane *lane, struct gm_space *space)
 {
     const struct gm_system_lane *parameters = lane->parameters;
@@ -25,16 +22,6 @@ void gm_system_take_surfaces(struct gm_picture *picture, const struct gm_lane *l
     for (size_t i = 0; i < space->surface_count; i++) {
         memcpy(surfaces[i].axes, sizes + 3 * i, sizeof surfaces[i].axes);
     }
-}
-
-/* Returns the longest half axis. */
-static double size_of(const struct gm_space *space)
-{
-    double size = 0;
-    for (size_t i = 0; i < 3 * space->surface_count; i++) {
-        size = fmax(size, space->surfaces[i / 3].axes[i % 3]);
-    }
-    return size;
 }
 
 /* Sets bounds that move outwards in steps of an eighth of the largest range, about; a flat range stays
@@ -67,15 +54,6 @@ struct gm_space gm_system_space(struct gm_picture *picture, struct gm_panel *pan
     gm_system_take_surfaces(picture, lane, &space);
     set_box(&space, seen);
     gm_space_turn(&space, camera, lane->run->t - lane->t0);
-    const double size = size_of(&space), step = size / 8;
-    if (space.surface_count == 0) {
-        gm_space_fit(&space, camera, 0, panel);
-        gm_space_draw_box(picture, panel, &space, names);
-        return space;
-    }
-    const double reach = axes_reach * fmax(size, step * ceil((seen->far - 0.02 * size) / step));
-    gm_space_fit(&space, camera, reach, panel);
-    gm_space_draw_surfaces(picture, panel, &space);
-    gm_space_draw_axes(picture, panel, &space, reach, names);
+    gm_space_draw_frame(picture, panel, &space, camera, seen->far, names);
     return space;
 }
