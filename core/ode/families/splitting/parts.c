@@ -610,12 +610,26 @@ static double time_of(const struct gm_task *task, const struct work *work, size_
 }
 
 /* One evaluation is a flow of the last part. */
+static enum gm_status make_step(const struct gm_task *task, struct gm_progress *progress)
+{
+    struct work *work = task->workspace;
+    const size_t m = task->problem->m;
+    for (size_t i = 0; i < work->flow_count; i++) {
+        const double h = time_of(task, work, i, progress->done);
+        if (h != 0 && !advance_flow(task, work, i, h, task->out, progress)) {
+            progress->unsolved.obstacle = GM_NOT_FINITE;
+            return GM_NO_CONVERGENCE;
+        }
+        progress->evaluations += h != 0 && work->flows[i].part + 1 == work->part_count ? m : 0;
+    }
+    return gm_is_within(task->out, task->problem->n * m, task->limit) ? GM_OK : GM_BLOW_UP;
+}
+
 static struct gm_progress loop(const struct gm_task *task)
 {
     struct work *work = task->workspace;
-    const size_t count = task->problem->n * task->problem->m;
     struct gm_progress progress = {.status = GM_OK};
-    memcpy(task->out, task->y, count * sizeof(double));
+    memcpy(task->out, task->y, task->problem->n * task->problem->m * sizeof(double));
     for (size_t i = 0; i < work->flow_count && work->dt != task->dt; i++) {
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
@@ -624,25 +638,8 @@ static struct gm_progress loop(const struct gm_task *task)
         }
     }
     work->dt = task->dt;
-    for (; progress.done < task->steps; progress.done++) {
-        for (size_t i = 0; i < work->flow_count; i++) {
-            const double h = time_of(task, work, i, progress.done);
-            if (h == 0) {
-                continue;
-            }
-            if (!advance_flow(task, work, i, h, task->out, &progress)) {
-                convert(work, false, task->out);
-                progress.unsolved.obstacle = GM_NOT_FINITE;
-                progress.status = GM_NO_CONVERGENCE;
-                return progress;
-            }
-            progress.evaluations += work->flows[i].part + 1 == work->part_count ? task->problem->m : 0;
-        }
-        if (!gm_is_within(task->out, count, task->limit)) {
-            convert(work, false, task->out);
-            progress.status = GM_BLOW_UP;
-            return progress;
-        }
+    while (progress.done < task->steps && (progress.status = make_step(task, &progress)) == GM_OK) {
+        progress.done++;
     }
     convert(work, false, task->out);
     return progress;
