@@ -172,20 +172,15 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
            entry->name[0] == 'x';
 }
 
-const char *const gm_room_variables[GM_ROOM_VARIABLES] = {
-    "s", "x", "y", "perimeter", "area", "inlet_length", "until"};
+const char *const gm_room_variables[] = {"s", "x", "y", "perimeter", "area", "inlet_length", "until", NULL};
 
 /* True for a name that a room reserves: of its variables, and all that systems reserve, except show. */
 static bool is_of_room(const struct gm_entry *entry)
 {
-    size_t i = 0;
-    while (i < GM_ROOM_VARIABLES && (strlen(gm_room_variables[i]) != entry->length ||
-                                     memcmp(gm_room_variables[i], entry->name, entry->length) != 0)) {
-        i++;
-    }
+    const struct gm_span name = {0, entry->length};
     return entry->role != GM_ENTRY_VELOCITY && entry->role != GM_ENTRY_TIME &&
-           (i < GM_ROOM_VARIABLES || (gm_reading_reserves(entry->name, entry->length) &&
-                                      !(entry->length == 4 && memcmp(entry->name, "show", 4) == 0)));
+           (gm_room_variables[gm_span_among(entry->name, name, gm_room_variables)] ||
+            (gm_reading_reserves(entry->name, entry->length) && !gm_span_is(entry->name, name, "show")));
 }
 
 static enum gm_form_operator operator_of(const char *name, size_t length);
@@ -361,8 +356,7 @@ static const struct {
 static enum gm_form_operator operator_of(const char *name, size_t length)
 {
     size_t i = 0;
-    while (i < GM_FORM_OPERATORS &&
-           (strlen(form_operators[i].name) != length || memcmp(form_operators[i].name, name, length) != 0)) {
+    while (i < GM_FORM_OPERATORS && !gm_span_is(name, (struct gm_span){0, length}, form_operators[i].name)) {
         i++;
     }
     return (enum gm_form_operator)i;
@@ -414,17 +408,16 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
 static bool is_part(void *data, const struct gm_name *called, const struct gm_name *word, gm_node_id *node)
 {
     struct gm_user_system *system = ((struct gm_reading *)data)->system;
-    const char *name;
+    const struct gm_span part = {0, word->length};
     if (operator_of(called->text, called->length) != GM_FORM_INTEGRAL) {
         return false;
     }
     size_t i = 0;
-    while (i < system->boundary_count && (strlen(system->boundaries[i]) != word->length ||
-                                          memcmp(system->boundaries[i], word->text, word->length) != 0)) {
+    while (i < system->boundary_count && !gm_span_is(word->text, part, system->boundaries[i])) {
         i++;
     }
     if (i == system->boundary_count) {
-        name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
+        const char *name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
         gm_reading_reserve(data, (void **)&system->boundaries, i, sizeof *system->boundaries);
         system->boundaries[system->boundary_count++] = name;
     }
