@@ -732,11 +732,6 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
     complete_heat(room);
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static void close_arena(void *arena)
 {
     gm_arena_close(arena);
@@ -757,7 +752,7 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
     const unsigned long refusals = gm_memory_refusals();
     struct gm_user_system *system = &room->system;
     gm_formula_open(&system->graph);
-    gm_arena_keep(arena, &system->graph, close_graph);
+    gm_arena_keep(arena, &system->graph, gm_formula_close);
     struct room_reading here = {.reading = {.system = system,
                                             .text = input->text,
                                             .length = input->length,

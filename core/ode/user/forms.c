@@ -393,11 +393,6 @@ static void pin(struct own *own)
     }
 }
 
-static void close_lu(void *lu)
-{
-    gm_lu_close(lu);
-}
-
 /* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. */
 static void factor(struct own *own)
 {
@@ -423,7 +418,7 @@ static void factor(struct own *own)
     own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
     own->lu = own->factor ? NULL : gm_lu_open(n, a->start, a->column, a->value);
     if (own->lu) {
-        gm_arena_keep(own->arena, own->lu, close_lu);
+        gm_arena_keep(own->arena, own->lu, gm_lu_close);
     } else if (!own->factor) {
         const struct gm_form_model *model = own->model;
         gm_arena_refuse(own->arena, "equation: the equations do not determine %s: their matrix is singular",
@@ -745,7 +740,7 @@ static void factor_stages(struct gm_arena *arena, void *data)
     gm_arena_drop(arena, all);
     factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
     gm_arena_need(arena, factor->lu);
-    gm_arena_keep(arena, factor->lu, close_lu);
+    gm_arena_keep(arena, factor->lu, gm_lu_close);
 }
 
 /* The factors for these stages, new ones in the place of the oldest. NULL if the matrix is singular, or when out of

@@ -195,11 +195,6 @@ static const char *sum_of(struct gm_arena *arena, const char *const *names, size
     return text;
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
                                 struct gm_arena *arena)
 {
@@ -209,7 +204,7 @@ static const char *parts_differ(const struct gm_problem *problem, const char *co
     gm_node_id *rest = gm_arena_take(arena, problem->n + 1, sizeof *rest),
                *rates = gm_arena_take(arena, problem->n + 1, sizeof *rates);
     gm_formula_open(graph);
-    gm_arena_keep(arena, graph, close_graph);
+    gm_arena_keep(arena, graph, gm_formula_close);
     all_rates(problem, graph, system->rates, rest);
     gm_node_id energy = system->kind == GM_RATES ? GM_NO_NODE : graft(problem, graph, system->energy);
     for (size_t k = 0; k < count; k++) {

@@ -72,11 +72,6 @@ static void close_coefficients(void *coefficients)
     gm_coefficients_close(coefficients);
 }
 
-static void close_written(void *written)
-{
-    gm_written_close(written);
-}
-
 static void close_user(struct own *self)
 {
     if (self) {
@@ -1103,7 +1098,7 @@ static struct own *make(const struct making *outer, struct gm_span span, const c
         fail(outer, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
     }
     struct gm_written_scheme *written = gm_arena_take(making.arena, 1, sizeof *written);
-    gm_arena_keep(making.arena, written, close_written);
+    gm_arena_keep(making.arena, written, gm_written_close);
     gm_arena_need(making.arena, gm_written_open(written, making.source->text, span.begin, span.end,
                                                 making.source->decimals, making.fault));
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {

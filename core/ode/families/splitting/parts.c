@@ -357,18 +357,13 @@ static void list_parts(struct work *work)
     }
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static void open_work(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     const size_t n = work->problem->n;
     size_t largest = n;
     gm_formula_open(&work->graph);
-    gm_arena_keep(arena, &work->graph, close_graph);
+    gm_arena_keep(arena, &work->graph, gm_formula_close);
     (work->row->parts > 0 ? list_parts : list_pieces)(work);
     for (size_t i = 0; i < work->flow_count; i++) {
         const struct part *part = &work->parts[work->flows[i].part];
@@ -652,7 +647,7 @@ static void open_one(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     gm_formula_open(&work->graph);
-    gm_arena_keep(arena, &work->graph, close_graph);
+    gm_arena_keep(arena, &work->graph, gm_formula_close);
     open_part(work, work->parts, &work->row->list[0]);
 }
 
