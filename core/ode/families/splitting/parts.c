@@ -174,9 +174,7 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
     if (!parts) {
         gm_arena_refuse(work->arena, "a field that is a sum of named parts");
     }
-    const bool found = parts->rates(work->problem, name, &work->graph, rates);
-    gm_arena_need(work->arena, !work->graph.failed);
-    if (!found) {
+    if (!parts->rates(work->arena, work->problem, name, &work->graph, rates)) {
         gm_arena_refuse(work->arena, "a part %.40s%s; %s", name, column_of(work, name),
                         other_names(work, name));
     }
@@ -342,7 +340,7 @@ static void list_parts(struct work *work)
         count += same == count;
         work->carrier = work->carrier == row->parts && !work->parts[i].timed ? i : work->carrier;
     }
-    const char *difference = parts ? parts->differ(work->problem, names, count, work->arena) : NULL;
+    const char *difference = parts ? parts->differ(work->arena, work->problem, names, count) : NULL;
     if (difference) {
         gm_arena_refuse(work->arena, "%s", difference);
     }
