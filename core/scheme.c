@@ -155,9 +155,13 @@ bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *
     return at && *at;
 }
 
-bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                 struct gm_coefficients *coefficients)
 {
-    return scheme->exact
-               ? gm_coefficients_copy(coefficients, scheme->exact)
-               : scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, coefficients);
+    if (scheme->exact) {
+        gm_coefficients_copy(arena, coefficients, scheme->exact);
+    } else if (scheme->family->coefficients_open) {
+        scheme->family->coefficients_open(arena, scheme, coefficients);
+    }
+    return gm_scheme_has_coefficients(scheme);
 }

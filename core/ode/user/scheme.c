@@ -45,8 +45,8 @@ struct making {
     struct gm_fault *fault;
     struct gm_arena *arena;
     int depth;
-    struct gm_coefficients
-        *moved;       /* its copies, each with one decimal moved, go to the whole scheme; or NULL */
+    struct gm_coefficients *moved; /* of the whole scheme, each with one decimal moved */
+    int moved_count;
     struct own *made; /* the whole scheme */
 };
 
@@ -67,21 +67,16 @@ _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct ma
     gm_arena_leave(making->arena);
 }
 
-static void close_coefficients(void *coefficients)
+static void close_user(void *scheme)
 {
-    gm_coefficients_close(coefficients);
-}
-
-static void close_user(struct own *self)
-{
-    if (self) {
-        gm_arena_close(self->arena);
-    }
+    gm_arena_close(((struct own *)scheme)->arena);
 }
 
 void gm_user_scheme_close(const struct gm_scheme *scheme)
 {
-    close_user((struct own *)(void *)scheme);
+    if (scheme) {
+        close_user((void *)scheme);
+    }
 }
 
 /* The text of a span, with single blanks. */
@@ -90,22 +85,11 @@ static char *words_of(const struct making *making, struct gm_span span)
     return gm_arena_keep(making->arena, gm_span_words(making->source->text, span), free);
 }
 
-/* Returns `count` coefficients, not yet opened, which the arena closes. */
-static struct gm_coefficients *take_coefficients(const struct making *making, size_t count)
-{
-    struct gm_coefficients *taken = gm_arena_take(making->arena, count, sizeof *taken);
-    for (size_t i = 0; i < count; i++) {
-        gm_arena_keep(making->arena, &taken[i], close_coefficients);
-    }
-    return taken;
-}
-
 static struct own *open_user(const struct making *making, size_t coefficients)
 {
     struct own *self = gm_arena_take(making->arena, 1, sizeof *self);
     self->coefficients = gm_arena_take(making->arena, 1, coefficients);
     self->row.coefficients = self->coefficients;
-    gm_arena_keep(making->arena, &self->exact, close_coefficients);
     return self;
 }
 
@@ -145,7 +129,7 @@ static struct own *make_runge_kutta(const struct making *making, const struct gm
     struct own *self = open_user(making, sizeof(struct gm_tableau));
     struct gm_tableau tableau = {.stages = stages};
     (void)schemes;
-    gm_arena_need(making->arena, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
+    gm_coefficients_open(making->arena, &self->exact, GM_EQUATIONS_PLAIN, stages);
     put(lines[GM_SCHEME_WORD_A].numbers, stages, stages, tableau.a, self->exact.a[0]);
     put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &tableau.b, self->exact.b[0]);
     return close_tableau(self, &tableau);
@@ -161,7 +145,7 @@ static struct own *make_partitioned(const struct making *making, const struct gm
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     struct own *self = open_user(making, sizeof(struct gm_partitioned_row));
     struct gm_coefficients *exact = &self->exact;
-    gm_arena_need(making->arena, gm_coefficients_open(exact, GM_EQUATIONS_PARTITIONED, stages));
+    gm_coefficients_open(making->arena, exact, GM_EQUATIONS_PARTITIONED, stages);
     struct gm_partitioned_row *row = self->coefficients;
     self->row.family = &gm_family_partitioned;
     self->row.needs = GM_NEEDS_HAMILTONIAN;
@@ -190,7 +174,8 @@ static struct own *make_nystrom(const struct making *making, const struct gm_wri
     put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &row->b, b);
     put(lines[GM_SCHEME_WORD_BV].numbers, 1, stages, &row->bv, b + s);
     put(lines[GM_SCHEME_WORD_C].numbers, 1, stages, &row->c, b + 2 * s);
-    gm_arena_need(making->arena, gm_coefficients_open_nystrom(&self->exact, stages, a, b, b + s, b + 2 * s));
+    gm_coefficients_open_nystrom(making->arena, &self->exact, stages,
+                                 &(struct gm_nystrom_balls){a, b, b + s, b + 2 * s});
     return self;
 }
 
@@ -242,7 +227,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
         return self;
     }
     /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
-    gm_arena_need(making->arena, gm_family_splitting.coefficients_open(&self->row, &self->exact));
+    gm_family_splitting.coefficients_open(making->arena, &self->row, &self->exact);
     for (int j = 0; j < pieces->count; j++) {
         const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
         self->exact.b[side][j] = pieces->at[j].fraction.ball;
@@ -259,23 +244,18 @@ static const struct gm_parts_row *parts_of(const struct gm_scheme *scheme)
     return scheme->family == &gm_family_parts ? scheme->coefficients : NULL;
 }
 
-static bool has_coefficients(const struct gm_scheme *scheme)
-{
-    return scheme->exact || scheme->family->coefficients_open;
-}
-
 /* Adds the pieces of a splitting, each times a fraction, forwards or backwards. */
 static bool add_pieces(const struct making *making, struct pieces *pieces, const struct gm_scheme *scheme,
                        const struct gm_written_number *fraction, bool backwards)
 {
     const struct gm_splitting *table = scheme->coefficients;
-    struct gm_coefficients *exact = has_coefficients(scheme) ? take_coefficients(making, 1) : NULL;
+    struct gm_coefficients exact;
+    const bool known = gm_scheme_coefficients_open(making->arena, scheme, &exact);
     bool good = true;
-    gm_arena_need(making->arena, !exact || gm_scheme_coefficients_open(scheme, exact));
     for (int k = 0; k < table->count; k++) {
         const int i = backwards ? table->count - 1 - k : k;
         const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-        const struct gm_ball ball = exact ? exact->b[side][i] : gm_ball_written(table->pieces[i].fraction);
+        const struct gm_ball ball = known ? exact.b[side][i] : gm_ball_written(table->pieces[i].fraction);
         good = good && add_piece(pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
                                  gm_ball_multiply(ball, fraction->ball));
     }
@@ -473,21 +453,20 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
                        const struct gm_written_number *fractions)
 {
     const size_t count = (size_t)steps->count;
-    struct gm_coefficients *parts = take_coefficients(making, count);
+    struct gm_coefficients *parts = gm_arena_take(making->arena, count, sizeof *parts);
     struct gm_ball *balls = gm_arena_take(making->arena, count, sizeof *balls);
     int stages = 0;
     for (size_t k = 0; k < count; k++) {
-        if (!has_coefficients(steps->at[k])) {
+        if (!gm_scheme_coefficients_open(making->arena, steps->at[k], &parts[k])) {
             return;
         }
-        gm_arena_need(making->arena, gm_scheme_coefficients_open(steps->at[k], &parts[k]));
         balls[k] = fractions[k].ball;
         stages += parts[k].stages;
         if (stages > MOST_STAGES) {
             return;
         }
     }
-    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, balls, steps->count));
+    gm_coefficients_open_composition(making->arena, exact, parts, balls, steps->count);
 }
 
 /* Makes a composition of steps of schemes, one after the other, of these fractions; faults are reported at `place`. */
@@ -524,8 +503,7 @@ static struct own *compose(const struct making *making, const struct named *step
 static struct own *same(const struct making *making, const struct gm_scheme *scheme)
 {
     struct own *self = open_user(making, 1);
-    gm_arena_need(making->arena,
-                  !has_coefficients(scheme) || gm_scheme_coefficients_open(scheme, &self->exact));
+    gm_scheme_coefficients_open(making->arena, scheme, &self->exact);
     self->row.family = scheme->family;
     self->row.coefficients = scheme->coefficients;
     self->row.needs = scheme->needs;
@@ -557,7 +535,7 @@ static struct own *adjoint_tableau(const struct making *making, const struct gm_
     const int stages = exact->stages;
     struct own *self = open_user(making, sizeof(struct gm_tableau));
     struct gm_tableau adjoint = {.stages = stages};
-    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
+    gm_coefficients_open_adjoint(making->arena, &self->exact, exact);
     for (int i = 0; i < stages; i++) {
         for (int j = 0; j < stages; j++) {
             adjoint.a[i][j] = gm_ball_midpoint(self->exact.a[0][i * stages + j]);
@@ -574,7 +552,7 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
     const struct gm_nystrom_row *row = scheme->coefficients;
     const int stages = row->stages, last = stages - 1;
     struct own *self = open_user(making, sizeof *row);
-    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
+    gm_coefficients_open_adjoint(making->arena, &self->exact, exact);
     struct gm_nystrom_row *adjoint = self->coefficients;
     adjoint->stages = stages;
     for (int i = 0; i < stages; i++) {
@@ -616,7 +594,9 @@ static struct own *adjoint_composition(const struct making *making, const struct
     reversed->count = substeps->count;
     self->row.family = scheme->family;
     self->row.needs = scheme->needs;
-    gm_arena_need(making->arena, !scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact));
+    if (scheme->exact) {
+        gm_coefficients_open_adjoint(making->arena, &self->exact, scheme->exact);
+    }
     return self;
 }
 
@@ -626,22 +606,21 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
     if (scheme->family == &gm_family_splitting || (parts_of(scheme) && parts_of(scheme)->parts > 0)) {
         return adjoint_splitting(making, scheme, place);
     }
-    if (!has_coefficients(scheme)) {
+    struct gm_coefficients exact;
+    if (!gm_scheme_coefficients_open(making->arena, scheme, &exact)) {
         fail(making, place,
              "the adjoint of %.60s is unknown: it is neither a Runge-Kutta method nor a splitting",
              scheme->name);
     }
-    struct gm_coefficients *exact = take_coefficients(making, 1);
     const struct gm_tableau *row = scheme->coefficients;
-    gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, exact));
     if (scheme->family == &gm_family_nystrom) {
-        return adjoint_nystrom(making, scheme, exact);
+        return adjoint_nystrom(making, scheme, &exact);
     }
     if ((scheme->family != &gm_family_explicit && scheme->family != &gm_family_implicit) ||
-        exact->stages != row->stages) {
+        exact.stages != row->stages) {
         fail(making, place, "the adjoint of %.60s is not known", scheme->name);
     }
-    return adjoint_tableau(making, exact);
+    return adjoint_tableau(making, &exact);
 }
 
 /* The adjoint of a scheme, which outlives it. */
@@ -669,16 +648,15 @@ static bool are_adjoint(const struct making *making, const struct gm_scheme *a, 
                        are_adjoint(making, here->scheme, there->scheme);
         }
     }
-    if (mirrored || !has_coefficients(a) || !has_coefficients(b)) {
+    struct gm_coefficients parts[2], both;
+    if (mirrored || !gm_scheme_coefficients_open(making->arena, a, &parts[0]) ||
+        !gm_scheme_coefficients_open(making->arena, b, &parts[1])) {
         return mirrored;
     }
     /* then a step of one after a step of the other is symmetric */
-    struct gm_coefficients *taken = take_coefficients(making, 3);
     const struct gm_ball fractions[] = {gm_ball_of(1), gm_ball_of(1)};
-    gm_arena_need(making->arena, gm_scheme_coefficients_open(a, &taken[0]) &&
-                                     gm_scheme_coefficients_open(b, &taken[1]) &&
-                                     gm_coefficients_open_composition(&taken[2], taken, fractions, 2));
-    return taken[0].stages == taken[1].stages && gm_theory_is_symmetric(&taken[2]);
+    gm_coefficients_open_composition(making->arena, &both, parts, fractions, 2);
+    return parts[0].stages == parts[1].stages && gm_theory_is_symmetric(making->arena, &both);
 }
 
 /* ---- schemes of schemes ---- */
@@ -1026,10 +1004,9 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     row->exact = self->exact.stages > 0 ? &self->exact : NULL;
     const struct gm_decimals *decimals = making->source->decimals;
     const bool tried = decimals && (decimals->instead || decimals->alone);
-    if (making->depth == 1 && making->moved && row->exact) {
-        self->exact.moved = making->moved->moved;
-        self->exact.moved_count = making->moved->moved_count;
-        *making->moved = (struct gm_coefficients){0};
+    if (making->depth == 1) {
+        self->exact.moved = making->moved;
+        self->exact.moved_count = making->moved_count;
     }
     if (making->depth == 1 && !making->source->part && !tried && row->exact) {
         check_weights(making, written, row->exact);
@@ -1043,8 +1020,7 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     }
     struct gm_theory theory = {.known = false};
     if (row->exact && !tried && (written->order == 0 || !lines[GM_SCHEME_WORD_CLAIMS].said)) {
-        theory = gm_theory_of(row->exact);
-        gm_arena_need(making->arena, theory.known);
+        theory = gm_theory_of(making->arena, row->exact);
     }
     if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
@@ -1109,67 +1085,59 @@ static struct own *make(const struct making *outer, struct gm_span span, const c
     return own;
 }
 
-static void make_whole(struct gm_arena *arena, void *data)
-{
-    struct making *making = data;
-    const struct gm_user_scheme_source *source = making->source;
-    making->made = make(making, (struct gm_span){0, source->length}, source->name, source->title);
-    making->made->arena = arena;
-}
-
-/* `moved` may be NULL. */
-static struct own *open_source(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
-                               struct gm_fault *fault)
-{
-    struct making making = {.source = source, .fault = fault, .arena = gm_arena_open(), .moved = moved};
-    *fault = (struct gm_fault){0};
-    if (gm_arena_run(making.arena, make_whole, &making)) {
-        return making.made;
-    }
-    gm_arena_close(making.arena);
-    return NULL;
-}
-
-/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
-   nothing if there are too many. False with a fault. */
-static bool open_moved(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
-                       struct gm_fault *fault)
+/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; none if
+   there are too many. */
+static void open_moved(struct making *making)
 {
     enum { MOST = 1000 }; /* decimals times stages */
-    struct gm_decimals decimals = {0};
-    struct gm_user_scheme_source tried = *source;
+    struct gm_arena *arena = making->arena;
+    struct gm_decimals decimals = {.alone = true};
+    struct gm_user_scheme_source tried = *making->source;
     tried.decimals = &decimals;
-    decimals.alone = true;
-    struct own *self = open_source(&tried, NULL, fault);
-    const size_t all = decimals.count;
-    const size_t asked = self && self->exact.stages > 0 && all * (size_t)self->exact.stages <= MOST ? all : 0;
-    struct gm_ball *x = malloc((asked + 1) * sizeof *x);
-    moved->moved = asked ? calloc(asked, sizeof *moved->moved) : NULL;
-    bool good = self && x && (moved->moved || !asked);
-    close_user(self);
-    for (size_t k = 0; good && k < asked; k++) {
-        for (size_t i = 0; i < all; i++) {
+    const struct gm_scheme *typed = gm_user_scheme_open(&tried, making->fault);
+    const size_t stages = typed && typed->exact ? (size_t)typed->exact->stages : 0, count = decimals.count;
+    gm_user_scheme_close(typed);
+    if (decimals.at) {
+        gm_arena_keep(arena, decimals.at, free);
+    }
+    gm_arena_need(arena, typed);
+    const size_t asked = count * stages <= MOST && stages > 0 ? count : 0;
+    struct gm_ball *x = gm_arena_take(arena, count, sizeof *x);
+    making->moved = gm_arena_take(arena, asked, sizeof *making->moved);
+    for (size_t k = 0; k < asked; k++) {
+        for (size_t i = 0; i < count; i++) {
             x[i] = decimals.at[i].ball;
             x[i].radius = 0;
         }
         x[k] = gm_ball_add(x[k], gm_ball_of(decimals.at[k].ball.radius));
         decimals.instead = x;
-        struct own *other = open_source(&tried, NULL, fault);
-        good = other && gm_coefficients_copy(&moved->moved[k], &other->exact);
-        moved->moved_count += good;
-        close_user(other);
+        struct own *other = (void *)gm_user_scheme_open(&tried, making->fault);
+        gm_arena_need(arena, other);
+        gm_arena_keep(arena, other, close_user);
+        gm_coefficients_copy(arena, &making->moved[making->moved_count++], &other->exact);
+        gm_arena_drop(arena, other);
     }
-    free(x);
-    free(decimals.at);
-    return good;
+}
+
+static void make_whole(struct gm_arena *arena, void *data)
+{
+    struct making *making = data;
+    const struct gm_user_scheme_source *source = making->source;
+    if (!source->decimals) {
+        open_moved(making);
+    }
+    making->made = make(making, (struct gm_span){0, source->length}, source->name, source->title);
+    making->made->arena = arena;
 }
 
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault)
 {
-    struct gm_coefficients moved = {0};
-    const bool good = source->decimals || open_moved(source, &moved, fault);
-    struct own *self = good ? open_source(source, &moved, fault) : NULL;
-    gm_coefficients_close(&moved);
-    return self ? &self->row : NULL;
+    struct making making = {.source = source, .fault = fault, .arena = gm_arena_open()};
+    *fault = (struct gm_fault){0};
+    if (gm_arena_run(making.arena, make_whole, &making)) {
+        return &making.made->row;
+    }
+    gm_arena_close(making.arena);
+    return NULL;
 }
