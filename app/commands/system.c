@@ -780,12 +780,8 @@ static void tidy_all(struct report *report)
 static void close_report(void *data)
 {
     struct report *report = data;
-    if (report->system.kind == GM_FIELD) {
-        gm_user_wave_close(&report->problem);
-    } else if (report->system.kind == GM_MATRICES) {
-        gm_user_form_close(&report->problem);
-    } else if (report->system.kind == GM_EVOLUTION) {
-        gm_user_evolution_shut(&report->problem);
+    if (gm_system_is_field(&report->system)) {
+        gm_user_line_close(&report->problem);
         gm_user_evolution_close(&report->evolution);
     } else {
         gm_user_problem_close(&report->problem);

@@ -30,20 +30,51 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
            (!gm_line_is_solved(system) || gm_system_place(system, formulas->exact, components));
 }
 
-bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *system,
-                       const gm_node_id *start, size_t outputs, const gm_node_id *exact, const double *values)
+bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
+                          void *data)
 {
-    line->system = system;
-    line->begin = system->variables[system->n].value;
-    return gm_tape_open(&line->start, &system->graph, start, outputs, 1, values) &&
-           (!gm_line_is_solved(system) ||
-            gm_tape_open(&line->exact, &system->graph, exact, gm_line_components(system), 2, values));
+    struct gm_arena *arena = gm_arena_open();
+    const bool opened = gm_arena_run(arena, body, data);
+    if (!opened) {
+        gm_arena_close(arena);
+        problem->parameters = problem->facets = NULL;
+    }
+    return opened;
 }
 
-void gm_user_line_close(struct gm_user_line *line)
+void gm_user_line_close(struct gm_problem *problem)
 {
-    gm_tape_close(&line->start);
-    gm_tape_close(&line->exact);
+    const struct gm_user_line *line = problem->parameters;
+    if (line) {
+        gm_arena_close(line->arena);
+    }
+    problem->parameters = problem->facets = NULL;
+}
+
+void *gm_user_line_take(struct gm_arena *arena, struct gm_problem *problem,
+                        const struct gm_user_system *system, size_t size)
+{
+    struct gm_user_line *line = gm_arena_take(arena, 1, size);
+    line->arena = arena;
+    line->system = system;
+    line->begin = system->variables[system->n].value;
+    problem->parameters = line;
+    return line;
+}
+
+void gm_user_line_open(struct gm_user_line *line, const gm_node_id *start, size_t outputs,
+                       const gm_node_id *exact, const double *values)
+{
+    gm_user_line_tape(line, &line->start, start, outputs, 1, values);
+    if (gm_line_is_solved(line->system)) {
+        gm_user_line_tape(line, &line->exact, exact, gm_line_components(line->system), 2, values);
+    }
+}
+
+void gm_user_line_tape(const struct gm_user_line *line, struct gm_tape *tape, const gm_node_id *nodes,
+                       size_t count, size_t inputs, const double *values)
+{
+    gm_tape_keep(line->arena, tape, gm_tape_open(tape, &line->system->graph, nodes, count, inputs, values));
 }
 
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t)

@@ -218,7 +218,7 @@ bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *se
     good = good && (!kind->admits || kind->admits(lane, problem, sentence)) &&
            (trusted || check_start(lane, problem, sentence));
     if (!good) {
-        kind->close(problem);
+        gm_user_line_close(problem);
     }
     return good;
 }

@@ -366,7 +366,7 @@ static void find_range(struct gm_user_field *field, const struct gm_problem *pro
 static void close_problem(void *thing)
 {
     struct making *making = thing;
-    making->field->kind->close(&making->problem);
+    gm_user_line_close(&making->problem);
 }
 
 static bool derive(struct gm_user_field *field)
@@ -446,7 +446,7 @@ static void make(struct gm_arena *arena, void *data)
         .idle = gm_system_idle,
         .settle = settle,
         .setup = gm_field_setup,
-        .close = kind->close,
+        .close = gm_user_line_close,
         .start = gm_field_start,
         .draw = kind->draw,
         .point = gm_field_point,

@@ -56,7 +56,7 @@ static void open_typed(struct typed *typed, const char *text)
 
 static void close_typed(struct typed *typed)
 {
-    gm_user_wave_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 
@@ -544,7 +544,7 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
         }
         gm_run_close(run);
         free(values);
-        gm_user_evolution_shut(&problem);
+        gm_user_line_close(&problem);
         gm_user_evolution_close(&evolution);
         gm_system_close(&system);
     }
@@ -589,7 +589,7 @@ static void a_peakon_moves_as_fast_as_it_is_high(void **unused)
         gm_run_close(run);
         free(y);
         free(values);
-        gm_user_evolution_shut(&problem);
+        gm_user_line_close(&problem);
         gm_user_evolution_close(&evolution);
         gm_system_close(&system);
     }

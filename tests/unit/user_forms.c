@@ -90,7 +90,7 @@ static void open_typed(struct typed *typed, const char *text, size_t points, dou
 static void close_typed(struct typed *typed)
 {
     free(typed->y);
-    gm_user_form_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 
@@ -452,7 +452,7 @@ static void a_start_that_does_not_close_is_refused(void **unused)
             fail_msg("%s: %s", starts[i].text, sentence);
         }
         free(values);
-        gm_user_form_close(&problem);
+        gm_user_line_close(&problem);
         gm_system_close(&system);
     }
 }

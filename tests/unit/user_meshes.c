@@ -21,6 +21,7 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/user/line.h"
 #include "tests/common/mesh_soliton.h"
 
 static const struct gm_settings settings = {0};
@@ -52,7 +53,7 @@ static void open_typed(struct typed *typed, const char *text, double half_length
 
 static void close_typed(struct typed *typed)
 {
-    gm_user_mesh_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 

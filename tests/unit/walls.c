@@ -62,7 +62,7 @@ static void open_walled(struct walled *walled, const char *text, size_t nodes)
 
 static void close_walled(struct walled *walled)
 {
-    gm_user_wave_close(&walled->problem);
+    gm_user_line_close(&walled->problem);
     gm_system_close(&walled->system);
 }
 
@@ -175,7 +175,7 @@ static void evolve(const char *text, double *sound, char *sentence)
     }
     free(y);
     free(values);
-    gm_user_evolution_shut(&problem);
+    gm_user_line_close(&problem);
     gm_user_evolution_close(&evolution);
     gm_system_close(&system);
 }

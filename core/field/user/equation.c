@@ -76,24 +76,29 @@ double gm_frames_number(const struct gm_user_system *system, const double *value
     return otherwise;
 }
 
-bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
-                           const double *values, const struct gm_grid1 *line)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_equation *equation;
+    const double *values;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
+    const struct opening *opening = data;
+    const struct gm_user_equation *equation = opening->equation;
+    const double *values = opening->values;
     const struct gm_user_system *system = equation->system;
-    union equation *parameters = calloc(1, sizeof *parameters);
+    struct gm_problem *problem = opening->problem;
+    union equation *parameters = gm_user_line_take(arena, problem, system, sizeof *parameters);
+    const size_t points = problem->line.points;
     double constants[GM_EQUATION_CONSTANTS] = {0};
     size_t count = 0;
-    *problem = *problem_of(equation);
-    problem->parameters = parameters;
-    problem->line = *line;
     while (count < GM_EQUATION_CONSTANTS && equation->recognised.constants[count]) {
         count++;
     }
-    if (!parameters || !gm_user_line_numbers(system, equation->recognised.values, count, values, constants) ||
-        !gm_user_line_open(&parameters->line, system, equation->formulas.start, equation->outputs,
-                           equation->formulas.exact, values)) {
-        return false;
-    }
+    gm_arena_need(arena, gm_user_line_numbers(system, equation->recognised.values, count, values, constants));
+    gm_user_line_open(&parameters->line, equation->formulas.start, equation->outputs,
+                      equation->formulas.exact, values);
     if (equation->needs != GM_NEEDS_NLS) {
         parameters->framed.lambda = gm_frames_number(system, values, "lambda", 0);
     }
@@ -101,32 +106,29 @@ bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equa
     case GM_NEEDS_KDV:
         parameters->kdv.eta = constants[0];
         parameters->kdv.mu = constants[1];
-        problem->n = gm_wave_size(line->points);
+        problem->n = gm_wave_size(points);
         break;
     case GM_NEEDS_NLS:
         parameters->nls.k = constants[0];
-        problem->n = 2 * line->points;
+        problem->n = 2 * points;
         break;
     case GM_NEEDS_HEAT:
         parameters->framed.viscosity = constants[0];
-        problem->n = line->points;
+        problem->n = points;
         break;
     default:
         parameters->framed.viscosity = constants[0];
         parameters->burgers.a = gm_frames_number(system, values, "a", -0.5);
         parameters->burgers.d = gm_frames_number(system, values, "d", 0);
-        problem->n = gm_burgers_size(&parameters->burgers, line->points);
+        problem->n = gm_burgers_size(&parameters->burgers, points);
         break;
     }
-    return true;
 }
 
-void gm_user_equation_close(struct gm_problem *problem)
+bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
+                           const double *values, const struct gm_grid1 *line)
 {
-    union equation *parameters = (union equation *)problem->parameters;
-    if (parameters) {
-        gm_user_line_close(&parameters->line);
-    }
-    free(parameters);
-    problem->parameters = NULL;
+    *problem = *problem_of(equation);
+    problem->line = *line;
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, equation, values});
 }

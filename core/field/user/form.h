@@ -17,10 +17,9 @@ struct gm_user_form {
 bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system);
 
 /* The problem with these values of all variables (gm_equations_start) on that ring. Returns false when out
-   of memory; the caller closes it in both cases. */
+   of memory; the caller closes it (gm_user_line_close). */
 bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
                        const struct gm_grid1 *grid);
-void gm_user_form_close(struct gm_problem *problem);
 
 /* The state at t = 0; potentials (gm_form) are integrated from their slopes, from their value at the left
    end on. */

@@ -47,7 +47,6 @@ struct own {
     double complex *symbols; /* the matrices of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
-    struct gm_arena *arena; /* owns all of this */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -329,8 +328,7 @@ static void symbol(const struct gm_problem *problem, size_t mode, double complex
 static void open_tape(const struct own *self, struct gm_tape *tape, const gm_node_id *nodes, size_t count,
                       const double *values)
 {
-    gm_tape_keep(self->arena, tape,
-                 gm_tape_open(tape, &self->evolution->system->graph, nodes, count, self->inputs, values));
+    gm_user_line_tape(&self->along, tape, nodes, count, self->inputs, values);
 }
 
 /* Computes the coefficients of a linear formula: its values if one input is 1 and the others are 0. */
@@ -338,7 +336,7 @@ static void find_coefficients(const struct own *self, const gm_node_id *nodes, c
                               double *coefficients)
 {
     const size_t n = self->fields;
-    struct gm_tape *tape = gm_arena_take(self->arena, 1, sizeof *tape);
+    struct gm_tape *tape = gm_arena_take(self->along.arena, 1, sizeof *tape);
     open_tape(self, tape, nodes, n, values);
     for (size_t k = 0; k < n * ORDERS; k++) {
         double inputs[MOST_INPUTS] = {0}, outputs[GM_MOST_FIELDS];
@@ -354,8 +352,8 @@ static void make_symbols(struct own *self, const double *values)
 {
     const size_t n = self->fields, half = gm_modes_half(self->line.points);
     double linear[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS], mass[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS];
-    self->symbols = gm_arena_take(self->arena, half * n * n, sizeof *self->symbols);
-    self->masses = gm_arena_take(self->arena, half * n, sizeof *self->masses);
+    self->symbols = gm_arena_take(self->along.arena, half * n * n, sizeof *self->symbols);
+    self->masses = gm_arena_take(self->along.arena, half * n, sizeof *self->masses);
     find_coefficients(self, self->evolution->lines, values, linear);
     find_coefficients(self, self->evolution->masses, values, mass);
     for (size_t mode = 0; mode < half; mode++) {
@@ -427,14 +425,14 @@ static void find_needed(struct own *self)
         const gm_node_id node =
             i < self->fields ? evolution->rates[i] : evolution->densities[i - self->fields];
         size_t count = 0;
-        gm_node_id *parts = gm_arena_keep(self->arena, gm_formula_parts(graph, node, &count), free);
+        gm_node_id *parts = gm_arena_keep(self->along.arena, gm_formula_parts(graph, node, &count), free);
         for (size_t k = 0; k < count; k++) {
             const struct gm_node *part = &graph->nodes[parts[k]];
             if (part->operation == GM_VARIABLE && part->a < self->fields * ORDERS) {
                 self->needed[part->a] = true;
             }
         }
-        gm_arena_drop(self->arena, parts);
+        gm_arena_drop(self->along.arena, parts);
     }
 }
 
@@ -442,7 +440,7 @@ static void name_fields(struct own *self)
 {
     self->names = "";
     for (size_t i = 0; i < self->fields; i++) {
-        self->names = gm_arena_print(self->arena, "%s%s%s[]", self->names, i ? " " : "",
+        self->names = gm_arena_print(self->along.arena, "%s%s%s[]", self->names, i ? " " : "",
                                      self->evolution->system->variables[i].name);
     }
 }
@@ -451,7 +449,7 @@ static void open_tapes(struct own *self, const double *values)
 {
     const struct gm_user_evolution *evolution = self->evolution;
     const size_t n = self->fields;
-    self->densities = gm_arena_take(self->arena, evolution->density_count, sizeof *self->densities);
+    self->densities = gm_arena_take(self->along.arena, evolution->density_count, sizeof *self->densities);
     open_tape(self, &self->rates, evolution->rates, n, values);
     open_tape(self, &self->rests, evolution->rests, n, values);
     for (size_t i = 0; i < evolution->density_count; i++) {
@@ -471,32 +469,23 @@ static void close_idle(void *idle)
     room_close(atomic_exchange((struct room * _Atomic *)idle, NULL));
 }
 
-static void close_line(void *line)
-{
-    gm_user_line_close(line);
-}
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
     const struct opening *opening = data;
     const struct gm_user_system *system = opening->evolution->system;
     struct gm_problem *problem = opening->problem;
     const size_t parameters = system->velocities - system->parameters;
-    struct own *self = gm_arena_take(arena, 1, sizeof *self);
+    struct own *self = gm_user_line_take(arena, problem, system, sizeof *self);
     gm_arena_keep(arena, &self->idle, close_idle);
-    self->arena = arena;
     self->evolution = opening->evolution;
     self->line = problem->line;
     self->space = opening->space;
     self->fields = system->n;
     self->inputs = self->fields * ORDERS + 2;
     problem->n = self->fields * self->line.points;
-    problem->parameters = self;
     problem->facets = &self->facets;
-    gm_arena_keep(arena, &self->along, close_line);
-    gm_arena_need(arena,
-                  gm_user_line_open(&self->along, system, opening->evolution->formulas.start, self->fields,
-                                    opening->evolution->formulas.exact, opening->values));
+    gm_user_line_open(&self->along, opening->evolution->formulas.start, self->fields,
+                      opening->evolution->formulas.exact, opening->values);
     /* the values of all variables in their new order */
     double *values = gm_arena_take(arena, self->inputs + parameters, sizeof *values);
     memcpy(values + self->inputs, opening->values + system->parameters, parameters * sizeof *values);
@@ -520,23 +509,8 @@ static void open_problem(struct gm_arena *arena, void *data)
 bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
 {
-    struct gm_arena *arena = gm_arena_open();
     *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
-    const bool opened =
-        gm_arena_run(arena, open_problem, &(struct opening){problem, evolution, values, space});
-    if (!opened) {
-        gm_arena_close(arena);
-        problem->parameters = problem->facets = NULL;
-    }
-    return opened;
-}
-
-void gm_user_evolution_shut(struct gm_problem *problem)
-{
-    if (problem->parameters) {
-        gm_arena_close(own_of(problem)->arena);
-    }
-    problem->parameters = problem->facets = NULL;
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, evolution, values, space});
 }
 
 /* ---- what is asked of it ---- */

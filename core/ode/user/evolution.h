@@ -34,10 +34,9 @@ bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_use
 void gm_user_evolution_close(struct gm_user_evolution *evolution);
 
 /* Opens the problem with these values of all variables (gm_equations_start) on this ring. Returns false when
-   out of memory. The caller closes in both cases. */
+   out of memory. The caller closes it (gm_user_line_close). */
 bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space);
-void gm_user_evolution_shut(struct gm_problem *problem);
 
 /* Returns true if the start is finite and closes (as fields of core/field/user/potential.h do), the rates are
    finite there, and no wave's mass vanishes; with walls each field or its negative must have the mirrored
