@@ -174,7 +174,7 @@ static bool is_finite(const struct gm_user_line *line, const double *values, siz
 }
 
 bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
-                         double jump, struct gm_line_ends *ends, char *sentence, size_t size)
+                         double jump, struct gm_line_ends *ends, struct gm_fault *fault)
 {
     const char *name = line->system->variables[component].name, *suffix;
     double values[GM_LINE_BLOCK];
@@ -183,9 +183,8 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
         some = gm_user_line_block(line, grid, first, values);
         for (size_t i = 0; i < some; i++) {
             if (!is_finite(line, values, some, i, component, &suffix)) {
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, suffix,
-                         gm_grid1_node(grid, first + i));
-                return false;
+                return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g", name, suffix,
+                               gm_grid1_node(grid, first + i));
             }
             ends->low = fmin(ends->low, values[component * some + i]);
             ends->high = fmax(ends->high, values[component * some + i]);
@@ -199,12 +198,11 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
     const double largest = fmax(fabs(ends->low), fabs(ends->high));
     if (!grid->walls && !isnan(jump) &&
         !(fabs(ends->right - ends->left - jump) <= 1e-3 * fmax(ends->high - ends->low, 1e-12 * largest))) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other%s",
             name, ends->left, ends->right,
             line->system->kind == GM_EVOLUTION ? "" : " (give their difference in a line jump:)");
-        return false;
     }
     return true;
 }

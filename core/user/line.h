@@ -74,6 +74,6 @@ struct gm_line_ends {
 /* Returns true if a component's start is finite and, on a ring, the same at both ends but for the jump (NaN: any) and a
    thousandth of its range; else false with a sentence. */
 bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
-                         double jump, struct gm_line_ends *ends, char *sentence, size_t size);
+                         double jump, struct gm_line_ends *ends, struct gm_fault *fault);
 
 #endif

@@ -528,12 +528,11 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
         struct gm_user_evolution evolution;
         struct gm_problem problem;
         struct gm_fault fault;
-        char sentence[400] = "";
         assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
         assert_true(gm_user_evolution_derive(&evolution, &system));
         double *values = gm_equations_start(&system, NULL), y[NODES];
         assert_true(gm_user_evolution_open(&problem, &evolution, values, &line, (enum gm_derivatives)space));
-        assert_true(gm_user_evolution_closes(&problem, sentence, sizeof sentence));
+        assert_true(gm_user_evolution_closes(&problem, &fault));
         gm_user_evolution_start(&problem, y);
         struct gm_run *run =
             gm_run_open(&problem, gm_scheme_find_for("etdrk4", &problem), &no_settings, 0, 0.5, y);
@@ -676,12 +675,12 @@ static void a_field_closes_on_its_ring(void **unused)
     };
     for (size_t i = 0; i < GM_COUNT(rings); i++) {
         struct typed typed;
-        char sentence[400] = "";
+        struct gm_fault fault;
         open_typed(&typed, rings[i].text);
         typed.problem.line.jump = rings[i].jump;
-        const bool closes = gm_user_wave_closes(&typed.problem, sentence, sizeof sentence);
-        if (closes != !rings[i].sentence || (!closes && !strstr(sentence, rings[i].sentence))) {
-            fail_msg("%s: %s", rings[i].text, sentence);
+        const bool closes = gm_user_wave_closes(&typed.problem, &fault);
+        if (closes != !rings[i].sentence || (!closes && !strstr(fault.sentence, rings[i].sentence))) {
+            fail_msg("%s: %s", rings[i].text, fault.sentence);
         }
         close_typed(&typed);
     }

@@ -290,10 +290,9 @@ static void typed_densities_are_derived(void **unused)
     double *values = gm_equations_start(&typed.system, NULL);
     names.values = values;
     struct gm_user_density density;
-    char sentence[GM_FAULT_SENTENCE];
-    assert_true(gm_user_density_open(&density, &names,
-                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)",
-                                     sentence, sizeof sentence));
+    struct gm_fault fault;
+    assert_true(gm_user_density_open(
+        &density, &names, "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)", &fault));
     densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
     gm_tape_close(&density.tape);
     gm_tape_close(&density.itself);
@@ -502,11 +501,11 @@ static void what_does_not_rest_is_refused(void **unused)
                                        NULL};
     for (size_t i = 0; i < GM_COUNT(texts); i++) {
         struct typed typed;
-        char sentence[200] = "";
+        struct gm_fault fault = {0};
         open_typed(&typed, texts[i], 4, 7, NAN);
-        assert_int_equal(gm_user_mesh_rests(&typed.problem, sentence, sizeof sentence), !told[i]);
-        if (told[i] && !strstr(sentence, told[i])) {
-            fail_msg("%s: %s", texts[i], sentence);
+        assert_int_equal(gm_user_mesh_rests(&typed.problem, &fault), !told[i]);
+        if (told[i] && !strstr(fault.sentence, told[i])) {
+            fail_msg("%s: %s", texts[i], fault.sentence);
         }
         close_typed(&typed);
     }

@@ -210,23 +210,22 @@ bool gm_user_form_is_potential(const struct gm_problem *problem, size_t componen
     return false;
 }
 
-static bool component_closes(const struct gm_problem *problem, size_t c, char *sentence, size_t size)
+static bool component_closes(const struct gm_problem *problem, size_t c, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     const bool is_potential = gm_user_form_is_potential(problem, c);
     struct gm_line_ends ends;
     if (!gm_user_line_closes(&self->line, &problem->line, c, is_potential ? NAN : self->jump[c], &ends,
-                             sentence, size)) {
+                             fault)) {
         return false;
     }
     if (is_potential &&
         fabs(self->told[c] - self->jump[c]) > 1e-3 * fmax(fabs(self->jump[c]), ends.high - ends.low)) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s gains %.6g around the ring, which follows from the others at the start, and not %.6g as jump "
             "says",
             self->names[c], self->jump[c], self->told[c]);
-        return false;
     }
     return true;
 }
@@ -240,17 +239,16 @@ static bool is_zero(const double *matrix, size_t count)
     return sum == 0;
 }
 
-bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_form_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     const size_t n = self->form.dimension;
     if (is_zero(self->k, n * n) || is_zero(self->l, n * n)) {
-        snprintf(sentence, size, "%s is 0 with these values, and nothing changes in %s",
-                 is_zero(self->k, n * n) ? "K" : "L", is_zero(self->k, n * n) ? "time" : "space");
-        return false;
+        return gm_fail(fault, 0, "%s is 0 with these values, and nothing changes in %s",
+                       is_zero(self->k, n * n) ? "K" : "L", is_zero(self->k, n * n) ? "time" : "space");
     }
     for (size_t c = 0; c < n; c++) {
-        if (!component_closes(problem, c, sentence, size)) {
+        if (!component_closes(problem, c, fault)) {
             return false;
         }
     }
@@ -265,13 +263,11 @@ bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_
         gradients(self, s, further, 1);
         for (size_t c = 0; c < n; c++) {
             if (!isfinite(here[c])) {
-                snprintf(sentence, size, "the gradient of S is not finite at the start where x = %.6g", x);
-                return false;
+                return gm_fail(fault, 0, "the gradient of S is not finite at the start where x = %.6g", x);
             }
             if (!(fabs(further[c] - here[c]) <= 1e-9 * fmax(1, fabs(here[c])))) {
-                snprintf(sentence, size, "the derivative of S over %.60s does not repeat after the jumps",
-                         self->source->system->variables[c].name);
-                return false;
+                return gm_fail(fault, 0, "the derivative of S over %.60s does not repeat after the jumps",
+                               self->source->system->variables[c].name);
             }
         }
     }

@@ -26,9 +26,9 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
 void gm_user_form_start(const struct gm_problem *problem, double *y);
 
 /* Returns true if neither matrix is 0, the start is finite and closes on the ring up to its jumps and a
-   thousandth of its range, and the gradient of S has the period of the jumps. Else `sentence` is the
+   thousandth of its range, and the gradient of S has the period of the jumps. Else the fault has the
    reason. */
-bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size);
+bool gm_user_form_closes(const struct gm_problem *problem, struct gm_fault *fault);
 
 /* Returns true if a component follows from the others up to a constant (gm_form). */
 bool gm_user_form_is_potential(const struct gm_problem *problem, size_t component);

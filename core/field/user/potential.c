@@ -190,25 +190,24 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
     return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values});
 }
 
-bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_wave_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct gm_grid1 *grid = &problem->line;
     struct gm_line_ends ends;
     if (grid->walls && grid->jump != 0) {
-        snprintf(sentence, size, "a field between walls has no jump");
-        return false;
+        return gm_fail(fault, 0, "a field between walls has no jump");
     }
-    if (!gm_user_line_closes(problem->parameters, grid, 0, grid->jump, &ends, sentence, size)) {
+    if (!gm_user_line_closes(problem->parameters, grid, 0, grid->jump, &ends, fault)) {
         return false;
     }
     for (int i = 0; i <= 8 && grid->jump != 0; i++) {
         const double u = ends.low + (ends.high - ends.low) * i / 8, force = slope(problem, u),
                      further = slope(problem, u + grid->jump);
         if (!(fabs(further - force) <= 1e-9 * fmax(1, fabs(force)))) {
-            snprintf(sentence, size,
-                     "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
-                     force, own_of(problem)->line.system->variables[0].name, u, further, grid->jump);
-            return false;
+            return gm_fail(
+                fault, 0,
+                "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
+                force, own_of(problem)->line.system->variables[0].name, u, further, grid->jump);
         }
     }
     return true;

@@ -14,7 +14,7 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
 
 /* Returns true if the field closes on the problem's line: it is finite everywhere; u at the ends differs
    by the jump, up to a thousandth of its range; and V' has the jump as a period. Walls need no closure and
-   have no jump. Else `sentence` is the reason. */
-bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size);
+   have no jump. Else the fault has the reason. */
+bool gm_user_wave_closes(const struct gm_problem *problem, struct gm_fault *fault);
 
 #endif

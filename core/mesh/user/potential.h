@@ -36,7 +36,7 @@ const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m);
 
 /* Returns true if the start is finite and, unless a line ends: holds it there, rests at both ends up to a thousandth of
-   its largest rate; else `sentence` is the reason. */
-bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
+   its largest rate; else the fault has the reason. */
+bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault);
 
 #endif

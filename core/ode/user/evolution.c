@@ -546,78 +546,74 @@ double gm_user_evolution_integral(const struct gm_problem *problem, size_t densi
     return sum * self->line.dx;
 }
 
-static bool field_closes(const struct own *self, size_t field, char *sentence, size_t size)
+static bool field_closes(const struct own *self, size_t field, struct gm_fault *fault)
 {
     const struct gm_grid1 *grid = &self->line;
     struct gm_line_ends ends;
-    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, sentence, size)) {
+    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, fault)) {
         return false;
     }
     if (grid->walls && self->mirrored[field] < 0 &&
         !(fabs(ends.left) + fabs(ends.right) <= 1e-3 * fmax(fabs(ends.low), fabs(ends.high)))) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
             "%.6g at the other",
             self->evolution->system->variables[field].name, ends.left, ends.right);
-        return false;
     }
     return true;
 }
 
-static bool has_masses(const struct own *self, char *sentence, size_t size)
+static bool has_masses(const struct own *self, struct gm_fault *fault)
 {
     for (size_t i = 0; i < gm_modes_half(self->line.points) * self->fields; i++) {
         const size_t mode = i / self->fields;
         if (!(cabs(self->masses[i]) > 1e-12)) {
-            snprintf(sentence, size,
-                     "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
-                     self->evolution->system->variables[i % self->fields].name,
-                     2 * M_PI * (double)mode / ((double)self->line.points * self->line.dx));
-            return false;
+            return gm_fail(fault, 0,
+                           "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
+                           self->evolution->system->variables[i % self->fields].name,
+                           2 * M_PI * (double)mode / ((double)self->line.points * self->line.dx));
         }
     }
     return true;
 }
 
-static bool has_rates(const struct own *self, const double *rates, char *sentence, size_t size)
+static bool has_rates(const struct own *self, const double *rates, struct gm_fault *fault)
 {
     const size_t points = self->line.points;
     for (size_t i = 0; i < self->fields * points; i++) {
         if (!isfinite(rates[i])) {
-            snprintf(sentence, size, "the rate of %.60s at the start is not finite where x = %.6g",
-                     self->evolution->system->variables[i / points].name,
-                     gm_grid1_node(&self->line, i % points));
-            return false;
+            return gm_fail(fault, 0, "the rate of %.60s at the start is not finite where x = %.6g",
+                           self->evolution->system->variables[i / points].name,
+                           gm_grid1_node(&self->line, i % points));
         }
     }
     return true;
 }
 
-bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     if (self->line.walls && self->mirrored[0] == 0) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
             "change their sign in the mirror");
-        return false;
     }
     double *y = malloc(2 * problem->n * sizeof *y), *rates = y ? y + problem->n : NULL;
     bool good = y != NULL;
     if (good) {
         gm_user_evolution_start(problem, y);
     } else {
-        snprintf(sentence, size, "not enough memory");
+        gm_fail(fault, 0, "not enough memory");
     }
     for (size_t i = 0; i < self->fields && good; i++) {
-        good = field_closes(self, i, sentence, size);
+        good = field_closes(self, i, fault);
     }
-    good = good && has_masses(self, sentence, size);
+    good = good && has_masses(self, fault);
     if (good) {
         field(problem, y, rates, 1);
-        good = has_rates(self, rates, sentence, size);
+        good = has_rates(self, rates, fault);
     }
     free(y);
     return good;

@@ -40,8 +40,8 @@ bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evo
 
 /* Returns true if the start is finite and closes (as fields of core/field/user/potential.h do), the rates are
    finite there, and no wave's mass vanishes; with walls each field or its negative must have the mirrored
-   rate. Otherwise fills the sentence. */
-bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
+   rate. Otherwise the fault has the reason. */
+bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault *fault);
 
 /* Writes the state at t = 0. */
 void gm_user_evolution_start(const struct gm_problem *problem, double *y);
