@@ -782,11 +782,9 @@ static void close_report(void *data)
     struct report *report = data;
     if (gm_system_is_field(&report->system)) {
         gm_user_line_close(&report->problem);
-        gm_user_evolution_close(&report->evolution);
     } else {
         gm_user_problem_close(&report->problem);
     }
-    gm_user_model_close(&report->model);
     gm_system_close(&report->system);
 }
 

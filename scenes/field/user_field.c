@@ -51,11 +51,6 @@ struct making {
     struct gm_problem problem; /* the problem of the file's own values */
 };
 
-static void close_evolution(void *evolution)
-{
-    gm_user_evolution_close(evolution);
-}
-
 static void make_rows(struct gm_user_field *field)
 {
     static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
@@ -391,7 +386,6 @@ static void make(struct gm_arena *arena, void *data)
     struct gm_user_system *system = &of_file->system;
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
     char sentence[GM_MESSAGE];
-    gm_arena_keep(arena, &field->evolution, close_evolution);
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && making->elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     field->elsewhere = making->elsewhere;

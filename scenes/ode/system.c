@@ -637,11 +637,6 @@ static void close_made_problem(void *problem)
     gm_user_problem_close(problem);
 }
 
-static void close_model(void *model)
-{
-    gm_user_model_close(model);
-}
-
 static void make(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
@@ -652,7 +647,6 @@ static void make(struct gm_arena *arena, void *data)
     struct gm_user_system *system = &system_scene->system;
     char sentence[GM_MESSAGE];
     gm_system_find_hook(system_scene);
-    gm_arena_keep(arena, &system_scene->model, close_model);
     gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
     make_rows(system_scene, making->typed);
     system_scene->scene = (struct gm_scene){

@@ -169,7 +169,6 @@ static void open_system(struct system *system, const char *text)
 static void close_system(struct system *system)
 {
     gm_user_problem_close(&system->problem);
-    gm_user_model_close(&system->model);
     gm_system_close(&system->read);
 }
 

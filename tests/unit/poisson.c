@@ -96,7 +96,6 @@ static void type(struct typed *typed, int which)
 static void untype(struct typed *typed)
 {
     gm_user_problem_close(&typed->problem);
-    gm_user_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
     free(typed->values);
@@ -244,7 +243,6 @@ static void bodies_turn(void **unused)
     }
     free(start);
     gm_user_problem_close(&back);
-    gm_user_model_close(&model);
     gm_system_close(&system);
 }
 

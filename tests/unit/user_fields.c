@@ -544,7 +544,6 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
         gm_run_close(run);
         free(values);
         gm_user_line_close(&problem);
-        gm_user_evolution_close(&evolution);
         gm_system_close(&system);
     }
 }
@@ -589,7 +588,6 @@ static void a_peakon_moves_as_fast_as_it_is_high(void **unused)
         free(y);
         free(values);
         gm_user_line_close(&problem);
-        gm_user_evolution_close(&evolution);
         gm_system_close(&system);
     }
     if (!(error[1] < 0.02 && error[0] > 1.7 * error[1] && error[0] < 2.3 * error[1])) {

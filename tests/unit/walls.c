@@ -176,7 +176,6 @@ static void evolve(const char *text, double *sound, char *sentence)
     free(y);
     free(values);
     gm_user_line_close(&problem);
-    gm_user_evolution_close(&evolution);
     gm_system_close(&system);
 }
 

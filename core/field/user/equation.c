@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/field/user/equation.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/field/problems/dispersive.h"
@@ -30,21 +29,16 @@ static const struct gm_problem *problem_of(const struct gm_user_equation *equati
 /* Adds the rate of one field at the start to the formulas of the start. */
 static bool derive_rate(struct gm_line_formulas *formulas, struct gm_user_system *system)
 {
-    gm_node_id *others = calloc(system->variable_count, sizeof *others), last = system->variables[0].start;
-    for (size_t i = 0; others && i < system->variable_count; i++) {
-        others[i] = GM_NO_NODE;
-    }
+    gm_node_id *others = gm_system_no_nodes(system, system->variable_count),
+               last = system->variables[0].start;
     for (size_t k = 0; others && k <= GM_MOST_DERIVATIVES && !system->graph.failed; k++) {
         others[k == 0 ? 0 : system->velocities + k] = last;
         last = gm_system_derivative(system, last, system->velocities);
     }
     formulas->start[1] = system->rates[0];
-    const bool good =
-        others && !system->graph.failed &&
-        gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
-        gm_system_place(system, &formulas->start[1], 1);
-    free(others);
-    return good;
+    return others && !system->graph.failed &&
+           gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
+           gm_system_place(system, &formulas->start[1], 1);
 }
 
 bool gm_user_equation_derive(struct gm_user_equation *equation, struct gm_user_system *system)

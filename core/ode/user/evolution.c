@@ -67,11 +67,7 @@ static void number_inputs(struct deriving *deriving)
 {
     struct gm_user_system *system = deriving->system;
     const size_t n = system->n, inputs = n * ORDERS + 2;
-    gm_node_id *others = deriving->others =
-        gm_arena_take(deriving->arena, system->variable_count, sizeof *others);
-    for (size_t i = 0; i < system->variable_count; i++) {
-        others[i] = GM_NO_NODE;
-    }
+    gm_node_id *others = deriving->others = gm_system_no_nodes(system, system->variable_count);
     others[n] = gm_formula_variable(&system->graph, inputs - 1);
     others[system->velocities] = gm_formula_variable(&system->graph, inputs - 2);
     for (size_t i = 0; i < n * GM_MOST_DERIVATIVES; i++) {
@@ -157,15 +153,9 @@ static void derive_all(struct gm_arena *arena, void *data)
 
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system)
 {
-    *evolution = (struct gm_user_evolution){.system = system, .arena = gm_arena_open()};
-    return gm_arena_run(evolution->arena, derive_all,
+    *evolution = (struct gm_user_evolution){.system = system};
+    return gm_arena_run(system->arena, derive_all,
                         &(struct deriving){.evolution = evolution, .system = system});
-}
-
-void gm_user_evolution_close(struct gm_user_evolution *evolution)
-{
-    gm_arena_close(evolution->arena);
-    evolution->arena = NULL;
 }
 
 /* ---- room ---- */

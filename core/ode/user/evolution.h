@@ -25,13 +25,10 @@ struct gm_user_evolution {
     size_t density_count;
     gm_node_id kink; /* the term of a rate, in fields and derivatives, that is not smooth; GM_NO_NODE: none */
     size_t kinked;   /* the number of that rate */
-    struct gm_arena *arena;
 };
 
-/* Derives the formulas; the graph grows. Returns false when out of memory. The caller closes in both cases.
-   */
+/* Derives the formulas; the system's graph and arena grow. Returns false when out of memory. */
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system);
-void gm_user_evolution_close(struct gm_user_evolution *evolution);
 
 /* Opens the problem with these values of all variables (gm_equations_start) on this ring. Returns false when
    out of memory. The caller closes it (gm_user_line_close). */

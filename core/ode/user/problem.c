@@ -534,7 +534,6 @@ static void close_motion(void *data)
 {
     struct gm_user_motion *motion = data;
     gm_user_problem_close(&motion->problem);
-    gm_user_model_close(&motion->model);
     gm_system_close(&motion->system);
 }
 
