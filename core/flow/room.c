@@ -794,13 +794,8 @@ static void open_room(struct gm_arena *arena, void *data)
 struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault *fault)
 {
     struct opening opening = {input, fault, NULL};
-    struct gm_arena *arena = gm_arena_open();
     *fault = (struct gm_fault){0};
-    if (!gm_arena_run(arena, open_room, &opening)) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.room;
+    return gm_arena_made(open_room, &opening) ? opening.room : NULL;
 }
 
 void gm_room_close(struct gm_room *room)

@@ -33,10 +33,8 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
 bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
                           void *data)
 {
-    struct gm_arena *arena = gm_arena_open();
-    const bool opened = gm_arena_run(arena, body, data);
+    const bool opened = gm_arena_made(body, data);
     if (!opened) {
-        gm_arena_close(arena);
         problem->parameters = problem->facets = NULL;
     }
     return opened;

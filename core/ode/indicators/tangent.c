@@ -197,12 +197,7 @@ static void open_all(struct gm_arena *arena, void *data)
 struct gm_tangent *gm_tangent_open(struct gm_run *run)
 {
     struct opening opening = {.run = run};
-    struct gm_arena *arena = gm_arena_open();
-    if (!gm_arena_run(arena, open_all, &opening)) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.tangent;
+    return gm_arena_made(open_all, &opening) ? opening.tangent : NULL;
 }
 
 void gm_tangent_close(struct gm_tangent *tangent)

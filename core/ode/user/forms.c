@@ -694,11 +694,7 @@ static bool derive_at(struct own *own, const double *y, double t)
     place_forms(own, own->derived_at, t);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
-    own->derived = gm_arena_open();
-    if (!gm_arena_run(own->derived, derive, own)) {
-        gm_arena_close(own->derived);
-        own->derived = NULL;
-    }
+    own->derived = gm_arena_made(derive, own);
     return own->derived;
 }
 
@@ -764,13 +760,8 @@ static const struct stage_factor *factor_of(struct own *own, const struct gm_sta
     struct stage_factor *factor = &own->factors[own->next_factor++ % MOST_FACTORS];
     gm_arena_close(factor->arena);
     *factor = wanted;
-    factor->arena = gm_arena_open();
-    if (!gm_arena_run(factor->arena, factor_stages, &(struct factoring){own, factor})) {
-        gm_arena_close(factor->arena);
-        factor->arena = NULL;
-        return NULL;
-    }
-    return factor;
+    factor->arena = gm_arena_made(factor_stages, &(struct factoring){own, factor});
+    return factor->arena ? factor : NULL;
 }
 
 /* gm_loops.correct */

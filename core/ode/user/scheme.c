@@ -1120,6 +1120,7 @@ static void make_whole(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
     const struct gm_user_scheme_source *source = making->source;
+    making->arena = arena;
     if (!source->decimals) {
         open_moved(making);
     }
@@ -1130,11 +1131,7 @@ static void make_whole(struct gm_arena *arena, void *data)
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault)
 {
-    struct making making = {.source = source, .fault = fault, .arena = gm_arena_open()};
+    struct making making = {.source = source, .fault = fault};
     *fault = (struct gm_fault){0};
-    if (gm_arena_run(making.arena, make_whole, &making)) {
-        return &making.made->row;
-    }
-    gm_arena_close(making.arena);
-    return NULL;
+    return gm_arena_made(make_whole, &making) ? &making.made->row : NULL;
 }
