@@ -2,6 +2,7 @@
 /* The linear part of a formula, from the leaves upwards: sums, and products with constants. */
 #include "core/expression/linear_part.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/expression/derivative.h"

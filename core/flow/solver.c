@@ -127,7 +127,12 @@ static void open_solver(struct gm_arena *arena, void *data)
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
 {
     const void *opened = flow;
-    return gm_arena_made(open_solver, &opened) ? (struct gm_flow_solver *)(uintptr_t)opened : NULL;
+    struct gm_arena *arena = gm_arena_open();
+    if (!gm_arena_run(arena, open_solver, &opened)) {
+        gm_arena_close(arena);
+        return NULL;
+    }
+    return (struct gm_flow_solver *)(uintptr_t)opened;
 }
 
 void gm_flow_solver_close(struct gm_flow_solver *solver)

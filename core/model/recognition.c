@@ -104,7 +104,7 @@ static bool is_equation(struct gm_user_system *system, const struct known_equati
 
 bool gm_equation_recognise(struct gm_user_system *system, struct gm_recognised *found)
 {
-    gm_node_id *zeros = gm_arena_take(system->arena, system->variable_count, sizeof *zeros), values[ONE + 1];
+    gm_node_id *zeros = malloc(system->variable_count * sizeof *zeros), values[ONE + 1];
     *found = (struct gm_recognised){.name = NULL};
     for (size_t i = 0; zeros && i < system->variable_count; i++) {
         const bool varies = i < system->n || (i > system->velocities && i < system->initial);
@@ -119,5 +119,6 @@ bool gm_equation_recognise(struct gm_user_system *system, struct gm_recognised *
             memcpy(found->values, values, sizeof found->values);
         }
     }
+    free(zeros);
     return zeros && !system->graph.failed;
 }

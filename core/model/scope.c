@@ -172,15 +172,20 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
            entry->name[0] == 'x';
 }
 
-const char *const gm_room_variables[] = {"s", "x", "y", "perimeter", "area", "inlet_length", "until", NULL};
+const char *const gm_room_variables[GM_ROOM_VARIABLES] = {
+    "s", "x", "y", "perimeter", "area", "inlet_length", "until"};
 
 /* True for a name that a room reserves: of its variables, and all that systems reserve, except show. */
 static bool is_of_room(const struct gm_entry *entry)
 {
-    const struct gm_span name = {0, entry->length};
+    size_t i = 0;
+    while (i < GM_ROOM_VARIABLES && (strlen(gm_room_variables[i]) != entry->length ||
+                                     memcmp(gm_room_variables[i], entry->name, entry->length) != 0)) {
+        i++;
+    }
     return entry->role != GM_ENTRY_VELOCITY && entry->role != GM_ENTRY_TIME &&
-           (gm_room_variables[gm_span_among(entry->name, name, gm_room_variables)] ||
-            (gm_reading_reserves(entry->name, entry->length) && !gm_span_is(entry->name, name, "show")));
+           (i < GM_ROOM_VARIABLES || (gm_reading_reserves(entry->name, entry->length) &&
+                                      !(entry->length == 4 && memcmp(entry->name, "show", 4) == 0)));
 }
 
 static enum gm_form_operator operator_of(const char *name, size_t length);
@@ -356,7 +361,8 @@ static const struct {
 static enum gm_form_operator operator_of(const char *name, size_t length)
 {
     size_t i = 0;
-    while (i < GM_FORM_OPERATORS && !gm_span_is(name, (struct gm_span){0, length}, form_operators[i].name)) {
+    while (i < GM_FORM_OPERATORS &&
+           (strlen(form_operators[i].name) != length || memcmp(form_operators[i].name, name, length) != 0)) {
         i++;
     }
     return (enum gm_form_operator)i;
@@ -408,16 +414,17 @@ static enum gm_meaning call(void *data, const struct gm_name *name, const gm_nod
 static bool is_part(void *data, const struct gm_name *called, const struct gm_name *word, gm_node_id *node)
 {
     struct gm_user_system *system = ((struct gm_reading *)data)->system;
-    const struct gm_span part = {0, word->length};
+    const char *name;
     if (operator_of(called->text, called->length) != GM_FORM_INTEGRAL) {
         return false;
     }
     size_t i = 0;
-    while (i < system->boundary_count && !gm_span_is(word->text, part, system->boundaries[i])) {
+    while (i < system->boundary_count && (strlen(system->boundaries[i]) != word->length ||
+                                          memcmp(system->boundaries[i], word->text, word->length) != 0)) {
         i++;
     }
     if (i == system->boundary_count) {
-        const char *name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
+        name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
         gm_reading_reserve(data, (void **)&system->boundaries, i, sizeof *system->boundaries);
         system->boundaries[system->boundary_count++] = name;
     }

@@ -98,8 +98,8 @@ struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin
 /* True if a name is a key of command lines, a column of tables or a function. */
 #define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
 bool gm_reading_reserves(const char *name, size_t length);
-/* The names of a room's last variables, and NULL. */
-extern const char *const gm_room_variables[GM_ROOM_VARIABLES + 1];
+/* The names of a room's last variables. */
+extern const char *const gm_room_variables[GM_ROOM_VARIABLES];
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,
                                   bool indexed, long index);

@@ -290,9 +290,10 @@ static void typed_densities_are_derived(void **unused)
     double *values = gm_equations_start(&typed.system, NULL);
     names.values = values;
     struct gm_user_density density;
-    struct gm_fault fault;
-    assert_true(gm_user_density_open(
-        &density, &names, "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)", &fault));
+    char sentence[GM_FAULT_SENTENCE];
+    assert_true(gm_user_density_open(&density, &names,
+                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)",
+                                     sentence, sizeof sentence));
     densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
     gm_tape_close(&density.tape);
     gm_tape_close(&density.itself);

@@ -53,7 +53,7 @@ bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *syste
 {
     const size_t n = system->n;
     struct gm_sparse hessian = {0};
-    bool *marked = gm_arena_take(system->arena, system->variable_count, sizeof *marked);
+    bool *marked = calloc(system->variable_count, sizeof *marked);
     *form = (struct gm_user_form){.system = system};
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     for (size_t i = 0; marked && i < n; i++) {
@@ -68,6 +68,7 @@ bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *syste
         form->hessian[hessian.entries[i].row * n + hessian.entries[i].column] = hessian.entries[i].node;
     }
     free(hessian.entries);
+    free(marked);
     return good && gm_line_derive(&form->formulas, system) && !system->graph.failed;
 }
 

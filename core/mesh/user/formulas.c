@@ -19,14 +19,15 @@ struct reading {
     struct gm_formula graph;
     gm_node_id
         *of_system; /* the system's variables: inputs, constants, and NaN for what the line does not hold */
-    struct gm_fault *fault;
+    char *sentence;
+    size_t size;
 };
 
 static bool open_reading(struct reading *reading, const size_t *inputs, size_t count)
 {
     const struct gm_user_system *system = reading->names->wave->system;
     gm_formula_open(&reading->graph);
-    *reading->fault = (struct gm_fault){0};
+    reading->sentence[0] = '\0';
     reading->of_system = malloc(system->variable_count * sizeof *reading->of_system);
     for (size_t i = 0; reading->of_system && i < system->variable_count; i++) {
         const bool fixed = i >= system->parameters && i < system->velocities;
@@ -123,8 +124,9 @@ static bool refuse(const struct reading *reading, const char *text, size_t offse
 {
     size_t line, column;
     gm_text_place(text, offset, &line, &column);
-    return gm_fail(reading->fault, 0, "%s: %s, at column %zu of %s", gm_system_words[reading->word].word,
-                   about, column, text);
+    snprintf(reading->sentence, reading->size, "%s: %s, at column %zu of %s",
+             gm_system_words[reading->word].word, about, column, text);
+    return false;
 }
 
 static bool read_span(struct reading *reading, const char *text, struct gm_span span, gm_node_id *node)
@@ -217,11 +219,12 @@ static bool derive_density(struct reading *reading, const char *text, struct gm_
 }
 
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
-                          const char *text, struct gm_fault *fault)
+                          const char *text, char *sentence, size_t size)
 {
     static const char *const words[] = {"u_x", "u", "x", NULL};
     const size_t x = names->wave->system->velocities, inputs[] = {x + 1, 0, x};
-    struct reading reading = {.names = names, .word = GM_WORD_DENSITY, .inputs = words, .fault = fault};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_DENSITY, .inputs = words, .sentence = sentence, .size = size};
     *density = (struct gm_user_density){.density.values = values};
     for (size_t i = 0; gm_user_densities[i]; i++) {
         text = strcmp(gm_user_densities[i], text) == 0 ? formulas[i] : text;
@@ -269,20 +272,21 @@ static bool derive_map(struct reading *reading, const char *text, struct gm_user
 }
 
 bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
-                      struct gm_fault *fault)
+                      char *sentence, size_t size)
 {
     const struct gm_user_system *system = names->wave->system;
     const size_t inputs[OF_MAP] = {[LABEL] = system->velocities, [TIME] = system->n};
     static const char *const words[] = {"x", "t", NULL};
-    struct reading reading = {.names = names, .word = GM_WORD_MESH, .inputs = words, .fault = fault};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_MESH, .inputs = words, .sentence = sentence, .size = size};
     *map = (struct gm_user_map){.map.places = places};
     const bool good = open_reading(&reading, inputs, OF_MAP) && derive_map(&reading, text, map);
     close_reading(&reading);
     return good;
 }
 
-bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t,
-                       struct gm_fault *fault)
+bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
+                       size_t size)
 {
     enum { CELLS = 256 };
     double label[CELLS + 1], x[CELLS + 1], rate[CELLS + 1];
@@ -292,13 +296,15 @@ bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh
     map->map.places(&map->map, label, CELLS + 1, t, x, rate);
     for (size_t i = 0; i <= CELLS; i += CELLS) {
         if (!(fabs(x[i] - label[i]) <= 1e-9 * mesh->length)) {
-            return gm_fail(fault, 0, "mesh: X is %.6g at the end x = %.6g at t = %.6g, and has to stay there",
-                           x[i], label[i], t);
+            snprintf(sentence, size, "mesh: X is %.6g at the end x = %.6g at t = %.6g, and has to stay there",
+                     x[i], label[i], t);
+            return false;
         }
     }
     for (size_t i = 0; i < CELLS; i++) {
         if (!(x[i + 1] > x[i])) {
-            return gm_fail(fault, 0, "mesh: X does not grow with x at x = %.6g, t = %.6g", label[i], t);
+            snprintf(sentence, size, "mesh: X does not grow with x at x = %.6g, t = %.6g", label[i], t);
+            return false;
         }
     }
     return true;
@@ -329,10 +335,11 @@ static bool derive_cell(struct reading *reading, const char *text, struct gm_use
 }
 
 bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
-                       struct gm_fault *fault)
+                       char *sentence, size_t size)
 {
     static const char *const words[] = {"d", "d_t", "m_t", "u_x", NULL};
-    struct reading reading = {.names = names, .word = GM_WORD_CELL, .inputs = words, .fault = fault};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_CELL, .inputs = words, .sentence = sentence, .size = size};
     *cell = (struct gm_user_cell){.cell = {cell_first, cell_second}};
     const bool good = open_reading(&reading, NULL, 0) && derive_cell(&reading, text, cell);
     close_reading(&reading);
@@ -340,10 +347,11 @@ bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *na
 }
 
 bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
-                          struct gm_fault *fault)
+                          char *sentence, size_t size)
 {
     static const char *const words[] = {"s", "d", "v0", "v1", NULL};
-    struct reading reading = {.names = names, .word = GM_WORD_BETWEEN, .inputs = words, .fault = fault};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_BETWEEN, .inputs = words, .sentence = sentence, .size = size};
     gm_node_id node;
     const bool good = open_reading(&reading, NULL, 0) && read_formula(&reading, text, &node) &&
                       open_tape(&reading, between, &node, 1, GM_BETWEEN_INPUTS);
@@ -352,10 +360,11 @@ bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *n
 }
 
 bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
-                         size_t *count, struct gm_fault *fault)
+                         size_t *count, char *sentence, size_t size)
 {
     static const char *const words[] = {NULL};
-    struct reading reading = {.names = names, .word = GM_WORD_NODES, .inputs = words, .fault = fault};
+    struct reading reading = {
+        .names = names, .word = GM_WORD_NODES, .inputs = words, .sentence = sentence, .size = size};
     struct gm_span rest = {0, strlen(text)}, piece;
     struct gm_tape tape = {0};
     bool good = open_reading(&reading, NULL, 0);

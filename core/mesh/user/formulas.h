@@ -32,10 +32,10 @@ struct gm_user_map {
 };
 /* Opens the mesh of a text X = F; false as gm_user_density_open. */
 bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
-                      struct gm_fault *fault);
+                      char *sentence, size_t size);
 /* False with a sentence if it moves an end of the mesh at time t, or does not grow with x. */
-bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t,
-                       struct gm_fault *fault);
+bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
+                       size_t size);
 
 /* The Lagrangian of a cell as a formula. */
 struct gm_user_cell {
@@ -44,20 +44,20 @@ struct gm_user_cell {
 };
 /* Opens the cells of a text; false as gm_user_density_open. */
 bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
-                       struct gm_fault *fault);
+                       char *sentence, size_t size);
 
 /* The velocity between two nodes as a formula. */
 enum { GM_BETWEEN_INPUTS = 4 }; /* s from 0 to 1, the distance d of the nodes, their velocities v0 and v1 */
 bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
-                          struct gm_fault *fault);
+                          char *sentence, size_t size);
 
 /* Places of nodes, formulas of parameters separated by commas: writes at most `most` of them, and their number. */
 bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
-                         size_t *count, struct gm_fault *fault);
+                         size_t *count, char *sentence, size_t size);
 
 /* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. The caller closes both tapes
    in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
-                          const char *text, struct gm_fault *fault);
+                          const char *text, char *sentence, size_t size);
 
 #endif

@@ -30,7 +30,7 @@ struct own {
     struct gm_user_map map;
     struct gm_user_cell cell;
     double until;
-    struct gm_fault refused; /* why a formula of the mesh equation is refused; "": all are good */
+    char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
     struct gm_tape means /* V, V' */, bend /* V'' */, between;
@@ -213,22 +213,23 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
 static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
     const struct gm_mesh_names *names = &self->names;
+    enum { SIZE = sizeof self->refused };
     size_t count = 0;
     if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
         const bool read =
-            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, &self->refused);
+            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, self->refused, SIZE);
         self->mesh.listed = self->listed;
         self->mesh.points = read ? count : self->mesh.points;
         if (!read) {
-            return self->refused.sentence[0];
+            return self->refused[0];
         }
     }
-    return (gm_user_density_open(&self->density, names, chosen->density, &self->refused) &&
+    return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
             (!chosen->between || !chosen->between[0] ||
-             gm_user_between_open(&self->between, names, chosen->between, &self->refused)) &&
-            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, &self->refused)) &&
-            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, &self->refused))) ||
-           self->refused.sentence[0];
+             gm_user_between_open(&self->between, names, chosen->between, self->refused, SIZE)) &&
+            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
+            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
+           self->refused[0];
 }
 
 struct opening {
@@ -312,21 +313,25 @@ const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
 bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = problem->parameters;
+    char *const sentence = fault->sentence;
+    const size_t size = sizeof fault->sentence;
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
     double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;
-    if (self->refused.sentence[0]) {
-        return gm_fail(fault, 0, "%s", self->refused.sentence);
+    if (self->refused[0]) {
+        snprintf(sentence, size, "%s", self->refused);
+        return false;
     }
-    if (self->mesh.map && (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, fault) ||
-                           !gm_user_map_suits(&self->map, &self->mesh, self->until, fault))) {
+    if (self->mesh.map && (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
+                           !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
         return false;
     }
     for (size_t k = 0; self->mesh.listed && k < self->mesh.points; k++) {
         const double x = self->listed[k], end = self->mesh.first + self->mesh.length;
         if (!(x > before && x < end)) {
-            return gm_fail(fault, 0, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
-                           before, self->mesh.first, end);
+            snprintf(sentence, size, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
+                     before, self->mesh.first, end);
+            return false;
         }
         before = x;
     }
@@ -336,43 +341,49 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
             const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
                          drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
             if (!isfinite(drift)) {
-                return gm_fail(fault, 0, "X_t at the start is not finite where x = %.6g",
-                               gm_grid1_node(&grid, from + i));
+                snprintf(sentence, size, "X_t at the start is not finite where x = %.6g",
+                         gm_grid1_node(&grid, from + i));
+                return false;
             }
             if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
-                return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g", name,
-                               !isfinite(u)       ? ""
-                               : !isfinite(slope) ? "_x"
-                                                  : "_t",
-                               gm_grid1_node(&grid, from + i));
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
+                         !isfinite(u)       ? ""
+                         : !isfinite(slope) ? "_x"
+                                            : "_t",
+                         gm_grid1_node(&grid, from + i));
+                return false;
             }
             const double at[] = {slope, u, gm_grid1_node(&grid, from + i)};
             double rho;
             gm_tape_values(&self->density.itself, at, &rho, 1);
             if (!(rho >= 0 && isfinite(rho))) {
-                return gm_fail(
-                    fault, 0, "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity",
-                    rho, at[2]);
+                snprintf(sentence, size,
+                         "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity", rho,
+                         at[2]);
+                return false;
             }
             largest = fmax(largest, fabs(rate));
             ends[from + i > 0] = rate;
         }
     }
     if (!isfinite(self->mesh.left) || !isfinite(self->mesh.right)) {
-        return gm_fail(fault, 0, "ends: %.60s would be %g at one and %g at the other", name, self->mesh.left,
-                       self->mesh.right);
+        snprintf(sentence, size, "ends: %.60s would be %g at one and %g at the other", name, self->mesh.left,
+                 self->mesh.right);
+        return false;
     }
     if (!(self->names.alpha >= 0 && self->names.alpha <= 1e6)) {
-        return gm_fail(fault, 0, "alpha: is %g with these values, and lies between 0 and 1e6",
-                       self->names.alpha);
+        snprintf(sentence, size, "alpha: is %g with these values, and lies between 0 and 1e6",
+                 self->names.alpha);
+        return false;
     }
     if (!gm_system_item_of(self->line.system, GM_WORD_ENDS, 0) &&
         fmax(fabs(ends[0]), fabs(ends[1])) > 1e-3 * largest) {
-        return gm_fail(
-            fault, 0,
+        snprintf(
+            sentence, size,
             "%.60s is held at both ends of a moving mesh, and %.60s_t at the start is %.4g at one and %.4g at "
             "the other",
             name, name, ends[0], ends[1]);
+        return false;
     }
     return true;
 }
