@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/theory/coefficients.h"
 
 static const struct {
     const char *letter; /* on screens */
@@ -153,15 +152,4 @@ bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *
         at++;
     }
     return at && *at;
-}
-
-bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
-                                 struct gm_coefficients *coefficients)
-{
-    if (scheme->exact) {
-        gm_coefficients_copy(arena, coefficients, scheme->exact);
-    } else if (scheme->family->coefficients_open) {
-        scheme->family->coefficients_open(arena, scheme, coefficients);
-    }
-    return gm_scheme_has_coefficients(scheme);
 }

@@ -91,10 +91,6 @@ struct gm_scheme {
     const struct gm_scheme *base; /* whose steps it corrects, so that it may give up claims; NULL: none */
 };
 
-/* Opens the coefficients of a scheme in an arena's body; returns false without any. */
-bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
-                                 struct gm_coefficients *coefficients);
-
 /* A line of a list families.def: a family with a folder of its own below families/. */
 #define GM_FAMILY_IN(folder, name) GM_FAMILY(name)
 

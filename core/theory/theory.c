@@ -18,6 +18,17 @@
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
+bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                 struct gm_coefficients *coefficients)
+{
+    if (scheme->exact) {
+        gm_coefficients_copy(arena, coefficients, scheme->exact);
+    } else if (scheme->family->coefficients_open) {
+        scheme->family->coefficients_open(arena, scheme, coefficients);
+    }
+    return gm_scheme_has_coefficients(scheme);
+}
+
 /* The weights of each tree at the stages, `stages` balls, followed by sum_j a_ij of them for its use as a branch.
    A row of a composition begins like the one before it, and the sums of these entries are shared. */
 struct weights {

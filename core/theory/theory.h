@@ -2,6 +2,7 @@
 #ifndef GM_CORE_THEORY_THEORY_H
 #define GM_CORE_THEORY_THEORY_H
 
+#include "core/scheme.h"
 #include "core/theory/coefficients.h"
 #include "core/theory/stability.h"
 
@@ -32,6 +33,10 @@ struct gm_theory {
     int b, c, d; /* simplifying assumptions B(b), C(c), D(d) of a plain method; Butcher (1964) */
     struct gm_theory_stability stability;
 };
+
+/* Opens the coefficients of a scheme in an arena's body; returns false without any. */
+bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                 struct gm_coefficients *coefficients);
 
 /* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision; the
    second in an arena's body. */

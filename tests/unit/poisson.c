@@ -15,7 +15,6 @@
 #include <gsl/gsl_sf_elljac.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/model/equations.h"
@@ -23,6 +22,7 @@
 #include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/problems/problems.h"
 
 enum { MOST = 12 };

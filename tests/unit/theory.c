@@ -13,8 +13,8 @@
 
 #include "core/arena.h"
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "core/theory/polynomial.h"
 #include "core/theory/theory.h"
 #include "core/theory/trees.h"

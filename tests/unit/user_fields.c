@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -24,6 +23,7 @@
 #include "core/ode/user/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/dispersive_solitons.h"
 #include "tests/common/lane.h"
 #include "tests/common/sine_gordon.h"

@@ -14,7 +14,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
@@ -23,6 +22,7 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/kdv_solutions.h"
 
 static const struct gm_settings no_settings;

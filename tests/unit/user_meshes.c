@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/files/files.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
@@ -21,6 +20,7 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "core/user/line.h"
 #include "tests/common/mesh_soliton.h"
 

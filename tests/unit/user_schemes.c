@@ -15,7 +15,6 @@
 
 #include "core/arena.h"
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta/explicit.h"
 #include "core/ode/families/runge_kutta/implicit.h"
@@ -24,6 +23,7 @@
 #include "core/ode/user/scheme.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/high_order.h"
 #include "tests/problems/problems.h"
 

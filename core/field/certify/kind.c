@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/families.h"
 #include "core/field/families/frames.h"
 #include "core/field/families/laws/form.h"
@@ -23,6 +22,7 @@
 #include "core/model/equations.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 static unsigned facets(const struct gm_problem *problem)
 {

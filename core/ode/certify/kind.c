@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
@@ -19,6 +18,7 @@
 #include "core/ode/variational/action.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 static unsigned facets_of_bracket(const struct gm_poisson *poisson)
 {

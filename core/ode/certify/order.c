@@ -6,11 +6,11 @@
 
 #include <gsl/gsl_errno.h>
 
-#include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 
 /* The error is summed over several times: at a single one it may happen to vanish. */
 enum { TIMES = 4 };

@@ -18,7 +18,7 @@
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/theory/coefficients.h"
+#include "core/theory/theory.h"
 
 struct gm_tangent {
     struct gm_arena *arena; /* owns all memory but the runs */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The common part of certificates: the tolerances, the verdicts, and the call of the kind's measurement. */
-#include "core/certify.h"
+#include "core/theory/certify.h"
 
 #include <float.h>
 #include <math.h>
