@@ -220,27 +220,22 @@ static struct gm_ball at(const struct gm_coefficients *coefficients, int side, i
     return coefficients->a[side][i * coefficients->stages + j];
 }
 
-/* The residuals of conditions, in an arena; without one only whether they all may vanish is of interest. */
+/* What has to vanish. */
 struct residuals {
-    struct gm_arena *arena; /* or NULL */
+    struct gm_arena *arena;
     struct gm_ball *at;
     size_t count;
 };
 
-/* Takes what has to vanish; false: enough is known. */
-static bool take(struct residuals *all, struct gm_ball residual)
+static void take(struct residuals *all, struct gm_ball residual)
 {
-    if (!all->arena) {
-        return gm_ball_may_vanish(residual);
-    }
     if ((all->count & (all->count - 1)) == 0) {
         all->at = gm_arena_resize(all->arena, all->at, all->count ? 2 * all->count : 1, sizeof *all->at);
     }
     all->at[all->count++] = residual;
-    return true;
 }
 
-static bool is_symplectic(const struct gm_coefficients *coefficients, struct residuals *all)
+static void take_symplecticity(const struct gm_coefficients *coefficients, struct residuals *all)
 {
     const int s = coefficients->stages, other = gm_coefficients_sides(coefficients) - 1;
     for (int i = 0; i < s; i++) {
@@ -249,16 +244,12 @@ static bool is_symplectic(const struct gm_coefficients *coefficients, struct res
             const struct gm_ball d = coefficients->b[other][j];
             const struct gm_ball sum = gm_ball_add(gm_ball_multiply(b, at(coefficients, other, i, j)),
                                                    gm_ball_multiply(d, at(coefficients, 0, j, i)));
-            if (!take(all, gm_ball_subtract(sum, gm_ball_multiply(b, d)))) {
-                return false;
-            }
+            take(all, gm_ball_subtract(sum, gm_ball_multiply(b, d)));
         }
-        if (coefficients->equations == GM_EQUATIONS_PARTITIONED &&
-            !take(all, gm_ball_subtract(b, coefficients->b[other][i]))) {
-            return false;
+        if (coefficients->equations == GM_EQUATIONS_PARTITIONED) {
+            take(all, gm_ball_subtract(b, coefficients->b[other][i]));
         }
     }
-    return true;
 }
 
 /* Returns true if a stage's value on this side is used. If each function depends on the other side alone, it is used
@@ -297,27 +288,27 @@ static int *order_stages(struct gm_arena *arena, const struct gm_coefficients *c
 }
 
 /* b_(sigma i) = b_i,  a_(sigma i, sigma j) + a_ij = b_j;  sigma i = s + 1 - i, by the times of the stages. */
-static bool is_symmetric(const struct gm_coefficients *coefficients, const int *order, struct residuals *all)
+static void take_symmetry(const struct gm_coefficients *coefficients, struct residuals *all)
 {
-    const int s = coefficients->stages;
+    const int s = coefficients->stages, *order = order_stages(all->arena, coefficients);
+    bool *asked = gm_arena_take(all->arena, (size_t)s, sizeof *asked);
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
         const struct gm_ball *b = coefficients->b[side];
+        for (int i = 0; i < s; i++) {
+            asked[i] = is_asked_for(coefficients, side, order[i]);
+        }
         for (int j = 0; j < s; j++) {
             const int here = order[j], there = order[s - 1 - j];
-            if (!take(all, gm_ball_subtract(b[here], b[there]))) {
-                return false;
-            }
+            take(all, gm_ball_subtract(b[here], b[there]));
             for (int i = 0; i < s; i++) {
                 const struct gm_ball sum = gm_ball_add(at(coefficients, side, order[s - 1 - i], there),
                                                        at(coefficients, side, order[i], here));
-                if (is_asked_for(coefficients, side, order[i]) &&
-                    !take(all, gm_ball_subtract(sum, b[here]))) {
-                    return false;
+                if (asked[i]) {
+                    take(all, gm_ball_subtract(sum, b[here]));
                 }
             }
         }
     }
-    return true;
 }
 
 /* From a stage of a Nystrom method to its end, e - c, of which c - 1 and e - 1 are coefficients. */
@@ -332,28 +323,23 @@ static struct gm_ball rest_of(const struct gm_coefficients *coefficients, int st
        symplectic    b_i = bv_i (e - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
        symmetric     c_(sigma i) + c_i = e,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = e bv_i,
                      a_(sigma i, sigma j) = a_ij + (e - c_i) bv_j - b_j */
-static bool is_nystrom_symplectic(const struct gm_coefficients *coefficients, struct residuals *all)
+static void take_nystrom_symplecticity(const struct gm_coefficients *coefficients, struct residuals *all)
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
     for (int i = 0; i < s; i++) {
         const struct gm_ball b = at(coefficients, GM_SIDE_P, end, i);
-        if (!take(all, gm_ball_subtract(b, gm_ball_multiply(bv[i], rest_of(coefficients, i))))) {
-            return false;
-        }
+        take(all, gm_ball_subtract(b, gm_ball_multiply(bv[i], rest_of(coefficients, i))));
         for (int j = 0; j < s; j++) {
             const struct gm_ball there =
                 gm_ball_subtract(at(coefficients, GM_SIDE_P, end, j), at(coefficients, GM_SIDE_P, i, j));
             const struct gm_ball back = gm_ball_subtract(b, at(coefficients, GM_SIDE_P, j, i));
-            if (!take(all, gm_ball_subtract(gm_ball_multiply(bv[i], there), gm_ball_multiply(bv[j], back)))) {
-                return false;
-            }
+            take(all, gm_ball_subtract(gm_ball_multiply(bv[i], there), gm_ball_multiply(bv[j], back)));
         }
     }
-    return true;
 }
 
-static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, struct residuals *all)
+static void take_nystrom_symmetry(const struct gm_coefficients *coefficients, struct residuals *all)
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
@@ -363,21 +349,16 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, str
         const struct gm_ball rest = rest_of(coefficients, i);
         const struct gm_ball both =
             gm_ball_add(at(coefficients, GM_SIDE_P, end, i), at(coefficients, GM_SIDE_P, end, k));
-        if (!take(all, gm_ball_subtract(gm_ball_add(rest, rest_of(coefficients, k)), length)) ||
-            !take(all, gm_ball_subtract(bv[i], bv[k])) ||
-            !take(all, gm_ball_subtract(both, gm_ball_multiply(length, bv[i])))) {
-            return false;
-        }
+        take(all, gm_ball_subtract(gm_ball_add(rest, rest_of(coefficients, k)), length));
+        take(all, gm_ball_subtract(bv[i], bv[k]));
+        take(all, gm_ball_subtract(both, gm_ball_multiply(length, bv[i])));
         for (int j = 0; j < s; j++) {
             const struct gm_ball mine = gm_ball_subtract(
                 gm_ball_add(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(rest, bv[j])),
                 at(coefficients, GM_SIDE_P, end, j));
-            if (!take(all, gm_ball_subtract(at(coefficients, GM_SIDE_P, k, s - 1 - j), mine))) {
-                return false;
-            }
+            take(all, gm_ball_subtract(at(coefficients, GM_SIDE_P, k, s - 1 - j), mine));
         }
     }
-    return true;
 }
 
 /* The simplifying assumptions, with c_i = sum_j a_ij:
@@ -429,26 +410,40 @@ static double find_simplifying(struct gm_arena *arena, const struct gm_coefficie
     return residual;
 }
 
-static bool holds_symplectic(const struct gm_coefficients *coefficients, struct residuals *all)
+static void take_structure(const struct gm_coefficients *coefficients, bool symplectic, bool symmetric,
+                           struct residuals *all)
 {
-    return (coefficients->nystrom > 0 ? is_nystrom_symplectic : is_symplectic)(coefficients, all);
+    const bool nystrom = coefficients->nystrom > 0;
+    if (symplectic) {
+        (nystrom ? take_nystrom_symplecticity : take_symplecticity)(coefficients, all);
+    }
+    if (symmetric) {
+        (nystrom ? take_nystrom_symmetry : take_symmetry)(coefficients, all);
+    }
 }
 
-static bool holds_symmetric(struct gm_arena *arena, const struct gm_coefficients *coefficients,
-                            struct residuals *all)
+static bool has_structure(struct gm_arena *arena, const struct gm_coefficients *coefficients, bool symplectic,
+                          bool symmetric)
 {
-    return coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, all)
-                                     : is_symmetric(coefficients, order_stages(arena, coefficients), all);
+    const size_t mark = gm_arena_mark(arena);
+    struct residuals all = {.arena = arena};
+    bool vanish = true;
+    take_structure(coefficients, symplectic, symmetric, &all);
+    for (size_t i = 0; i < all.count; i++) {
+        vanish = vanish && gm_ball_may_vanish(all.at[i]);
+    }
+    gm_arena_release(arena, mark);
+    return vanish;
 }
 
-bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients)
+bool gm_theory_is_symplectic(struct gm_arena *arena, const struct gm_coefficients *coefficients)
 {
-    return holds_symplectic(coefficients, &(struct residuals){0});
+    return has_structure(arena, coefficients, true, false);
 }
 
 bool gm_theory_is_symmetric(struct gm_arena *arena, const struct gm_coefficients *coefficients)
 {
-    return holds_symmetric(arena, coefficients, &(struct residuals){0});
+    return has_structure(arena, coefficients, false, true);
 }
 
 /* Beyond the trees that are asked: B(p), C(k), D(l) with p <= k + l + 1, p <= 2 k + 2 make the order p
@@ -500,7 +495,7 @@ struct gm_theory gm_theory_of(struct gm_arena *arena, const struct gm_coefficien
     struct gm_coefficients reduced; /* all stages are different and needed */
     gm_coefficients_copy(arena, &reduced, coefficients);
     gm_coefficients_reduce(&reduced);
-    theory.symplectic = gm_theory_is_symplectic(&reduced);
+    theory.symplectic = gm_theory_is_symplectic(arena, &reduced);
     theory.symmetric = gm_theory_is_symmetric(arena, &reduced);
     theory.digits = digits_of(&reduced);
     find_order(arena, &reduced, &theory);
@@ -537,12 +532,7 @@ static void find_residuals(struct gm_arena *arena, void *data)
             take(&all, residual(&trees, &weights, tree));
         }
     }
-    if (asking->symplectic) {
-        holds_symplectic(coefficients, &all);
-    }
-    if (asking->symmetric) {
-        holds_symmetric(arena, coefficients, &all);
-    }
+    take_structure(coefficients, asking->symplectic, asking->symmetric, &all);
     asking->found = malloc((all.count + 1) * sizeof *asking->found);
     gm_arena_need(arena, asking->found);
     memcpy(asking->found, all.at, all.count * sizeof *all.at);

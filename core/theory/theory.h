@@ -38,9 +38,9 @@ struct gm_theory {
 bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
                                  struct gm_coefficients *coefficients);
 
-/* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision; the
-   second in an arena's body. */
-bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients);
+/* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision; in an
+   arena's body. */
+bool gm_theory_is_symplectic(struct gm_arena *arena, const struct gm_coefficients *coefficients);
 bool gm_theory_is_symmetric(struct gm_arena *arena, const struct gm_coefficients *coefficients);
 
 /* Returns the theory of coefficients, in an arena's body, which is left when out of memory. */

@@ -145,7 +145,7 @@ static void open_terms(struct opening *opening)
             title);
     }
     gm_coefficients_reduce(&coefficients);
-    if (!gm_theory_is_symplectic(&coefficients)) {
+    if (!gm_theory_is_symplectic(arena, &coefficients)) {
         gm_arena_refuse(arena, "%.80s is not symplectic: the equation that it solves has no Hamiltonian",
                         title);
     }
