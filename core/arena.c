@@ -97,10 +97,20 @@ bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, v
     return whole;
 }
 
-bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data)
+struct gm_arena *gm_arena_made(void (*body)(struct gm_arena *arena, void *data), void *data)
 {
     struct gm_arena *arena = gm_arena_open();
-    const bool whole = gm_arena_run(arena, body, data);
+    if (gm_arena_run(arena, body, data)) {
+        return arena;
+    }
+    gm_arena_close(arena);
+    return NULL;
+}
+
+bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data)
+{
+    struct gm_arena *arena = gm_arena_made(body, data);
+    const bool whole = arena;
     gm_arena_close(arena);
     return whole;
 }

@@ -21,6 +21,8 @@ void gm_arena_close(struct gm_arena *arena);
 /* Calls the body. Returns false if it was left: all that it took or kept is closed, and gm_arena_reason
    has the reason. A NULL arena means out of memory. */
 bool gm_arena_run(struct gm_arena *arena, void (*body)(struct gm_arena *arena, void *data), void *data);
+/* Returns a new arena in which the body was called; NULL if it was left. */
+struct gm_arena *gm_arena_made(void (*body)(struct gm_arena *arena, void *data), void *data);
 /* The same in an arena that is closed afterwards. */
 bool gm_arena_run_once(void (*body)(struct gm_arena *arena, void *data), void *data);
 /* The sentence with which the last body was left: "not enough memory", or from gm_arena_refuse. */

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/theory/coefficients.h"
 
 const struct gm_claim_words gm_claims[GM_CLAIM_COUNT] = {
     {"S", "symplectic", "symplectic"},
@@ -94,11 +93,4 @@ bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *
         at++;
     }
     return at && *at;
-}
-
-bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
-{
-    return scheme->exact
-               ? gm_coefficients_copy(coefficients, scheme->exact)
-               : scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, coefficients);
 }

@@ -58,6 +58,7 @@ extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* ta
 extern const struct gm_parameter *const gm_settings_of_tolerance[];        /* tolerance */
 extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
+struct gm_arena;
 struct gm_coefficients;  /* core/theory/coefficients.h */
 struct gm_law;           /* core/field/multisymplectic.h */
 struct gm_member_family; /* core/ode/kernel/members.h */
@@ -91,9 +92,6 @@ struct gm_scheme {
     const struct gm_scheme *base; /* whose steps it corrects, so that it may give up claims; NULL: none */
 };
 
-/* Opens the coefficients of a scheme; returns false without any, or when out of memory. */
-bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
-
 /* A line of a list families.def: a family with a folder of its own below families/. */
 #define GM_FAMILY_IN(folder, name) GM_FAMILY(name)
 
@@ -105,9 +103,10 @@ struct gm_family {
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
     /* The number of the family's loop over a problem's kernels, defined by the kind; 0: none. */
     int over_kernels;
-    /* Opens the coefficients of a scheme, if its rows are Runge-Kutta methods, plain or partitioned, or
-       splittings; returns false when out of memory. NULL: they are not. */
-    bool (*coefficients_open)(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
+    /* Opens the coefficients of a scheme in an arena's body, if its rows are Runge-Kutta methods, plain or
+       partitioned, or splittings. NULL: they are not. */
+    void (*coefficients_open)(struct gm_arena *arena, const struct gm_scheme *scheme,
+                              struct gm_coefficients *coefficients);
 
     /* The fields below are for families that are not loops over a problem's kernels. */
     /* Advances any problem that has the facets, unless its kind has another loop; NULL: none. */
@@ -143,6 +142,12 @@ struct gm_family {
                           const double *memory);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
+
+/* Returns true if theory knows the coefficients of a scheme. */
+static inline bool gm_scheme_has_coefficients(const struct gm_scheme *scheme)
+{
+    return scheme->exact || scheme->family->coefficients_open;
+}
 
 /* Returns true if a part of a step follows from the state alone; and if a repeated step is the same to the bit. */
 static inline bool gm_scheme_makes_parts(const struct gm_scheme *scheme)

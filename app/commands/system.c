@@ -451,13 +451,21 @@ static void print_facts(const struct report *report)
     each_fact(report, print_fact, NULL);
 }
 
+/* True for a scheme of the system; nodes alone have those of free nodes. */
+static bool fits(const struct report *report, const struct gm_scheme *scheme)
+{
+    return report->system.alone
+               ? scheme->family->kind == &gm_kind_mesh && gm_scheme_mesh(scheme) == GM_MESH_FREE
+               : gm_scheme_fits(scheme, &report->problem);
+}
+
 /* Prints the fitting schemes, and those of another kind of grid. */
 static void print_names(const struct report *report, const struct gm_kind *other)
 {
     const char *text = "";
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (other ? scheme->family->kind == other : gm_scheme_fits(scheme, &report->problem)) {
+        if (other ? scheme->family->kind == other : fits(report, scheme)) {
             const struct gm_scheme *same = other ? NULL : gm_scheme_same_as(scheme, &report->problem);
             text = gm_arena_print(report->arena, same ? "%s%s (= %s) " : "%s%s ", text, scheme->name,
                                   same ? same->name : "");
@@ -470,16 +478,12 @@ static void print_schemes(const struct report *report)
 {
     const char *lacks = gm_system_is_field(&report->system) ? "" : gm_user_model_lacks(&report->model);
     printf("\nschemes that fit\n");
-    if (report->system.alone) {
-        printf("  free-gauss2 free-gauss4\n");
-        return;
-    }
     if (lacks[0]) {
         gm_print_wrapped(lacks, printf("  "), 2);
     } else {
         print_names(report, NULL);
     }
-    if (report->system.kind == GM_FIELD) {
+    if (report->system.kind == GM_FIELD && !report->system.alone) {
         if (report->wave.known) {
             printf("\nand on a moving mesh, with exact means of V\n");
         } else {
@@ -574,12 +578,6 @@ static void put_part(struct gm_row *row, const char *name, const char *flow)
     gm_row_text(row, name, flow);
 }
 
-/* True for schemes of nodes alone. */
-static bool moves_nodes(const struct gm_scheme *scheme)
-{
-    return scheme->family->kind == &gm_kind_mesh && gm_scheme_mesh(scheme) == GM_MESH_FREE;
-}
-
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
@@ -597,9 +595,7 @@ static void print_json(const struct report *report, const struct gm_file *file)
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
-        if (!system->alone) {
-            gm_fitting_add(gm_scheme_at(i), &report->problem, fitting, &count);
-        } else if (moves_nodes(gm_scheme_at(i))) {
+        if (count < GM_FITTING_SCHEMES && fits(report, gm_scheme_at(i))) {
             fitting[count++] = gm_scheme_at(i);
         }
     }
@@ -788,17 +784,11 @@ static void tidy_all(struct report *report)
 static void close_report(void *data)
 {
     struct report *report = data;
-    if (report->system.kind == GM_FIELD) {
-        gm_user_wave_close(&report->problem);
-    } else if (report->system.kind == GM_MATRICES) {
-        gm_user_form_close(&report->problem);
-    } else if (report->system.kind == GM_EVOLUTION) {
-        gm_user_evolution_shut(&report->problem);
-        gm_user_evolution_close(&report->evolution);
+    if (gm_system_is_field(&report->system)) {
+        gm_user_line_close(&report->problem);
     } else {
         gm_user_problem_close(&report->problem);
     }
-    gm_user_model_close(&report->model);
     gm_system_close(&report->system);
 }
 
@@ -1000,23 +990,20 @@ static int list_invariants(const struct gm_options *options, struct report *repo
 static void print_mesh(struct report *report, const struct gm_form_model *model)
 {
     const struct gm_user_system *system = &report->system;
-    const char *star = system->texts[GM_WORD_STAR], *const stars[] = {"auto", "circumcentric", "barycentric",
-                                                                      "barycentric", "incentric"};
-    struct gm_form_choice choice = {0};
+    const struct gm_form_choice choice = {(enum gm_star)gm_system_chosen(system, GM_WORD_STAR),
+                                          (enum gm_interior)gm_system_chosen(system, GM_WORD_INTERIOR)};
     struct gm_fault fault;
     struct gm_problem problem;
     double *values = gm_equations_start(system, NULL);
-    for (size_t i = 0; star && i < GM_COUNT(stars); i++) {
-        choice.star = strcmp(stars[i], star) == 0 ? (enum gm_star)i : choice.star;
-    }
     if (!values || !gm_form_problem_open(&problem, model, choice, values, &fault)) {
         free(values);
         return;
     }
     const struct gm_complex *complex = gm_form_space_of(&problem)->complex;
     printf("\nmesh: %zu vertices, %zu edges, %zu triangles; star %s; Betti numbers %ld %ld %ld\n",
-           complex->vertices, complex->edges, complex->triangles, stars[complex->star],
-           gm_form_betti(complex, 0), gm_form_betti(complex, 1), gm_form_betti(complex, 2));
+           complex->vertices, complex->edges, complex->triangles,
+           gm_system_choices(GM_WORD_STAR)[complex->star], gm_form_betti(complex, 0),
+           gm_form_betti(complex, 1), gm_form_betti(complex, 2));
     if (model->field_count > 0) {
         printf("rates: %s\n", gm_ode_of(&problem)->stiff
                                   ? "linear: implicit steps have one Jacobian, which is factorised once"

@@ -3,7 +3,7 @@
 #define GM_APP_GRID_CERTIFIED_LANE_H
 
 #include "app/base/arguments.h"
-#include "core/certify.h"
+#include "core/theory/certify.h"
 
 /* Certifies a scheme, the first of the typed words, on a scene or a system with the others, key=value, from the
    start of the first member. Called in a body of the arena, which closes what the certificate points to; leaves it

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "core/certify.h"
+#include "core/theory/certify.h"
 
 /* Schemes and certificates as JSON: an object without a line's end. */
 

@@ -68,8 +68,9 @@ void gm_formula_open(struct gm_formula *graph)
     *graph = (struct gm_formula){.place = GM_NO_PLACE, .origin = GM_NO_PLACE};
 }
 
-void gm_formula_close(struct gm_formula *graph)
+void gm_formula_close(void *formula)
 {
+    struct gm_formula *graph = formula;
     free(graph->nodes);
     free(graph->places);
     free(graph->origins);

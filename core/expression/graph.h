@@ -81,7 +81,7 @@ struct gm_formula {
 enum { GM_MOST_NODES = 20000000 };
 
 void gm_formula_open(struct gm_formula *graph);
-void gm_formula_close(struct gm_formula *graph);
+void gm_formula_close(void *graph); /* for arenas too */
 
 gm_node_id gm_formula_constant(struct gm_formula *graph, double value);
 gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);

@@ -75,22 +75,17 @@ static bool are_constant(struct gm_formula *graph, const gm_node_id *slopes, con
                          size_t variables)
 {
     gm_node_id *second = malloc((variables + 1) * sizeof *second);
-    double *fixed = malloc((variables + 1) * sizeof *fixed);
-    graph->failed |= !second || !fixed;
-    for (size_t i = 0; i < variables && !graph->failed; i++) {
-        fixed[i] = NAN;
-    }
+    graph->failed |= !second;
     bool constant = true;
     for (size_t i = 0; i < variables && constant && !graph->failed; i++) {
         if (marked[i] && gm_gradient(graph, slopes[i], marked, variables, second)) {
             for (size_t k = i; k < variables && constant; k++) {
                 constant = !marked[k] || gm_is_constant(graph, second[k], 0) ||
-                           gm_identity_of(graph, second[k], fixed, variables) == GM_ZERO_PROVED;
+                           gm_identity_of(graph, second[k], NULL, 0) == GM_ZERO_PROVED;
             }
         }
     }
     free(second);
-    free(fixed);
     return constant;
 }
 

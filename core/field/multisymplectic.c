@@ -50,10 +50,7 @@ static void measure(struct gm_arena *arena, void *data)
 bool gm_law_measure(struct gm_law *law, void (*body)(const struct gm_law *law, void *data), void *data)
 {
     struct measurement self = {law, body, data};
-    struct gm_arena *arena = gm_arena_open();
-    const bool whole = gm_arena_run(arena, measure, &self);
-    gm_arena_close(arena);
-    return whole;
+    return gm_arena_run_once(measure, &self);
 }
 
 bool gm_law_step(const struct gm_law *law, int64_t steps, const double *y, const double *memory, double *out,

@@ -74,12 +74,7 @@ static void open_flow(struct gm_arena *arena, void *data)
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow)
 {
     const struct gm_flow *now = flow;
-    struct gm_arena *arena = gm_arena_open();
-    if (gm_arena_run(arena, open_flow, &now)) {
-        return (struct gm_flow *)(uintptr_t)now;
-    }
-    gm_arena_close(arena);
-    return NULL;
+    return gm_arena_made(open_flow, &now) ? (struct gm_flow *)(uintptr_t)now : NULL;
 }
 
 struct gm_flow *gm_flow_open(struct gm_complex *complex)

@@ -732,11 +732,6 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
     complete_heat(room);
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static void close_arena(void *arena)
 {
     gm_arena_close(arena);
@@ -757,7 +752,7 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
     const unsigned long refusals = gm_memory_refusals();
     struct gm_user_system *system = &room->system;
     gm_formula_open(&system->graph);
-    gm_arena_keep(arena, &system->graph, close_graph);
+    gm_arena_keep(arena, &system->graph, gm_formula_close);
     struct room_reading here = {.reading = {.system = system,
                                             .text = input->text,
                                             .length = input->length,
@@ -799,13 +794,8 @@ static void open_room(struct gm_arena *arena, void *data)
 struct gm_room *gm_room_open(const struct gm_room_input *input, struct gm_fault *fault)
 {
     struct opening opening = {input, fault, NULL};
-    struct gm_arena *arena = gm_arena_open();
     *fault = (struct gm_fault){0};
-    if (!gm_arena_run(arena, open_room, &opening)) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.room;
+    return gm_arena_made(open_room, &opening) ? opening.room : NULL;
 }
 
 void gm_room_close(struct gm_room *room)

@@ -20,11 +20,6 @@ struct gm_hodge {
     double *right, *found; /* edges + triangles, or vertices */
 };
 
-static void close_lu(void *lu)
-{
-    gm_lu_close(lu);
-}
-
 /* Marks a vertex of each piece, and a triangle of each closed one. */
 static void pin(struct gm_hodge *hodge, struct gm_arena *arena)
 {
@@ -89,7 +84,7 @@ static void make_saddle(struct gm_hodge *hodge, struct gm_arena *arena)
     hodge->lu =
         gm_lu_open(hodge->saddle.rows, hodge->saddle.start, hodge->saddle.column, hodge->saddle.value);
     gm_arena_need(arena, hodge->lu);
-    gm_arena_keep(arena, hodge->lu, close_lu);
+    gm_arena_keep(arena, hodge->lu, gm_lu_close);
 }
 
 struct gm_hodge *gm_hodge_open(struct gm_arena *arena, const struct gm_form_space *space)

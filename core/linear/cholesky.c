@@ -395,8 +395,9 @@ struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const do
     return lu;
 }
 
-void gm_lu_close(struct gm_lu *lu)
+void gm_lu_close(void *factors)
 {
+    struct gm_lu *lu = factors;
     if (lu) {
         suite.umfpack_di_free_numeric(&lu->numeric);
         free(lu);

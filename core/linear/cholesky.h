@@ -32,7 +32,7 @@ struct gm_lu;
 
 /* The matrix outlives the factors. NULL when out of memory or if it is singular. */
 struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value);
-void gm_lu_close(struct gm_lu *lu);
+void gm_lu_close(void *lu); /* for arenas too */
 /* Solves A x = b; allocates. False when out of memory. */
 bool gm_lu_apply(const struct gm_lu *lu, const double *b, double *x);
 /* The same once. False when out of memory or if A is singular. */

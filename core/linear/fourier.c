@@ -155,10 +155,11 @@ bool gm_modes_open(struct gm_modes *modes, size_t points, size_t fields)
     return modes->fourier != NULL;
 }
 
-void gm_modes_close(struct gm_modes *modes)
+void gm_modes_close(void *modes)
 {
-    gm_fourier_close(modes->fourier);
-    modes->fourier = NULL;
+    struct gm_modes *self = modes;
+    gm_fourier_close(self->fourier);
+    self->fourier = NULL;
 }
 
 void gm_modes_forward(const struct gm_modes *modes, const double *y, double complex *waves)

@@ -24,7 +24,7 @@ struct gm_modes {
 
 /* Returns false when out of memory; the caller closes it in both cases. */
 bool gm_modes_open(struct gm_modes *modes, size_t points, size_t fields);
-void gm_modes_close(struct gm_modes *modes);
+void gm_modes_close(void *modes); /* for arenas too */
 
 /* The modes that are their own: 0 .. points / 2; the others are conjugates of these. */
 static inline size_t gm_modes_half(size_t points)

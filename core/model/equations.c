@@ -779,12 +779,10 @@ static void find_start(struct gm_arena *arena, void *data)
 double *gm_equations_start(const struct gm_user_system *system, const double *given)
 {
     struct start start = {system, given, malloc(system->variable_count * sizeof *start.variables)};
-    struct gm_arena *arena = gm_arena_open();
-    if (!start.variables || !gm_arena_run(arena, find_start, &start)) {
+    if (!start.variables || !gm_arena_run_once(find_start, &start)) {
         free(start.variables);
         start.variables = NULL;
     }
-    gm_arena_close(arena);
     return start.variables;
 }
 

@@ -656,8 +656,7 @@ static void read_matrix(struct gm_reading *reading, const struct gm_read_line *l
                         word_of(line), rows, n);
 }
 
-/* Reads one of a few words. */
-static void read_choice(struct gm_reading *reading, const struct gm_read_line *line)
+const char *const *gm_system_choices(enum gm_system_word word)
 {
     enum { MOST = 6 };
     static const char *const words[GM_WORDS][MOST] = {
@@ -665,13 +664,25 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
         [GM_WORD_BOUNDARY] = {"ring", "walls"},
         [GM_WORD_STAR] = {"auto", "circumcentric", "barycentric", "galerkin", "incentric"},
         [GM_WORD_INTERIOR] = {"dual", "whitney", "upwind"}};
-    const char *const *among = words[line->word];
-    read_text(reading, line);
+    return words[word];
+}
+
+size_t gm_system_chosen(const struct gm_user_system *system, enum gm_system_word word)
+{
+    const char *text = system->texts[word], *const *among = gm_system_choices(word);
     size_t k = 0;
-    while (among[k] && strcmp(among[k], reading->system->texts[line->word]) != 0) {
+    while (text && among[k] && strcmp(among[k], text) != 0) {
         k++;
     }
-    const bool wrong = !among[k];
+    return k;
+}
+
+/* Reads one of a few words. */
+static void read_choice(struct gm_reading *reading, const struct gm_read_line *line)
+{
+    const char *const *among = gm_system_choices(line->word);
+    read_text(reading, line);
+    const bool wrong = !among[gm_system_chosen(reading->system, line->word)];
     gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin, "%s: is %s", word_of(line),
                         line->word == GM_WORD_STAR ? "auto, circumcentric, barycentric, galerkin or incentric"
                                                    : "dual, whitney or upwind");

@@ -273,6 +273,11 @@ bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t co
 const struct gm_system_item *gm_system_item_of(const struct gm_user_system *system, enum gm_system_word word,
                                                size_t number);
 
+/* The words that a line of few words may have, then NULL: space, boundary of a line, star, interior. */
+const char *const *gm_system_choices(enum gm_system_word word);
+/* The index of the system's word among these; 0, the first, without such a line. */
+size_t gm_system_chosen(const struct gm_user_system *system, enum gm_system_word word);
+
 /* The name in lists: its name, or else its title; NULL: none. */
 static inline const char *gm_system_title(const struct gm_user_system *system)
 {

@@ -711,11 +711,6 @@ static void check_title(const struct reading *reading)
     }
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static void read(struct gm_arena *arena, void *data)
 {
     struct reading *reading = data;
@@ -724,7 +719,7 @@ static void read(struct gm_arena *arena, void *data)
     const size_t length = span.end - span.begin;
     gm_formula_open(&reading->graph);
     reading->graph.keeps = true;
-    gm_arena_keep(arena, &reading->graph, close_graph);
+    gm_arena_keep(arena, &reading->graph, gm_formula_close);
     if (length > GM_LARGEST_SCHEME) {
         fail(reading, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
     }
@@ -775,8 +770,9 @@ bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t 
     return good;
 }
 
-void gm_written_close(struct gm_written_scheme *scheme)
+void gm_written_close(void *written)
 {
+    struct gm_written_scheme *scheme = written;
     gm_arena_close(scheme->arena);
     *scheme = (struct gm_written_scheme){0};
 }

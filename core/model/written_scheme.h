@@ -94,7 +94,7 @@ size_t gm_written_word_name(const char *text, size_t length);
    where memory was refused; to be closed in both cases. The text outlives it. `decimals` may be NULL. */
 bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t begin, size_t end,
                      struct gm_decimals *decimals, struct gm_fault *fault);
-void gm_written_close(struct gm_written_scheme *scheme);
+void gm_written_close(void *scheme); /* for arenas too */
 
 /* The word that is read to the same scheme: title, order, claims, lets and coefficients in parentheses behind
    the kind. `schemes` are the words for the schemes that it names, by the word of their line. malloc'ed, NULL:

@@ -156,13 +156,13 @@ struct gm_parts {
     const char *const *names; /* NULL-terminated: the file's own, then those of the structure */
     size_t given;             /* the number of the first */
     bool timed;               /* the last component is the time, which no part moves */
-    /* Writes the rates of a part as formulas of the components, n. Returns false if no part has this
-       name, or when out of memory (graph->failed). */
-    bool (*rates)(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                  gm_node_id *rates);
-    /* Returns NULL if these parts sum to the field, else the reason in words, in the arena's body. */
-    const char *(*differ)(const struct gm_problem *problem, const char *const *names, size_t count,
-                          struct gm_arena *arena);
+    /* These work in the arena's body, which is left when out of memory. */
+    /* Writes the rates of a part as formulas of the components, n. Returns false if no part has this name. */
+    bool (*rates)(struct gm_arena *arena, const struct gm_problem *problem, const char *name,
+                  struct gm_formula *graph, gm_node_id *rates);
+    /* Returns NULL if these parts sum to the field, else the reason in words. */
+    const char *(*differ)(struct gm_arena *arena, const struct gm_problem *problem, const char *const *names,
+                          size_t count);
 };
 
 /* The facets of a system. For a constant n, `loops` has loops over the problem's kernels. For an n chosen at

@@ -1,28 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Room for the coefficients of a method, and those of compositions and adjoints. */
+/* The coefficients of methods, of compositions and of adjoints. */
 #include "core/theory/coefficients.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages)
+#include "core/arena.h"
+
+void gm_coefficients_open(struct gm_arena *arena, struct gm_coefficients *coefficients,
+                          enum gm_equations equations, int stages)
 {
     const size_t s = (size_t)stages;
     *coefficients = (struct gm_coefficients){.equations = equations, .stages = stages, .evaluations = stages};
-    bool good = true;
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
-        struct gm_ball *room = malloc((s * s + s) * sizeof *room);
-        coefficients->a[side] = room;
-        coefficients->b[side] = room ? room + s * s : NULL;
-        good = good && room;
-        for (size_t i = 0; room && i < s * s + s; i++) {
-            room[i] = gm_ball_of(0);
+        struct gm_ball *a = coefficients->a[side] = gm_arena_take(arena, s * s + s, sizeof *a);
+        coefficients->b[side] = a + s * s;
+        for (size_t i = 0; i < s * s + s; i++) {
+            a[i] = gm_ball_of(0);
         }
     }
-    if (!good) {
-        gm_coefficients_close(coefficients);
-    }
-    return good;
 }
 
 void gm_coefficients_write(struct gm_coefficients *coefficients, int side, const double *a, size_t stride,
@@ -37,36 +32,21 @@ void gm_coefficients_write(struct gm_coefficients *coefficients, int side, const
     }
 }
 
-static bool copy_moved(struct gm_coefficients *copy, const struct gm_coefficients *coefficients)
+void gm_coefficients_copy(struct gm_arena *arena, struct gm_coefficients *copy,
+                          const struct gm_coefficients *coefficients)
 {
-    const size_t count = (size_t)coefficients->moved_count;
-    copy->moved = count ? calloc(count, sizeof *copy->moved) : NULL;
-    for (size_t i = 0; copy->moved && i < count; i++) {
-        if (!gm_coefficients_copy(&copy->moved[i], &coefficients->moved[i])) {
-            return false;
-        }
-        copy->moved_count++;
-    }
-    return count == 0 || copy->moved;
-}
-
-bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coefficients *coefficients)
-{
-    const size_t s = (size_t)coefficients->stages;
-    if (!gm_coefficients_open(copy, coefficients->equations, coefficients->stages)) {
-        return false;
-    }
-    copy->evaluations = coefficients->evaluations;
-    copy->nystrom = coefficients->nystrom;
+    const size_t s = (size_t)coefficients->stages, count = (size_t)coefficients->moved_count;
+    *copy = *coefficients;
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
-        memcpy(copy->a[side], coefficients->a[side], s * s * sizeof(struct gm_ball));
-        memcpy(copy->b[side], coefficients->b[side], s * sizeof(struct gm_ball));
+        struct gm_ball *a = copy->a[side] = gm_arena_take(arena, s * s + s, sizeof *a);
+        copy->b[side] = a + s * s;
+        memcpy(a, coefficients->a[side], s * s * sizeof *a);
+        memcpy(copy->b[side], coefficients->b[side], s * sizeof *a);
     }
-    if (!copy_moved(copy, coefficients)) {
-        gm_coefficients_close(copy);
-        return false;
+    copy->moved = gm_arena_take(arena, count, sizeof *copy->moved);
+    for (size_t i = 0; i < count; i++) {
+        gm_coefficients_copy(arena, &copy->moved[i], &coefficients->moved[i]);
     }
-    return true;
 }
 
 static bool is_same_stage(const struct gm_coefficients *coefficients, int i, int j)
@@ -142,25 +122,22 @@ void gm_coefficients_reduce(struct gm_coefficients *coefficients)
     }
 }
 
-bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
-                                  const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c)
+void gm_coefficients_open_nystrom(struct gm_arena *arena, struct gm_coefficients *coefficients, int stages,
+                                  const struct gm_nystrom_balls *balls)
 {
     const int all = stages + 2, start = stages, end = stages + 1;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_NYSTROM, all)) {
-        return false;
-    }
+    gm_coefficients_open(arena, coefficients, GM_EQUATIONS_NYSTROM, all);
     coefficients->evaluations = coefficients->nystrom = stages;
     for (int i = 0; i < stages; i++) {
-        coefficients->b[GM_SIDE_P][i] = bv[i];
-        coefficients->a[GM_SIDE_P][end * all + i] = b[i];
+        coefficients->b[GM_SIDE_P][i] = balls->bv[i];
+        coefficients->a[GM_SIDE_P][end * all + i] = balls->b[i];
         coefficients->a[GM_SIDE_Q][i * all + i] = gm_ball_of(1);
-        coefficients->a[GM_SIDE_Q][i * all + start] = gm_ball_subtract(c[i], gm_ball_of(1));
+        coefficients->a[GM_SIDE_Q][i * all + start] = gm_ball_subtract(balls->c[i], gm_ball_of(1));
         for (int j = 0; j < stages; j++) {
-            coefficients->a[GM_SIDE_P][i * all + j] = a[i * stages + j];
+            coefficients->a[GM_SIDE_P][i * all + j] = balls->a[i * stages + j];
         }
     }
     coefficients->b[GM_SIDE_Q][end] = gm_ball_of(1);
-    return true;
 }
 
 /* The time of a stage of a Nystrom method, and that of its end, of which c - 1 are coefficients. */
@@ -176,35 +153,24 @@ static struct gm_ball end_of(const struct gm_coefficients *coefficients)
 }
 
 /* Writes a part for equations that are among its own: both sides of a plain method have its coefficients. */
-static bool narrow(struct gm_coefficients *part, enum gm_equations equations)
+static void narrow(struct gm_coefficients *part, enum gm_equations equations)
 {
-    const size_t s = (size_t)part->stages;
-    struct gm_coefficients made;
-    if (part->equations == GM_EQUATIONS_PLAIN && equations != GM_EQUATIONS_PLAIN) {
-        if (!gm_coefficients_open(&made, equations, part->stages)) {
-            return false;
-        }
-        for (int side = 0; side < GM_SIDES; side++) {
-            memcpy(made.a[side], part->a[0], s * s * sizeof(struct gm_ball));
-            memcpy(made.b[side], part->b[0], s * sizeof(struct gm_ball));
-        }
-        made.evaluations = part->evaluations;
-        gm_coefficients_close(part);
-        *part = made;
+    if (part->equations == GM_EQUATIONS_PLAIN) {
+        part->a[GM_SIDE_P] = part->a[GM_SIDE_Q];
+        part->b[GM_SIDE_P] = part->b[GM_SIDE_Q];
     }
     part->equations = equations;
-    return true;
 }
 
 /* Writes a method with two sides as a Nystrom method: if f_q is linear it has, with A = a_q and e = sum_j b_q,j,
        a = A a_p,   b = b_q a_p,   bv = b_p,   c_i = sum_j A_ij */
-static bool make_nystrom(struct gm_coefficients *part)
+static void make_nystrom(struct gm_arena *arena, struct gm_coefficients *part)
 {
     const int s = part->stages;
-    struct gm_ball *products = malloc(((size_t)s + 1) * ((size_t)s + 1) * sizeof *products);
-    struct gm_ball *times = products ? products + (s + 1) * s : NULL;
+    struct gm_ball *products = gm_arena_take(arena, ((size_t)s + 1) * ((size_t)s + 1), sizeof *products),
+                   *times = products + (s + 1) * s;
     struct gm_coefficients made;
-    for (int i = 0; products && i <= s; i++) {
+    for (int i = 0; i <= s; i++) {
         const struct gm_ball *row = i < s ? part->a[GM_SIDE_Q] + i * s : part->b[GM_SIDE_Q];
         times[i] = gm_ball_of(0);
         for (int j = 0; j < s; j++) {
@@ -216,16 +182,11 @@ static bool make_nystrom(struct gm_coefficients *part)
             times[i] = gm_ball_add(times[i], row[j]);
         }
     }
-    const bool good = products && gm_coefficients_open_nystrom(&made, s, products, products + s * s,
-                                                               part->b[GM_SIDE_P], times);
-    if (good) {
-        made.b[GM_SIDE_Q][s] = gm_ball_subtract(times[s], gm_ball_of(1));
-        made.evaluations = part->evaluations;
-        gm_coefficients_close(part);
-        *part = made;
-    }
-    free(products);
-    return good;
+    gm_coefficients_open_nystrom(
+        arena, &made, s, &(struct gm_nystrom_balls){products, products + s * s, part->b[GM_SIDE_P], times});
+    made.b[GM_SIDE_Q][s] = gm_ball_subtract(times[s], gm_ball_of(1));
+    made.evaluations = part->evaluations;
+    *part = made;
 }
 
 /* Steps of Nystrom methods are one of all their stages: `begin` is the time at which the next one begins,
@@ -281,8 +242,9 @@ static void add_tableau(struct gm_coefficients *composed, int first, const struc
     }
 }
 
-bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct gm_coefficients *parts,
-                                      const struct gm_ball *fractions, int count)
+void gm_coefficients_open_composition(struct gm_arena *arena, struct gm_coefficients *composed,
+                                      struct gm_coefficients *parts, const struct gm_ball *fractions,
+                                      int count)
 {
     enum gm_equations equations = GM_EQUATIONS_PLAIN;
     bool nystrom = false;
@@ -292,15 +254,14 @@ bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct g
     }
     int stages = nystrom ? 2 : 0, evaluations = 0;
     for (int k = 0; k < count; k++) {
-        if (!narrow(&parts[k], equations) || (nystrom && parts[k].nystrom == 0 && !make_nystrom(&parts[k]))) {
-            return false;
+        narrow(&parts[k], equations);
+        if (nystrom && parts[k].nystrom == 0) {
+            make_nystrom(arena, &parts[k]);
         }
         stages += nystrom ? parts[k].nystrom : parts[k].stages;
         evaluations += parts[k].evaluations;
     }
-    if (!gm_coefficients_open(composed, equations, stages)) {
-        return false;
-    }
+    gm_coefficients_open(arena, composed, equations, stages);
     composed->evaluations = evaluations;
     struct gm_ball begin = gm_ball_of(0);
     int first = 0;
@@ -318,7 +279,6 @@ bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct g
         composed->b[GM_SIDE_Q][first] = gm_ball_subtract(begin, gm_ball_of(1));
         composed->b[GM_SIDE_Q][first + 1] = gm_ball_of(1);
     }
-    return true;
 }
 
 /* With k = s + 1 - i, l = s + 1 - j and the end e, which is 1 of a whole step:
@@ -363,24 +323,10 @@ static void turn_tableau(struct gm_coefficients *adjoint, const struct gm_coeffi
     }
 }
 
-bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact)
+void gm_coefficients_open_adjoint(struct gm_arena *arena, struct gm_coefficients *adjoint,
+                                  const struct gm_coefficients *exact)
 {
-    if (!gm_coefficients_open(adjoint, exact->equations, exact->stages)) {
-        return false;
-    }
+    gm_coefficients_open(arena, adjoint, exact->equations, exact->stages);
     adjoint->evaluations = exact->evaluations;
     exact->nystrom > 0 ? turn_nystrom(adjoint, exact) : turn_tableau(adjoint, exact);
-    return true;
-}
-
-void gm_coefficients_close(struct gm_coefficients *coefficients)
-{
-    for (int i = 0; i < coefficients->moved_count; i++) {
-        gm_coefficients_close(&coefficients->moved[i]);
-    }
-    free(coefficients->moved);
-    for (int side = 0; side < GM_SIDES; side++) {
-        free(coefficients->a[side]);
-        coefficients->a[side] = coefficients->b[side] = NULL;
-    }
 }

@@ -4,6 +4,8 @@
 
 #include "core/theory/ball.h"
 
+struct gm_arena;
+
 /* The coefficients of a Runge-Kutta method, plain or partitioned, for y' = f(y) or (q, p)' = (f_q, f_p):
        Y_i = y0 + h sum_j a_ij f(Y_j)            Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i with c_ij
        y1  = y0 + h sum_i b_i  f(Y_i)            q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  with d_i
@@ -37,27 +39,35 @@ struct gm_coefficients {
     int moved_count;
 };
 
-/* Opens coefficients that are all 0. Returns false when out of memory. */
-bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
+/* The functions below take memory from an arena, in its body, which is left when out of memory. */
+
+/* Opens coefficients that are all 0. */
+void gm_coefficients_open(struct gm_arena *arena, struct gm_coefficients *coefficients,
+                          enum gm_equations equations, int stages);
 /* Writes the coefficients of a side from those of a table, a by rows of `stride` numbers. */
 void gm_coefficients_write(struct gm_coefficients *coefficients, int side, const double *a, size_t stride,
                            const double *b);
-/* Opens a copy. Returns false when out of memory. */
-bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coefficients *coefficients);
-/* Opens the coefficients of a Nystrom method with a, b, bv and c, in the form above. Returns false when out of
-   memory. */
-bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
-                                  const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c);
+/* Opens a copy. */
+void gm_coefficients_copy(struct gm_arena *arena, struct gm_coefficients *copy,
+                          const struct gm_coefficients *coefficients);
+/* The coefficients of a Nystrom method by their names in the literature: stages * stages by rows, then stages each. */
+struct gm_nystrom_balls {
+    const struct gm_ball *a, *b, *bv, *c;
+};
+/* Opens the coefficients of a Nystrom method, in the form above. */
+void gm_coefficients_open_nystrom(struct gm_arena *arena, struct gm_coefficients *coefficients, int stages,
+                                  const struct gm_nystrom_balls *balls);
 /* Opens the composition of steps with these fractions. The parts are first written for the equations that all
-   of them are made for, as Nystrom methods if one is. Returns false when out of memory. */
-bool gm_coefficients_open_composition(struct gm_coefficients *composed, struct gm_coefficients *parts,
-                                      const struct gm_ball *fractions, int count);
-/* Opens the adjoint, the inverse of the step backwards. Returns false when out of memory. */
-bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact);
+   of them are made for, as Nystrom methods if one is. */
+void gm_coefficients_open_composition(struct gm_arena *arena, struct gm_coefficients *composed,
+                                      struct gm_coefficients *parts, const struct gm_ball *fractions,
+                                      int count);
+/* Opens the adjoint, the inverse of the step backwards. */
+void gm_coefficients_open_adjoint(struct gm_arena *arena, struct gm_coefficients *adjoint,
+                                  const struct gm_coefficients *exact);
 /* Removes the stages that occur twice or have no effect (Hairer, Lubich & Wanner, VI.7.3). `evaluations`
    stays. */
 void gm_coefficients_reduce(struct gm_coefficients *coefficients);
-void gm_coefficients_close(struct gm_coefficients *coefficients);
 
 static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)
 {

@@ -7,8 +7,7 @@
        sum_(l < k) W_l(u) + sum_j a_ij Phi_kj(u). */
 #include "core/theory/modified.h"
 
-#include <stdlib.h>
-
+#include "core/arena.h"
 #include "core/theory/theory.h"
 
 /* Phi of every tree for each number of steps and each stage, and its value as a branch. */
@@ -59,16 +58,14 @@ struct gm_ball *gm_modified_equation(const struct gm_trees *trees, const struct 
 {
     const int count = trees->first[trees->orders + 1];
     struct powers powers = {.steps = trees->orders, .stages = coefficients->stages};
-    powers.of = malloc((size_t)count * 2 * (size_t)powers.steps * (size_t)powers.stages * sizeof *powers.of);
-    struct gm_ball *equation = malloc((size_t)count * sizeof *equation);
-    for (int tree = 0; powers.of && equation && tree < count; tree++) {
+    struct gm_ball *equation = gm_arena_take(trees->arena, (size_t)count, sizeof *equation);
+    const size_t mark = gm_arena_mark(trees->arena);
+    powers.of = gm_arena_take(trees->arena, (size_t)count * 2 * (size_t)powers.steps * (size_t)powers.stages,
+                              sizeof *powers.of);
+    for (int tree = 0; tree < count; tree++) {
         equation[tree] = equation_of(coefficients, trees, &powers, tree);
     }
-    if (!powers.of) {
-        free(equation);
-        equation = NULL;
-    }
-    free(powers.of);
+    gm_arena_release(trees->arena, mark);
     return equation;
 }
 
@@ -83,38 +80,30 @@ static int largest_branch(const struct gm_trees *trees, int tree)
     return largest;
 }
 
-bool gm_modified_open(struct gm_modified *modified, const struct gm_coefficients *coefficients, int order)
+struct gm_modified gm_modified_of(struct gm_arena *arena, const struct gm_coefficients *coefficients,
+                                  int order)
 {
     const bool split =
         coefficients->equations == GM_EQUATIONS_SEPARABLE || coefficients->equations == GM_EQUATIONS_NYSTROM;
-    *modified = (struct gm_modified){0};
-    gm_trees_open(&modified->trees, split ? GM_EQUATIONS_SEPARABLE : coefficients->equations);
-    bool good = true;
-    while (good && modified->trees.orders < order) {
-        good = gm_trees_grow(&modified->trees);
+    struct gm_modified modified = {
+        .trees = gm_trees_open(arena, split ? GM_EQUATIONS_SEPARABLE : coefficients->equations)};
+    const struct gm_trees *trees = &modified.trees;
+    while (trees->orders < order) {
+        gm_trees_grow(&modified.trees);
     }
-    const struct gm_trees *trees = &modified->trees;
-    struct gm_ball *equation = good ? gm_modified_equation(trees, coefficients) : NULL;
+    const struct gm_ball *equation = gm_modified_equation(trees, coefficients);
     const int count = trees->first[trees->orders + 1];
-    modified->terms = equation ? malloc((size_t)count * sizeof *modified->terms) : NULL;
-    for (int tree = 0; modified->terms && tree < count; tree++) {
+    modified.terms = gm_arena_take(arena, (size_t)count, sizeof *modified.terms);
+    for (int tree = 0; tree < count; tree++) {
         const struct gm_tree *this = &trees->trees[tree];
         const int twice = 2 * largest_branch(trees, tree);
         /* where H does not split, sides are those of branches */
         const bool counted = split || this->side == GM_SIDE_Q;
         if (counted && twice <= this->order && !gm_ball_may_vanish(equation[tree])) {
             const double share = twice == this->order ? 0.5 : 1;
-            modified->terms[modified->count++] = (struct gm_modified_term){
+            modified.terms[modified.count++] = (struct gm_modified_term){
                 .tree = tree, .weight = share * gm_ball_midpoint(equation[tree]) / this->symmetry};
         }
     }
-    free(equation);
-    return modified->terms != NULL;
-}
-
-void gm_modified_close(struct gm_modified *modified)
-{
-    gm_trees_close(&modified->trees);
-    free(modified->terms);
-    *modified = (struct gm_modified){0};
+    return modified;
 }

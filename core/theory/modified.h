@@ -26,15 +26,13 @@ struct gm_modified {
     size_t count;
 };
 
-/* Opens the terms with at most `order` <= GM_MODIFIED_ORDER vertices of a symplectic method
-   (gm_theory_is_symplectic), without terms that vanish to the precision of the coefficients. Returns false when
-   out of memory. The caller closes it in both cases. */
-bool gm_modified_open(struct gm_modified *modified, const struct gm_coefficients *coefficients, int order);
-void gm_modified_close(struct gm_modified *modified);
+/* Finds the terms with at most `order` <= GM_MODIFIED_ORDER vertices of a symplectic method
+   (gm_theory_is_symplectic), without terms that vanish to the precision of the coefficients, in an arena's body. */
+struct gm_modified gm_modified_of(struct gm_arena *arena, const struct gm_coefficients *coefficients,
+                                  int order);
 
 /* The coefficients of the modified equation itself, y' = sum of dt^(|tree| - 1) / sigma b(tree) F(tree), of
-   all trees that `trees` has, at most GM_MODIFIED_ORDER vertices, of any method: malloc'ed; NULL: out of
-   memory. */
+   all trees that `trees` has, at most GM_MODIFIED_ORDER vertices, of any method; in the arena of the trees. */
 struct gm_ball *gm_modified_equation(const struct gm_trees *trees,
                                      const struct gm_coefficients *coefficients);
 

@@ -13,9 +13,9 @@
 #include "core/theory/stability.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/theory/polynomial.h"
 
 static const struct gm_polynomial zero = {.degree = -1};
@@ -120,17 +120,16 @@ static void of_explicit(const struct gm_coefficients *coefficients, struct gm_ba
     }
 }
 
-/* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). Returns false when out of memory. */
-static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
+/* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). */
+static void of_plain(struct gm_arena *arena, const struct gm_coefficients *coefficients, bool symmetric,
                      struct gm_theory_stability *stability)
 {
     const int s = coefficients->stages;
-    const size_t square = (size_t)s * (size_t)s;
-    struct gm_ball *room = s <= GM_POLYNOMIAL_DEGREE ? malloc(3 * square * sizeof *room) : NULL;
-    if (!room) {
-        return s > GM_POLYNOMIAL_DEGREE;
+    if (s > GM_POLYNOMIAL_DEGREE) {
+        return;
     }
-    struct gm_ball *m = room, *x = room + square, *next = room + 2 * square;
+    const size_t square = (size_t)s * (size_t)s;
+    struct gm_ball *m = gm_arena_take(arena, 3 * square, sizeof *m), *x = m + square, *next = x + square;
     struct gm_polynomial p, q, left_p, left_q, on_real = zero, on_imaginary = zero;
     bool is_explicit = true;
     determinant(s, coefficients->a[0], x, next, &q);
@@ -150,7 +149,6 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
         }
         determinant(s, m, x, next, &p);
     }
-    free(room);
     gm_polynomial_settle(&p);
     gm_polynomial_settle(&q);
     mirror(&p, &left_p);
@@ -171,7 +169,6 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
     }
     stability->a_stable = !is_explicit && isinf(stability->imaginary) && gm_polynomial_is_hurwitz(&left_q);
     stability->l_stable = stability->a_stable && p.degree < q.degree;
-    return true;
 }
 
 static void of_splitting(const struct gm_coefficients *coefficients, struct gm_theory_stability *stability)
@@ -217,15 +214,14 @@ static bool is_splitting(const struct gm_coefficients *coefficients)
     return true;
 }
 
-bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool symmetric,
-                            struct gm_theory_stability *stability)
+struct gm_theory_stability gm_theory_stability_of(struct gm_arena *arena,
+                                                  const struct gm_coefficients *coefficients, bool symmetric)
 {
-    *stability = (struct gm_theory_stability){.real = NAN, .imaginary = NAN};
+    struct gm_theory_stability stability = {.real = NAN, .imaginary = NAN};
     if (coefficients->equations == GM_EQUATIONS_PLAIN) {
-        return of_plain(coefficients, symmetric, stability);
+        of_plain(arena, coefficients, symmetric, &stability);
+    } else if (coefficients->equations != GM_EQUATIONS_PARTITIONED && is_splitting(coefficients)) {
+        of_splitting(coefficients, &stability);
     }
-    if (coefficients->equations != GM_EQUATIONS_PARTITIONED && is_splitting(coefficients)) {
-        of_splitting(coefficients, stability);
-    }
-    return true;
+    return stability;
 }

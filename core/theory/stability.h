@@ -14,8 +14,8 @@ struct gm_theory_stability {
     bool a_stable, l_stable;
 };
 
-/* Finds the stability of a method, which is symmetric or not. Returns false when out of memory. */
-bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool symmetric,
-                            struct gm_theory_stability *stability);
+/* Returns the stability of a method, which is symmetric or not; in an arena's body. */
+struct gm_theory_stability gm_theory_stability_of(struct gm_arena *arena,
+                                                  const struct gm_coefficients *coefficients, bool symmetric);
 
 #endif

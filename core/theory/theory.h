@@ -2,6 +2,7 @@
 #ifndef GM_CORE_THEORY_THEORY_H
 #define GM_CORE_THEORY_THEORY_H
 
+#include "core/scheme.h"
 #include "core/theory/coefficients.h"
 #include "core/theory/stability.h"
 
@@ -11,7 +12,7 @@
 enum { GM_CONDITION_TEXT = 96 };
 
 struct gm_theory {
-    bool known;     /* false: out of memory, and the other fields are not set */
+    bool known;     /* false: no coefficients, or out of memory; the other fields are not set */
     int order;      /* the order conditions hold up to this order */
     bool at_least;  /* higher orders were not checked */
     int at_most;    /* with at_least: a condition of a plain method fails above this order; 0: not known */
@@ -33,11 +34,17 @@ struct gm_theory {
     struct gm_theory_stability stability;
 };
 
-/* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision. */
-bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients);
-bool gm_theory_is_symmetric(const struct gm_coefficients *coefficients);
+/* Opens the coefficients of a scheme in an arena's body; returns false without any. */
+bool gm_scheme_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                 struct gm_coefficients *coefficients);
 
-struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients);
+/* Return true if the coefficients satisfy the conditions of symplecticity or symmetry, to their precision; in an
+   arena's body. */
+bool gm_theory_is_symplectic(struct gm_arena *arena, const struct gm_coefficients *coefficients);
+bool gm_theory_is_symmetric(struct gm_arena *arena, const struct gm_coefficients *coefficients);
+
+/* Returns the theory of coefficients, in an arena's body, which is left when out of memory. */
+struct gm_theory gm_theory_of(struct gm_arena *arena, const struct gm_coefficients *coefficients);
 
 /* Returns the *count residuals of the conditions of an order and of the claimed structure. The caller frees them;
    NULL when out of memory. */

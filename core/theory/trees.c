@@ -4,39 +4,24 @@
 #include "core/theory/trees.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-void gm_trees_open(struct gm_trees *trees, enum gm_equations equations)
-{
-    *trees = (struct gm_trees){.equations = equations};
-}
-
-void gm_trees_close(struct gm_trees *trees)
-{
-    free(trees->trees);
-    trees->trees = NULL;
-}
+#include "core/arena.h"
 
 double gm_tree_density(const struct gm_tree *tree)
 {
     return tree->order * tree->below;
 }
 
-static bool add(struct gm_trees *trees, struct gm_tree tree)
+static void add(struct gm_trees *trees, struct gm_tree tree)
 {
     int *count = &trees->first[tree.order + 1];
     if (*count == trees->capacity) {
-        const int capacity = trees->capacity ? 2 * trees->capacity : 64;
-        struct gm_tree *grown = realloc(trees->trees, (size_t)capacity * sizeof *grown);
-        if (!grown) {
-            return false;
-        }
-        trees->trees = grown;
-        trees->capacity = capacity;
+        trees->capacity = trees->capacity ? 2 * trees->capacity : 64;
+        trees->trees =
+            gm_arena_resize(trees->arena, trees->trees, (size_t)trees->capacity, sizeof *trees->trees);
     }
     trees->trees[(*count)++] = tree;
-    return true;
 }
 
 /* Returns true if the root of a tree may have this additional branch. */
@@ -52,7 +37,7 @@ static bool may_branch(enum gm_equations equations, const struct gm_tree *tree, 
     }
 }
 
-bool gm_trees_grow(struct gm_trees *trees)
+void gm_trees_grow(struct gm_trees *trees)
 {
     const int order = ++trees->orders;
     trees->first[order + 1] = trees->first[order];
@@ -61,7 +46,10 @@ bool gm_trees_grow(struct gm_trees *trees)
             .order = 1, .without = -1, .last = -1, .symmetry = 1, .below = 1, .side = GM_SIDE_Q};
         struct gm_tree other = vertex;
         other.side = GM_SIDE_P;
-        return add(trees, vertex) && (trees->equations == GM_EQUATIONS_PLAIN || add(trees, other));
+        add(trees, vertex);
+        if (trees->equations != GM_EQUATIONS_PLAIN) {
+            add(trees, other);
+        }
     }
     for (int without = 0; without < trees->first[order]; without++) {
         const int rest = order - trees->trees[without].order;
@@ -71,18 +59,15 @@ bool gm_trees_grow(struct gm_trees *trees)
                 continue;
             }
             const int times = last == tree->last ? tree->times + 1 : 1;
-            if (!add(trees, (struct gm_tree){.order = order,
-                                             .side = tree->side,
-                                             .without = without,
-                                             .last = last,
-                                             .times = times,
-                                             .symmetry = tree->symmetry * branch->symmetry * times,
-                                             .below = tree->below * gm_tree_density(branch)})) {
-                return false;
-            }
+            add(trees, (struct gm_tree){.order = order,
+                                        .side = tree->side,
+                                        .without = without,
+                                        .last = last,
+                                        .times = times,
+                                        .symmetry = tree->symmetry * branch->symmetry * times,
+                                        .below = tree->below * gm_tree_density(branch)});
         }
     }
-    return true;
 }
 
 /* Appends to the text, as far as there is room; how much there is then. */

@@ -23,6 +23,7 @@ struct gm_tree {
 };
 
 struct gm_trees {
+    struct gm_arena *arena; /* owns the trees */
     enum gm_equations equations;
     int orders;                    /* number of complete orders */
     int first[GM_TREES_ORDER + 2]; /* first tree of each order, and the end of the last one */
@@ -30,10 +31,13 @@ struct gm_trees {
     struct gm_tree *trees;
 };
 
-/* Open without trees, and add the next order. gm_trees_grow returns false when out of memory. */
-void gm_trees_open(struct gm_trees *trees, enum gm_equations equations);
-bool gm_trees_grow(struct gm_trees *trees);
-void gm_trees_close(struct gm_trees *trees);
+/* Returns no trees yet. */
+static inline struct gm_trees gm_trees_open(struct gm_arena *arena, enum gm_equations equations)
+{
+    return (struct gm_trees){.arena = arena, .equations = equations};
+}
+/* Adds the next order; leaves the arena's body when out of memory. */
+void gm_trees_grow(struct gm_trees *trees);
 
 /* The density gamma: in the exact solution the tree's coefficient is 1 / gamma. */
 double gm_tree_density(const struct gm_tree *tree);

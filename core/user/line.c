@@ -30,20 +30,49 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
            (!gm_line_is_solved(system) || gm_system_place(system, formulas->exact, components));
 }
 
-bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *system,
-                       const gm_node_id *start, size_t outputs, const gm_node_id *exact, const double *values)
+bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
+                          void *data)
 {
-    line->system = system;
-    line->begin = system->variables[system->n].value;
-    return gm_tape_open(&line->start, &system->graph, start, outputs, 1, values) &&
-           (!gm_line_is_solved(system) ||
-            gm_tape_open(&line->exact, &system->graph, exact, gm_line_components(system), 2, values));
+    const bool opened = gm_arena_made(body, data);
+    if (!opened) {
+        problem->parameters = problem->facets = NULL;
+    }
+    return opened;
 }
 
-void gm_user_line_close(struct gm_user_line *line)
+void gm_user_line_close(struct gm_problem *problem)
 {
-    gm_tape_close(&line->start);
-    gm_tape_close(&line->exact);
+    const struct gm_user_line *line = problem->parameters;
+    if (line) {
+        gm_arena_close(line->arena);
+    }
+    problem->parameters = problem->facets = NULL;
+}
+
+void *gm_user_line_take(struct gm_arena *arena, struct gm_problem *problem,
+                        const struct gm_user_system *system, size_t size)
+{
+    struct gm_user_line *line = gm_arena_take(arena, 1, size);
+    line->arena = arena;
+    line->system = system;
+    line->begin = system->variables[system->n].value;
+    problem->parameters = line;
+    return line;
+}
+
+void gm_user_line_open(struct gm_user_line *line, const gm_node_id *start, size_t outputs,
+                       const gm_node_id *exact, const double *values)
+{
+    gm_user_line_tape(line, &line->start, start, outputs, 1, values);
+    if (gm_line_is_solved(line->system)) {
+        gm_user_line_tape(line, &line->exact, exact, gm_line_components(line->system), 2, values);
+    }
+}
+
+void gm_user_line_tape(const struct gm_user_line *line, struct gm_tape *tape, const gm_node_id *nodes,
+                       size_t count, size_t inputs, const double *values)
+{
+    gm_tape_keep(line->arena, tape, gm_tape_open(tape, &line->system->graph, nodes, count, inputs, values));
 }
 
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t)
@@ -143,7 +172,7 @@ static bool is_finite(const struct gm_user_line *line, const double *values, siz
 }
 
 bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
-                         double jump, struct gm_line_ends *ends, char *sentence, size_t size)
+                         double jump, struct gm_line_ends *ends, struct gm_fault *fault)
 {
     const char *name = line->system->variables[component].name, *suffix;
     double values[GM_LINE_BLOCK];
@@ -152,9 +181,8 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
         some = gm_user_line_block(line, grid, first, values);
         for (size_t i = 0; i < some; i++) {
             if (!is_finite(line, values, some, i, component, &suffix)) {
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, suffix,
-                         gm_grid1_node(grid, first + i));
-                return false;
+                return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g", name, suffix,
+                               gm_grid1_node(grid, first + i));
             }
             ends->low = fmin(ends->low, values[component * some + i]);
             ends->high = fmax(ends->high, values[component * some + i]);
@@ -168,12 +196,11 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
     const double largest = fmax(fabs(ends->low), fabs(ends->high));
     if (!grid->walls && !isnan(jump) &&
         !(fabs(ends->right - ends->left - jump) <= 1e-3 * fmax(ends->high - ends->low, 1e-12 * largest))) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other%s",
             name, ends->left, ends->right,
             line->system->kind == GM_EVOLUTION ? "" : " (give their difference in a line jump:)");
-        return false;
     }
     return true;
 }

@@ -4,6 +4,7 @@
 #ifndef GM_CORE_USER_LINE_H
 #define GM_CORE_USER_LINE_H
 
+#include "core/arena.h"
 #include "core/model/system.h"
 #include "core/problem.h"
 #include "core/tape.h"
@@ -21,17 +22,27 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
 
 /* First in the parameters of every problem that is made of such a file. */
 struct gm_user_line {
+    struct gm_arena *arena; /* owns the parameters */
     const struct gm_user_system *system;
     struct gm_tape start; /* of x: the components, and behind them derivatives over t of the first */
     struct gm_tape exact; /* of x and t; without outputs if the file gives no exact solution */
     double begin;         /* the time of the start */
 };
-/* `values` are those of all variables (gm_equations_start); of what starts there are `outputs`. False where memory was
-   refused. To be closed in both cases. */
-bool gm_user_line_open(struct gm_user_line *line, const struct gm_user_system *system,
-                       const gm_node_id *start, size_t outputs, const gm_node_id *exact,
-                       const double *values);
-void gm_user_line_close(struct gm_user_line *line);
+/* Opens a problem of such a file by a body, in an arena of its own. Returns false when out of memory: the problem then
+   has no parameters. */
+bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
+                          void *data);
+/* Closes any problem of such a file. */
+void gm_user_line_close(struct gm_problem *problem);
+/* In that body: takes the problem's parameters, and opens their line; `values` are those of all variables
+   (gm_equations_start), of what starts there are `outputs`. */
+void *gm_user_line_take(struct gm_arena *arena, struct gm_problem *problem,
+                        const struct gm_user_system *system, size_t size);
+void gm_user_line_open(struct gm_user_line *line, const gm_node_id *start, size_t outputs,
+                       const gm_node_id *exact, const double *values);
+/* In that body: opens a tape of other nodes of the file. */
+void gm_user_line_tape(const struct gm_user_line *line, struct gm_tape *tape, const gm_node_id *nodes,
+                       size_t count, size_t inputs, const double *values);
 
 /* The exact solution of a component; NaN if the file gives none. */
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
@@ -63,6 +74,6 @@ struct gm_line_ends {
 /* Returns true if a component's start is finite and, on a ring, the same at both ends but for the jump (NaN: any) and a
    thousandth of its range; else false with a sentence. */
 bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t component,
-                         double jump, struct gm_line_ends *ends, char *sentence, size_t size);
+                         double jump, struct gm_line_ends *ends, struct gm_fault *fault);
 
 #endif

@@ -11,8 +11,7 @@
 bool gm_equation_open(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values);
 void gm_equation_start(const struct gm_problem *problem, double *y);
 #define GM_EQUATION                                                                                          \
-    .no_walls = "boundary: the schemes for this equation alone need no walls",                               \
-    .close = gm_user_equation_close, .draw = gm_field_draw
+    .no_walls = "boundary: the schemes for this equation alone need no walls", .draw = gm_field_draw
 
 /* The choices of "frame", by enum gm_frame_nodes, NULL-terminated. */
 extern const char *const gm_frame_choices[];

@@ -27,9 +27,8 @@ struct gm_field_kind {
         graphs[2][GM_MOST_FIELD_GRAPHS]; /* graphs over time, without and with an exact solution; conserved */
     size_t graph_count;                  /* quantities of the file fill the rest */
     bool (*open)(struct gm_problem *problem, const struct gm_system_lane *lane, const double *values);
-    void (*close)(struct gm_problem *problem);
     /* Returns true if the start is possible; else false with a sentence. NULL: it is if it is finite. */
-    bool (*closes)(const struct gm_problem *problem, char *sentence, size_t size);
+    bool (*closes)(const struct gm_problem *problem, struct gm_fault *fault);
     /* The same of a lane's other parameters; NULL: all are. */
     bool (*admits)(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence);
     void (*start)(const struct gm_problem *problem, double *y); /* NULL: two levels of a wave */

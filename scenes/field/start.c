@@ -178,8 +178,9 @@ static bool check_start(const struct gm_system_lane *lane, const struct gm_probl
 {
     const struct gm_user_field *field = gm_user_field_of(lane);
     struct gm_grid1 grid;
-    if (field->kind->closes && !field->kind->closes(problem, sentence, GM_MESSAGE)) {
-        return false;
+    struct gm_fault fault;
+    if (field->kind->closes && !field->kind->closes(problem, &fault)) {
+        return gm_refuse(sentence, "%s", fault.sentence);
     }
     if (field->kind->closes && field->kind != &gm_field_waves && !lane->owner->scene.words) {
         return true; /* the program's own files begin with their exact solutions */
@@ -220,7 +221,7 @@ bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *se
     good = good && (!kind->admits || kind->admits(lane, problem, sentence)) &&
            (trusted || check_start(lane, problem, sentence));
     if (!good) {
-        kind->close(problem);
+        gm_user_line_close(problem);
     }
     return good;
 }

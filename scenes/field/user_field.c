@@ -355,7 +355,6 @@ static void make(struct gm_system_making *making)
     const char *const *words = of_file->origin.words;
     struct gm_user_system *system = &of_file->system;
     static const struct gm_observable law[] = {GM_FORM_RESIDUAL}; /* it costs as much as two steps */
-    gm_arena_keep(arena, &field->evolution, gm_user_evolution_close);
     const bool in_potential = system->kind == GM_FIELD, moves = in_potential && elsewhere,
                by_matrices = system->kind == GM_MATRICES;
     size_t others;
@@ -397,7 +396,7 @@ static void make(struct gm_system_making *making)
                            .t0 = gm_field_t0,
                            .idle = gm_system_idle,
                            .setup = gm_field_setup,
-                           .close = kind->close,
+                           .close = gm_user_line_close,
                            .start = gm_field_start,
                            .draw = kind->draw,
                            .point = gm_field_point,

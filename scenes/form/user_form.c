@@ -186,22 +186,21 @@ static void make_shows(struct gm_form_scene *scene)
 
 static void make_rows(struct gm_form_scene *scene)
 {
-    static const char *const stars[] = {"auto",     "circumcentric", "barycentric",
-                                        "galerkin", "incentric",     NULL};
     struct gm_system_scene *of_file = &scene->of_file;
     const struct gm_user_system *system = &of_file->system;
     const bool steady = scene->model.rates.root_count == 0;
     const struct gm_parameter timing[GM_SYSTEM_ROWS] = {[DT] = GM_DT("", 1e-9, 1e6), [UNTIL] = GM_UNTIL("")};
-    static const char *const interiors[] = {"dual", "whitney", "upwind", NULL};
-    const char *written = system->texts[GM_WORD_STAR], *product = system->texts[GM_WORD_INTERIOR];
+    const char *const *stars = gm_system_choices(GM_WORD_STAR);
+    const char *const *interiors = gm_system_choices(GM_WORD_INTERIOR);
     const struct gm_parameter common[COMMON_ROWS] = {
         GM_CHOICE_ROW(struct gm_system_lane, grid.show, "show", scene->shows[0], scene->shows,
                       "the form that is drawn; numbers of the first form, or names of a mesh, on a small one",
                       .live = true, .looks = true),
-        GM_CHOICE_ROW(struct gm_system_lane, star, "star", written ? written : "auto", stars,
-                      "dual vertices: circumcentres, centres of mass or of the circles inside"),
+        GM_CHOICE_ROW(struct gm_system_lane, star, "star", stars[gm_system_chosen(system, GM_WORD_STAR)],
+                      stars, "dual vertices: circumcentres, centres of mass or of the circles inside"),
         GM_CHOICE_ROW(
-            struct gm_system_lane, interior, "interior", product ? product : "dual", interiors,
+            struct gm_system_lane, interior, "interior",
+            interiors[gm_system_chosen(system, GM_WORD_INTERIOR)], interiors,
             "what a flow carries: the mean of both sides, or the value of that where it comes from"),
         GM_BOOLEAN_ROW(struct gm_system_lane, streamlines, "streamlines", "no",
                        "level lines of what has a value at vertices", .live = true, .looks = true),

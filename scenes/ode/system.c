@@ -615,7 +615,6 @@ static void make(struct gm_system_making *making)
     struct gm_user_system *system = &system_scene->system;
     const bool typed = system_scene->origin.typed;
     gm_system_find_hook(system_scene);
-    gm_arena_keep(arena, &system_scene->model, gm_user_model_close);
     gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
     make_rows(system_scene, typed);
     gm_system_describe(system_scene, (struct gm_scene){.title = title_of(system_scene),

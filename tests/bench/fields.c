@@ -220,7 +220,7 @@ static void typed(size_t points)
                built_in[i].name, points, general, general / special);
         free(y);
         free(values);
-        gm_user_form_close(&problem);
+        gm_user_line_close(&problem);
         gm_system_close(&system);
     }
 }

@@ -172,7 +172,6 @@ static void against_bodies_by_hand(void)
         }
     }
     gm_user_problem_close(&problem);
-    gm_user_model_close(&model);
     gm_system_close(&system);
     free(start);
 }
@@ -364,7 +363,6 @@ static void read_large(size_t terms)
     const bool opened = good && gm_user_model_open(&model, &system);
     printf("%u nodes of a formula: read and derived in %.3f s, facts and Jacobian in %.3f s%s\n",
            system.graph.count, read, seconds() - before - read, opened ? "" : " (failed)");
-    gm_user_model_close(&model);
     gm_system_close(&system);
     free(text);
 }
@@ -436,7 +434,6 @@ int main(int argc, char *argv[])
         }
     }
     gm_user_problem_close(&problem);
-    gm_user_model_close(&model);
     gm_system_close(&system);
     free(start);
     against_pendulum_by_hand();

@@ -110,6 +110,6 @@ void burgers_open(struct framed *framed, const struct burgers_solution *solution
 
 void framed_close(struct framed *framed)
 {
-    gm_user_equation_close(&framed->problem);
+    gm_user_line_close(&framed->problem);
     gm_system_close(&framed->system);
 }

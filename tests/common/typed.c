@@ -29,7 +29,6 @@ void type(struct typed *typed, const char *text)
 void untype(struct typed *typed)
 {
     gm_user_problem_close(&typed->problem);
-    gm_user_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
 }

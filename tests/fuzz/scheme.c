@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/certify.h"
 #include "core/ode/user/scheme.h"
+#include "core/theory/certify.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

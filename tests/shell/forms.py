@@ -119,6 +119,16 @@ for star, product, constant, enstrophy, still in (
     check((found["least"] > math.exp(-2)) == (product == "upwind"), f"{star} {product}: {found['least']}")
 check(abs(observed("form-transport", "irregular=0", "star=circumcentric")["c_error"] - 1.8e-4) < 5e-6, "a regular torus")
 
+# list --long measures with the star and the product of the file
+source = subprocess.run([GEOMINT, "list", "form-transport", "--source"], capture_output=True, text=True).stdout
+for line, star, verdict in (("", "circumcentric", "keep"), ("star: galerkin", "barycentric", "keep"),
+                            ("interior: upwind", "circumcentric", "change")):
+    with tempfile.NamedTemporaryFile("w", suffix=".system") as file:
+        file.write(f"{source}{line}\n")
+        file.flush()
+        told = subprocess.run([GEOMINT, "list", file.name, "--long"], capture_output=True, text=True).stdout
+    check(f"; star {star};" in told and f"enstrophy: the equations on this mesh {verdict} it" in told, f"{line}: {told[-400:]}")
+
 # Hodge's three parts, in squares, and the loops; circulations do not depend on the path
 TORUS = ["mesh=torus 2 0.8 40 20", "let=a = form(y*z - y/r2, x/r2, x)"]
 for words, squares, loops in ((["N=24", "m=3"], (122.813881, 79.474367, 3.680128, 39.659386), 1),

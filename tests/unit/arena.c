@@ -62,6 +62,20 @@ static void test_a_refusal_closes_what_the_body_took(void **state)
     assert_string_equal(closed, "cba  dz");
 }
 
+static void test_a_body_makes_an_arena_or_nothing(void **state)
+{
+    (void)state;
+    closed[0] = 0;
+    struct gm_arena *arena = gm_arena_made(keep_three, "abc");
+    assert_non_null(arena);
+    assert_string_equal(closed, "");
+    gm_arena_close(arena);
+    assert_string_equal(closed, "cba");
+    closed[0] = 0;
+    assert_null(gm_arena_made(keep_three, "abc-"));
+    assert_string_equal(closed, "cba");
+}
+
 static void test_a_thing_goes_before_the_others(void **state)
 {
     (void)state;
@@ -208,6 +222,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_closes_the_last_first),
         cmocka_unit_test(test_a_refusal_closes_what_the_body_took),
+        cmocka_unit_test(test_a_body_makes_an_arena_or_nothing),
         cmocka_unit_test(test_blocks_grow),
         cmocka_unit_test(test_refused_memory_leaves_the_body),
         cmocka_unit_test(test_a_thing_goes_before_the_others),

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/backward/modified_energy.h"
@@ -168,7 +169,6 @@ static void open_system(struct system *system, const char *text)
 static void close_system(struct system *system)
 {
     gm_user_problem_close(&system->problem);
-    gm_user_model_close(&system->model);
     gm_system_close(&system->read);
 }
 
@@ -312,14 +312,13 @@ static void known_series(void **unused)
     };
     for (size_t i = 0; i < GM_COUNT(known); i++) {
         struct gm_coefficients coefficients;
-        struct gm_trees trees;
-        assert_true(gm_scheme_coefficients_open(gm_scheme_find(known[i].scheme), &coefficients));
-        gm_trees_open(&trees, GM_EQUATIONS_PLAIN);
+        struct gm_arena *arena = gm_arena_open();
+        struct gm_trees trees = gm_trees_open(arena, GM_EQUATIONS_PLAIN);
+        assert_true(gm_scheme_coefficients_open(arena, gm_scheme_find(known[i].scheme), &coefficients));
         for (int order = 1; order <= GM_MODIFIED_ORDER; order++) {
-            assert_true(gm_trees_grow(&trees));
+            gm_trees_grow(&trees);
         }
-        struct gm_ball *equation = gm_modified_equation(&trees, &coefficients);
-        assert_non_null(equation);
+        const struct gm_ball *equation = gm_modified_equation(&trees, &coefficients);
         int tall = 0, bushy = 0;
         for (int tree = 0; tree < trees.first[GM_MODIFIED_ORDER + 1]; tree++) {
             const struct gm_tree *this = &trees.trees[tree];
@@ -337,9 +336,7 @@ static void known_series(void **unused)
         }
         assert_int_equal(trees.trees[tall].order, GM_MODIFIED_ORDER);
         assert_int_equal(trees.trees[bushy].order, GM_MODIFIED_ORDER);
-        free(equation);
-        gm_trees_close(&trees);
-        gm_coefficients_close(&coefficients);
+        gm_arena_close(arena);
     }
 }
 
@@ -446,27 +443,24 @@ static void runge_kutta_by_recursion(void **unused)
     int tried = 0;
     for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         struct gm_coefficients coefficients;
-        struct gm_trees trees;
         if (!gm_scheme_find(schemes[i])) {
             continue;
         }
-        assert_true(gm_scheme_coefficients_open(gm_scheme_find(schemes[i]), &coefficients));
+        struct gm_arena *arena = gm_arena_open();
+        struct gm_trees trees = gm_trees_open(arena, GM_EQUATIONS_PLAIN);
+        assert_true(gm_scheme_coefficients_open(arena, gm_scheme_find(schemes[i]), &coefficients));
         method = &coefficients;
-        gm_trees_open(&trees, GM_EQUATIONS_PLAIN);
         for (int order = 1; order <= ORDER; order++) {
-            assert_true(gm_trees_grow(&trees));
+            gm_trees_grow(&trees);
         }
-        struct gm_ball *equation = gm_modified_equation(&trees, &coefficients);
-        assert_non_null(equation);
+        const struct gm_ball *equation = gm_modified_equation(&trees, &coefficients);
         for (int tree = 0; tree < trees.first[ORDER + 1]; tree++) {
             const struct drawn drawn = draw(&trees, tree);
             char what[128];
             gm_tree_print(&trees, tree, what, sizeof what);
             assert_near(what, gm_ball_midpoint(equation[tree]), coefficient(&drawn), 1e-13);
         }
-        free(equation);
-        gm_trees_close(&trees);
-        gm_coefficients_close(&coefficients);
+        gm_arena_close(arena);
         tried++;
     }
     assert_true(tried >= 4);

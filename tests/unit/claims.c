@@ -13,7 +13,6 @@
 
 #include "core/aliases.h"
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/lobatto.h"
@@ -28,6 +27,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/problems/problems.h"
 
 static bool all;

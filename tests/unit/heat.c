@@ -13,10 +13,10 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/frames.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/framed.h"
 
 static const struct gm_settings no_settings;

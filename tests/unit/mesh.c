@@ -12,12 +12,12 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
 #include "core/mesh/families/families.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/mesh_soliton.h"
 #include "tests/common/reference.h"
 

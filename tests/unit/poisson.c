@@ -15,7 +15,6 @@
 #include <gsl/gsl_sf_elljac.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/model/equations.h"
@@ -23,6 +22,7 @@
 #include "core/ode/user/problem.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/problems/problems.h"
 
 enum { MOST = 12 };
@@ -96,7 +96,6 @@ static void type(struct typed *typed, int which)
 static void untype(struct typed *typed)
 {
     gm_user_problem_close(&typed->problem);
-    gm_user_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
     free(typed->values);
@@ -244,7 +243,6 @@ static void bodies_turn(void **unused)
     }
     free(start);
     gm_user_problem_close(&back);
-    gm_user_model_close(&model);
     gm_system_close(&system);
 }
 

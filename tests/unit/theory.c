@@ -11,15 +11,16 @@
 
 #include <cmocka.h>
 
+#include "core/arena.h"
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "core/theory/polynomial.h"
 #include "core/theory/theory.h"
 #include "core/theory/trees.h"
 
 /* "1/2, 0 | 1/4, -3/4 ; 1/2, 1/2": rows of a, then b; entries are decimals or ratios of integers */
-static struct gm_coefficients tableau(const char *text)
+static struct gm_coefficients tableau(struct gm_arena *arena, const char *text)
 {
     struct gm_coefficients coefficients;
     struct gm_ball entries[400];
@@ -41,16 +42,17 @@ static struct gm_coefficients tableau(const char *text)
         at = end + strspn(end, " ,|;");
     }
     assert_int_equal(count, stages * stages + stages);
-    assert_true(gm_coefficients_open(&coefficients, GM_EQUATIONS_PLAIN, stages));
+    gm_coefficients_open(arena, &coefficients, GM_EQUATIONS_PLAIN, stages);
     memcpy(coefficients.a[0], entries, count * sizeof entries[0]); /* b follows a */
     return coefficients;
 }
 
 static struct gm_theory theory_of(const char *text)
 {
-    struct gm_coefficients coefficients = tableau(text);
-    const struct gm_theory theory = gm_theory_of(&coefficients);
-    gm_coefficients_close(&coefficients);
+    struct gm_arena *arena = gm_arena_open();
+    struct gm_coefficients coefficients = tableau(arena, text);
+    const struct gm_theory theory = gm_theory_of(arena, &coefficients);
+    gm_arena_close(arena);
     assert_true(theory.known);
     return theory;
 }
@@ -142,10 +144,10 @@ static void numbers_of_trees(void **unused)
 {
     (void)unused;
     static const int rooted[] = {1, 1, 2, 4, 9, 20, 48, 115, 286, 719};
-    struct gm_trees trees;
-    gm_trees_open(&trees, GM_EQUATIONS_PLAIN);
+    struct gm_arena *arena = gm_arena_open();
+    struct gm_trees trees = gm_trees_open(arena, GM_EQUATIONS_PLAIN);
     for (int order = 1; order <= GM_TREES_ORDER; order++) {
-        assert_true(gm_trees_grow(&trees));
+        gm_trees_grow(&trees);
         assert_int_equal(trees.first[order + 1] - trees.first[order], rooted[order - 1]);
         /* Cayley's formula: n! / (sigma gamma) = alpha orderings, (n - 1)! in all; n^(n-1) labelled ones */
         double orderings = 0, labelled = 0;
@@ -160,13 +162,12 @@ static void numbers_of_trees(void **unused)
     char text[40];
     gm_tree_print(&trees, 7, text, sizeof text);
     assert_string_equal(text, "t[t,t,t]");
-    gm_trees_close(&trees);
-    gm_trees_open(&trees, GM_EQUATIONS_PARTITIONED);
+    trees = gm_trees_open(arena, GM_EQUATIONS_PARTITIONED);
     for (int order = 1; order <= 8; order++) {
-        assert_true(gm_trees_grow(&trees));
+        gm_trees_grow(&trees);
     }
     assert_int_equal(trees.first[9], 24314);
-    gm_trees_close(&trees);
+    gm_arena_close(arena);
 }
 
 static void every_row(void **unused)
@@ -180,9 +181,10 @@ static void every_row(void **unused)
             continue;
         }
         rows++;
-        assert_true(scheme->family->coefficients_open(scheme, &coefficients));
-        const struct gm_theory theory = gm_theory_of(&coefficients);
-        gm_coefficients_close(&coefficients);
+        struct gm_arena *arena = gm_arena_open();
+        scheme->family->coefficients_open(arena, scheme, &coefficients);
+        const struct gm_theory theory = gm_theory_of(arena, &coefficients);
+        gm_arena_close(arena);
         const bool right = theory.known && theory.order == scheme->order &&
                            theory.symplectic == ((scheme->claims & GM_SYMPLECTIC) != 0) &&
                            theory.symmetric == ((scheme->claims & GM_SYMMETRIC) != 0);
@@ -196,12 +198,12 @@ static void every_row(void **unused)
 
 /* Whether an error of a part in 10^9, half a unit of the tenth digit or more, is found: an order, symmetry or
    symplecticity is lost. */
-static bool is_found(struct gm_coefficients *coefficients, struct gm_ball *entry,
+static bool is_found(struct gm_arena *arena, struct gm_coefficients *coefficients, struct gm_ball *entry,
                      const struct gm_scheme *scheme)
 {
     const struct gm_ball before = *entry;
     *entry = gm_ball_multiply(before, gm_ball_of(1 + 1e-9));
-    const struct gm_theory theory = gm_theory_of(coefficients);
+    const struct gm_theory theory = gm_theory_of(arena, coefficients);
     *entry = before;
     return theory.order < scheme->order || theory.symplectic != ((scheme->claims & GM_SYMPLECTIC) != 0) ||
            theory.symmetric != ((scheme->claims & GM_SYMMETRIC) != 0);
@@ -218,7 +220,8 @@ static void planted_errors(void **unused)
         if (!scheme->family->coefficients_open) {
             continue;
         }
-        assert_true(scheme->family->coefficients_open(scheme, &coefficients));
+        struct gm_arena *arena = gm_arena_open();
+        scheme->family->coefficients_open(arena, scheme, &coefficients);
         const int s = coefficients.stages;
         for (int side = 0; side < gm_coefficients_sides(&coefficients); side++) {
             for (int k = 0; k < s * s + s; k++) {
@@ -230,12 +233,12 @@ static void planted_errors(void **unused)
                 }
                 planted++;
                 const bool another = strcmp(scheme->name, "implicit-euler") == 0 && k < s * s;
-                if (is_found(&coefficients, entry, scheme) == another) {
+                if (is_found(arena, &coefficients, entry, scheme) == another) {
                     fail_msg("%s: an error in entry %d of side %d", scheme->name, k, side);
                 }
             }
         }
-        gm_coefficients_close(&coefficients);
+        gm_arena_close(arena);
     }
     assert_true(planted > 300);
 }
@@ -297,7 +300,8 @@ static void stability_of_decimals(void **unused)
     enum { MOST = 6, STAGES = 1 + MOST * (MOST - 1) / 2 };
     double weights[MOST + 1] = {0}, low = 0.1, high = 20;
     struct gm_coefficients coefficients;
-    assert_true(gm_coefficients_open(&coefficients, GM_EQUATIONS_PLAIN, STAGES));
+    struct gm_arena *arena = gm_arena_open();
+    gm_coefficients_open(arena, &coefficients, GM_EQUATIONS_PLAIN, STAGES);
     for (int k = 1, first = 1; k <= MOST; first += k++ - 1) {
         weights[k] = ((MOST - k) % 2 ? -1 : 1) * pow(k, MOST - 1) / (tgamma(k) * tgamma(MOST - k + 1));
         /* the first of k steps is the one from y0, which all share */
@@ -314,8 +318,8 @@ static void stability_of_decimals(void **unused)
         const double middle = (low + high) / 2;
         *(fabs(extrapolated(MOST, weights, -middle)) <= 1 ? &low : &high) = middle;
     }
-    const struct gm_theory theory = gm_theory_of(&coefficients);
-    gm_coefficients_close(&coefficients);
+    const struct gm_theory theory = gm_theory_of(arena, &coefficients);
+    gm_arena_close(arena);
     assert_int_equal(theory.order, MOST);
     assert_true(theory.stability.known);
     assert_float_equal(theory.stability.real, low, 1e-9);
@@ -442,7 +446,8 @@ static void lyndon_words(void **unused)
         if (!scheme->family->coefficients_open) {
             continue;
         }
-        assert_true(scheme->family->coefficients_open(scheme, &coefficients));
+        struct gm_arena *arena = gm_arena_open();
+        scheme->family->coefficients_open(arena, scheme, &coefficients);
         if (coefficients.equations == GM_EQUATIONS_SEPARABLE) {
             int order = 0;
             bool holds = true;
@@ -453,10 +458,10 @@ static void lyndon_words(void **unused)
                 }
                 order += holds ? 1 : 0;
             }
-            assert_int_equal(order, gm_theory_of(&coefficients).order);
+            assert_int_equal(order, gm_theory_of(arena, &coefficients).order);
             splittings++;
         }
-        gm_coefficients_close(&coefficients);
+        gm_arena_close(arena);
     }
     assert_true(splittings >= 15);
 }

@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -24,6 +23,7 @@
 #include "core/ode/user/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/dispersive_solitons.h"
 #include "tests/common/lane.h"
 #include "tests/common/sine_gordon.h"
@@ -56,7 +56,7 @@ static void open_typed(struct typed *typed, const char *text)
 
 static void close_typed(struct typed *typed)
 {
-    gm_user_wave_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 
@@ -528,12 +528,11 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
         struct gm_user_evolution evolution;
         struct gm_problem problem;
         struct gm_fault fault;
-        char sentence[400] = "";
         assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
         assert_true(gm_user_evolution_derive(&evolution, &system));
         double *values = gm_equations_start(&system, NULL), y[NODES];
         assert_true(gm_user_evolution_open(&problem, &evolution, values, &line, (enum gm_derivatives)space));
-        assert_true(gm_user_evolution_closes(&problem, sentence, sizeof sentence));
+        assert_true(gm_user_evolution_closes(&problem, &fault));
         gm_user_evolution_start(&problem, y);
         struct gm_run *run =
             gm_run_open(&problem, gm_scheme_find_for("etdrk4", &problem), &no_settings, 0, 0.5, y);
@@ -544,8 +543,7 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
         }
         gm_run_close(run);
         free(values);
-        gm_user_evolution_shut(&problem);
-        gm_user_evolution_close(&evolution);
+        gm_user_line_close(&problem);
         gm_system_close(&system);
     }
 }
@@ -589,8 +587,7 @@ static void a_peakon_moves_as_fast_as_it_is_high(void **unused)
         gm_run_close(run);
         free(y);
         free(values);
-        gm_user_evolution_shut(&problem);
-        gm_user_evolution_close(&evolution);
+        gm_user_line_close(&problem);
         gm_system_close(&system);
     }
     if (!(error[1] < 0.02 && error[0] > 1.7 * error[1] && error[0] < 2.3 * error[1])) {
@@ -676,12 +673,12 @@ static void a_field_closes_on_its_ring(void **unused)
     };
     for (size_t i = 0; i < GM_COUNT(rings); i++) {
         struct typed typed;
-        char sentence[400] = "";
+        struct gm_fault fault;
         open_typed(&typed, rings[i].text);
         typed.problem.line.jump = rings[i].jump;
-        const bool closes = gm_user_wave_closes(&typed.problem, sentence, sizeof sentence);
-        if (closes != !rings[i].sentence || (!closes && !strstr(sentence, rings[i].sentence))) {
-            fail_msg("%s: %s", rings[i].text, sentence);
+        const bool closes = gm_user_wave_closes(&typed.problem, &fault);
+        if (closes != !rings[i].sentence || (!closes && !strstr(fault.sentence, rings[i].sentence))) {
+            fail_msg("%s: %s", rings[i].text, fault.sentence);
         }
         close_typed(&typed);
     }

@@ -14,7 +14,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
@@ -23,6 +22,7 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/kdv_solutions.h"
 
 static const struct gm_settings no_settings;
@@ -71,7 +71,6 @@ struct typed {
 static void open_typed(struct typed *typed, const char *text, size_t points, double length)
 {
     struct gm_fault fault;
-    char sentence[400];
     if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
@@ -79,8 +78,8 @@ static void open_typed(struct typed *typed, const char *text, size_t points, dou
     double *values = gm_equations_start(&typed->system, NULL);
     const struct gm_grid1 line = {points, length / (double)points, -length / 2, 0, false};
     assert_true(gm_user_form_open(&typed->problem, &typed->form, values, &line));
-    if (!gm_user_form_closes(&typed->problem, sentence, sizeof sentence)) {
-        fail_msg("%s: %s", text, sentence);
+    if (!gm_user_form_closes(&typed->problem, &fault)) {
+        fail_msg("%s: %s", text, fault.sentence);
     }
     free(values);
     typed->y = malloc(typed->problem.n * sizeof *typed->y);
@@ -90,7 +89,7 @@ static void open_typed(struct typed *typed, const char *text, size_t points, dou
 static void close_typed(struct typed *typed)
 {
     free(typed->y);
-    gm_user_form_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 
@@ -442,17 +441,15 @@ static void a_start_that_does_not_close_is_refused(void **unused)
         struct gm_problem problem;
         struct gm_fault fault;
         const struct gm_grid1 line = {100, 0.4, -20, 0, false};
-        char sentence[400] = "";
         assert_true(gm_equations_open(&system, starts[i].text, strlen(starts[i].text), NULL, 0, &fault));
         assert_true(gm_user_form_derive(&form, &system));
         double *values = gm_equations_start(&system, NULL);
         assert_true(gm_user_form_open(&problem, &form, values, &line));
-        if (gm_user_form_closes(&problem, sentence, sizeof sentence) ||
-            !strstr(sentence, starts[i].sentence)) {
-            fail_msg("%s: %s", starts[i].text, sentence);
+        if (gm_user_form_closes(&problem, &fault) || !strstr(fault.sentence, starts[i].sentence)) {
+            fail_msg("%s: %s", starts[i].text, fault.sentence);
         }
         free(values);
-        gm_user_form_close(&problem);
+        gm_user_line_close(&problem);
         gm_system_close(&system);
     }
 }

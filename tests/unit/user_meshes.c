@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/files/files.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
@@ -21,6 +20,8 @@
 #include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
+#include "core/user/line.h"
 #include "tests/common/mesh_soliton.h"
 
 static const struct gm_settings settings = {0};
@@ -52,7 +53,7 @@ static void open_typed(struct typed *typed, const char *text, double half_length
 
 static void close_typed(struct typed *typed)
 {
-    gm_user_mesh_close(&typed->problem);
+    gm_user_line_close(&typed->problem);
     gm_system_close(&typed->system);
 }
 
@@ -501,11 +502,11 @@ static void what_does_not_rest_is_refused(void **unused)
                                        NULL};
     for (size_t i = 0; i < GM_COUNT(texts); i++) {
         struct typed typed;
-        char sentence[200] = "";
+        struct gm_fault fault = {0};
         open_typed(&typed, texts[i], 4, 7, NAN);
-        assert_int_equal(gm_user_mesh_rests(&typed.problem, sentence, sizeof sentence), !told[i]);
-        if (told[i] && !strstr(sentence, told[i])) {
-            fail_msg("%s: %s", texts[i], sentence);
+        assert_int_equal(gm_user_mesh_rests(&typed.problem, &fault), !told[i]);
+        if (told[i] && !strstr(fault.sentence, told[i])) {
+            fail_msg("%s: %s", texts[i], fault.sentence);
         }
         close_typed(&typed);
     }

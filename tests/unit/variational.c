@@ -13,7 +13,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -21,6 +20,7 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/typed.h"
 #include "tests/problems/problems.h"
 

@@ -46,7 +46,6 @@ static struct gm_grid1 between(double half_length, size_t nodes)
 static void open_walled(struct walled *walled, const char *text, size_t nodes)
 {
     struct gm_fault fault;
-    char sentence[400];
     if (!gm_equations_open(&walled->system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
@@ -55,14 +54,14 @@ static void open_walled(struct walled *walled, const char *text, size_t nodes)
     const struct gm_grid1 grid = between(10, nodes);
     assert_true(gm_user_wave_open(&walled->problem, &walled->wave, values, &grid));
     free(values);
-    if (!gm_user_wave_closes(&walled->problem, sentence, sizeof sentence)) {
-        fail_msg("%s", sentence);
+    if (!gm_user_wave_closes(&walled->problem, &fault)) {
+        fail_msg("%s", fault.sentence);
     }
 }
 
 static void close_walled(struct walled *walled)
 {
-    gm_user_wave_close(&walled->problem);
+    gm_user_line_close(&walled->problem);
     gm_system_close(&walled->system);
 }
 
@@ -159,7 +158,8 @@ static void evolve(const char *text, double *sound, char *sentence)
     assert_true(gm_user_evolution_derive(&evolution, &system));
     double *values = gm_equations_start(&system, NULL);
     assert_true(gm_user_evolution_open(&problem, &evolution, values, &line, GM_SPACE_FOURIER));
-    const bool good = gm_user_evolution_closes(&problem, sentence, 400);
+    const bool good = gm_user_evolution_closes(&problem, &fault);
+    snprintf(sentence, 400, "%s", good ? "" : fault.sentence);
     double *y = malloc(problem.n * sizeof *y);
     for (size_t k = 0; k < 2 && good; k++) {
         gm_user_evolution_start(&problem, y);
@@ -175,8 +175,7 @@ static void evolve(const char *text, double *sound, char *sentence)
     }
     free(y);
     free(values);
-    gm_user_evolution_shut(&problem);
-    gm_user_evolution_close(&evolution);
+    gm_user_line_close(&problem);
     gm_system_close(&system);
 }
 

@@ -11,11 +11,11 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/wave.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/dispersive_solitons.h"
 #include "tests/common/sine_gordon.h"
 

@@ -10,9 +10,9 @@
 
 #include "app/words/names.h"
 #include "core/aliases.h"
-#include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 
 char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size)
 {

@@ -11,9 +11,9 @@
 #include "app/words/names.h"
 #include "core/arena.h"
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/expression/lines.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 
 /* ---- layout ---- */
 

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/field/families/families.h"
 #include "core/field/families/frames.h"
 #include "core/field/families/laws/form.h"
@@ -23,6 +22,7 @@
 #include "core/model/equations.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 static unsigned facets(const struct gm_problem *problem)
 {
@@ -502,15 +502,12 @@ struct opened {
     struct gm_user_form form;
     struct gm_user_equation equation;
     struct gm_problem problem;
-    void (*close)(struct gm_problem *problem);
     double *start;
 };
 
 static void close_equation(struct opened *opened)
 {
-    if (opened->close) {
-        opened->close(&opened->problem);
-    }
+    gm_user_line_close(&opened->problem);
     gm_system_close(&opened->system);
     free(opened->start);
 }
@@ -520,15 +517,12 @@ static bool open_problem(struct opened *opened, const struct gm_grid1 *line, con
     struct gm_user_system *system = &opened->system;
     switch (system->kind) {
     case GM_FIELD:
-        opened->close = gm_user_wave_close;
         return gm_user_wave_derive(&opened->wave, system) &&
                gm_user_wave_open(&opened->problem, &opened->wave, values, line);
     case GM_MATRICES:
-        opened->close = gm_user_form_close;
         return gm_user_form_derive(&opened->form, system) &&
                gm_user_form_open(&opened->problem, &opened->form, values, line);
     default:
-        opened->close = gm_user_equation_close;
         return gm_user_equation_derive(&opened->equation, system) &&
                gm_user_equation_open(&opened->problem, &opened->equation, values, line);
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/field/user/equation.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/field/problems/dispersive.h"
@@ -30,21 +29,16 @@ static const struct gm_problem *problem_of(const struct gm_user_equation *equati
 /* Adds the rate of one field at the start to the formulas of the start. */
 static bool derive_rate(struct gm_line_formulas *formulas, struct gm_user_system *system)
 {
-    gm_node_id *others = calloc(system->variable_count, sizeof *others), last = system->variables[0].start;
-    for (size_t i = 0; others && i < system->variable_count; i++) {
-        others[i] = GM_NO_NODE;
-    }
+    gm_node_id *others = gm_system_no_nodes(system, system->variable_count),
+               last = system->variables[0].start;
     for (size_t k = 0; others && k <= GM_MOST_DERIVATIVES && !system->graph.failed; k++) {
         others[k == 0 ? 0 : system->velocities + k] = last;
         last = gm_system_derivative(system, last, system->velocities);
     }
     formulas->start[1] = system->rates[0];
-    const bool good =
-        others && !system->graph.failed &&
-        gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
-        gm_system_place(system, &formulas->start[1], 1);
-    free(others);
-    return good;
+    return others && !system->graph.failed &&
+           gm_formula_substitute(&system->graph, &formulas->start[1], 1, others, system->variable_count) &&
+           gm_system_place(system, &formulas->start[1], 1);
 }
 
 bool gm_user_equation_derive(struct gm_user_equation *equation, struct gm_user_system *system)
@@ -76,24 +70,29 @@ double gm_frames_number(const struct gm_user_system *system, const double *value
     return otherwise;
 }
 
-bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
-                           const double *values, const struct gm_grid1 *line)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_equation *equation;
+    const double *values;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
+    const struct opening *opening = data;
+    const struct gm_user_equation *equation = opening->equation;
+    const double *values = opening->values;
     const struct gm_user_system *system = equation->system;
-    union equation *parameters = calloc(1, sizeof *parameters);
+    struct gm_problem *problem = opening->problem;
+    union equation *parameters = gm_user_line_take(arena, problem, system, sizeof *parameters);
+    const size_t points = problem->line.points;
     double constants[GM_EQUATION_CONSTANTS] = {0};
     size_t count = 0;
-    *problem = *problem_of(equation);
-    problem->parameters = parameters;
-    problem->line = *line;
     while (count < GM_EQUATION_CONSTANTS && equation->recognised.constants[count]) {
         count++;
     }
-    if (!parameters || !gm_user_line_numbers(system, equation->recognised.values, count, values, constants) ||
-        !gm_user_line_open(&parameters->line, system, equation->formulas.start, equation->outputs,
-                           equation->formulas.exact, values)) {
-        return false;
-    }
+    gm_arena_need(arena, gm_user_line_numbers(system, equation->recognised.values, count, values, constants));
+    gm_user_line_open(&parameters->line, equation->formulas.start, equation->outputs,
+                      equation->formulas.exact, values);
     if (equation->needs != GM_NEEDS_NLS) {
         parameters->framed.lambda = gm_frames_number(system, values, "lambda", 0);
     }
@@ -101,32 +100,29 @@ bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equa
     case GM_NEEDS_KDV:
         parameters->kdv.eta = constants[0];
         parameters->kdv.mu = constants[1];
-        problem->n = gm_wave_size(line->points);
+        problem->n = gm_wave_size(points);
         break;
     case GM_NEEDS_NLS:
         parameters->nls.k = constants[0];
-        problem->n = 2 * line->points;
+        problem->n = 2 * points;
         break;
     case GM_NEEDS_HEAT:
         parameters->framed.viscosity = constants[0];
-        problem->n = line->points;
+        problem->n = points;
         break;
     default:
         parameters->framed.viscosity = constants[0];
         parameters->burgers.a = gm_frames_number(system, values, "a", -0.5);
         parameters->burgers.d = gm_frames_number(system, values, "d", 0);
-        problem->n = gm_burgers_size(&parameters->burgers, line->points);
+        problem->n = gm_burgers_size(&parameters->burgers, points);
         break;
     }
-    return true;
 }
 
-void gm_user_equation_close(struct gm_problem *problem)
+bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
+                           const double *values, const struct gm_grid1 *line)
 {
-    union equation *parameters = (union equation *)problem->parameters;
-    if (parameters) {
-        gm_user_line_close(&parameters->line);
-    }
-    free(parameters);
-    problem->parameters = NULL;
+    *problem = *problem_of(equation);
+    problem->line = *line;
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, equation, values});
 }

@@ -20,10 +20,9 @@ struct gm_user_equation {
 bool gm_user_equation_derive(struct gm_user_equation *equation, struct gm_user_system *system);
 /* Opens the problem with these values of all variables (gm_equations_start). A file with the line "hook: frames" has an
    equation in a frame of the velocity `lambda`, and for the family of frames of Burgers' equation `a` and `d`. Returns false
-   when out of memory. The caller closes the problem in both cases. */
+   when out of memory. The caller closes the problem (gm_user_line_close). */
 bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equation *equation,
                            const double *values, const struct gm_grid1 *line);
-void gm_user_equation_close(struct gm_problem *problem);
 
 /* Returns the value of a parameter of a file with that hook; `otherwise` without it. */
 double gm_frames_number(const struct gm_user_system *system, const double *values, const char *name,

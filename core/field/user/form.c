@@ -72,8 +72,8 @@ bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *syste
     return good && gm_line_derive(&form->formulas, system) && !system->graph.failed;
 }
 
-/* The potentials, and their jumps; false: out of memory. */
-static bool find_potentials(struct gm_problem *problem, struct own *self)
+/* The potentials, and their jumps. */
+static void find_potentials(struct gm_problem *problem, struct own *self)
 {
     const struct gm_user_system *system = self->source->system;
     const size_t n = system->n, points = problem->line.points;
@@ -90,46 +90,42 @@ static bool find_potentials(struct gm_problem *problem, struct own *self)
             }
         }
     }
-    double *y = self->form.potential_count > 0 ? malloc(n * points * sizeof *y) : NULL;
-    if (y) {
-        gm_user_form_start(problem, y);
-        for (size_t i = 0; i < points; i++) {
-            double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
-            const size_t right = i + 1 < points ? i + 1 : 0;
-            for (size_t c = 0; c < n; c++) {
-                s[c] = (y[c * points + i] + y[c * points + right] + (right == 0 ? self->jump[c] : 0)) / 2;
-            }
-            gradients(self, s, slope, 1);
-            for (size_t p = 0; p < self->form.potential_count; p++) {
-                const struct gm_form_potential *potential = &self->potentials[p];
-                self->jump[potential->component] += (i == 0 ? -self->jump[potential->component] : 0) +
-                                                    problem->line.dx * slope[potential->row] /
-                                                        self->l[potential->row * n + potential->component];
-            }
+    if (self->form.potential_count == 0) {
+        return;
+    }
+    double *y = gm_arena_take(self->line.arena, n * points, sizeof *y);
+    gm_user_form_start(problem, y);
+    for (size_t i = 0; i < points; i++) {
+        double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+        const size_t right = i + 1 < points ? i + 1 : 0;
+        for (size_t c = 0; c < n; c++) {
+            s[c] = (y[c * points + i] + y[c * points + right] + (right == 0 ? self->jump[c] : 0)) / 2;
+        }
+        gradients(self, s, slope, 1);
+        for (size_t p = 0; p < self->form.potential_count; p++) {
+            const struct gm_form_potential *potential = &self->potentials[p];
+            self->jump[potential->component] +=
+                (i == 0 ? -self->jump[potential->component] : 0) +
+                problem->line.dx * slope[potential->row] / self->l[potential->row * n + potential->component];
         }
     }
-    const bool good = self->form.potential_count == 0 || y;
-    free(y);
-    return good;
 }
 
-bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
-                       const struct gm_grid1 *grid)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_form *form;
+    const double *values;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
+    const struct opening *opening = data;
+    const struct gm_user_form *form = opening->form;
+    const double *values = opening->values;
     const struct gm_user_system *system = form->system;
     const size_t n = system->n;
-    struct own *self = calloc(1, sizeof *self);
-    *problem = (struct gm_problem){.name = "multisymplectic equation",
-                                   .kind = &gm_kind_field,
-                                   .m = 1,
-                                   .n = n * grid->points,
-                                   .line = *grid};
-    if (!self) {
-        return false;
-    }
-    double *all = malloc((system->graph.count + (size_t)1) * sizeof *all);
-    problem->parameters = self;
-    problem->facets = &self->facets;
+    struct own *self = gm_user_line_take(arena, opening->problem, system, sizeof *self);
+    opening->problem->facets = &self->facets;
     self->source = form;
     self->form = (struct gm_form){.dimension = n,
                                   .m = self->k,
@@ -143,39 +139,33 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
         self->names[c] = system->variables[c].name;
     }
     self->facets.form = &self->form;
-    bool good = all && gm_tape_open(&self->function, &system->graph, &system->energy, 1, n, values) &&
-                gm_tape_open(&self->gradient, &system->graph, system->rates, n, n, values) &&
-                gm_tape_open(&self->hessian, &system->graph, form->hessian, n * n, n, values) &&
-                gm_user_line_open(&self->line, system, form->formulas.start, n, form->formulas.exact, values);
+    gm_user_line_tape(&self->line, &self->function, &system->energy, 1, n, values);
+    gm_user_line_tape(&self->line, &self->gradient, system->rates, n, n, values);
+    gm_user_line_tape(&self->line, &self->hessian, form->hessian, n * n, n, values);
     self->gradient.sines = gm_sines; /* no other engine computes forms */
-    if (good) {
-        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
-        for (size_t i = 0; i < n * n; i++) {
-            self->k[i] = all[system->matrices[i]];
-            self->l[i] = all[system->matrices[n * n + i]];
-        }
-        for (size_t i = 0; i < n; i++) {
-            self->told[i] = system->variables[i].jump == GM_NO_NODE ? NAN : all[system->variables[i].jump];
-            self->jump[i] = isnan(self->told[i]) ? 0 : self->told[i];
-        }
-        good = find_potentials(problem, self);
+    gm_user_line_open(&self->line, form->formulas.start, n, form->formulas.exact, values);
+    double *all = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *all);
+    gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+    for (size_t i = 0; i < n * n; i++) {
+        self->k[i] = all[system->matrices[i]];
+        self->l[i] = all[system->matrices[n * n + i]];
     }
-    free(all);
-    return good;
+    for (size_t i = 0; i < n; i++) {
+        self->told[i] = system->variables[i].jump == GM_NO_NODE ? NAN : all[system->variables[i].jump];
+        self->jump[i] = isnan(self->told[i]) ? 0 : self->told[i];
+    }
+    find_potentials(opening->problem, self);
 }
 
-void gm_user_form_close(struct gm_problem *problem)
+bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *form, const double *values,
+                       const struct gm_grid1 *grid)
 {
-    struct own *self = (struct own *)problem->parameters;
-    if (self) {
-        struct gm_tape *const tapes[] = {&self->function, &self->gradient, &self->hessian};
-        gm_user_line_close(&self->line);
-        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
-            gm_tape_close(tapes[i]);
-        }
-    }
-    free(self);
-    problem->parameters = problem->facets = NULL;
+    *problem = (struct gm_problem){.name = "multisymplectic equation",
+                                   .kind = &gm_kind_field,
+                                   .m = 1,
+                                   .n = form->system->n * grid->points,
+                                   .line = *grid};
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, form, values});
 }
 
 /* ---- the start ---- */
@@ -220,23 +210,22 @@ bool gm_user_form_is_potential(const struct gm_problem *problem, size_t componen
     return false;
 }
 
-static bool component_closes(const struct gm_problem *problem, size_t c, char *sentence, size_t size)
+static bool component_closes(const struct gm_problem *problem, size_t c, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     const bool is_potential = gm_user_form_is_potential(problem, c);
     struct gm_line_ends ends;
     if (!gm_user_line_closes(&self->line, &problem->line, c, is_potential ? NAN : self->jump[c], &ends,
-                             sentence, size)) {
+                             fault)) {
         return false;
     }
     if (is_potential &&
         fabs(self->told[c] - self->jump[c]) > 1e-3 * fmax(fabs(self->jump[c]), ends.high - ends.low)) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s gains %.6g around the ring, which follows from the others at the start, and not %.6g as jump "
             "says",
             self->names[c], self->jump[c], self->told[c]);
-        return false;
     }
     return true;
 }
@@ -250,17 +239,16 @@ static bool is_zero(const double *matrix, size_t count)
     return sum == 0;
 }
 
-bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_form_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     const size_t n = self->form.dimension;
     if (is_zero(self->k, n * n) || is_zero(self->l, n * n)) {
-        snprintf(sentence, size, "%s is 0 with these values, and nothing changes in %s",
-                 is_zero(self->k, n * n) ? "K" : "L", is_zero(self->k, n * n) ? "time" : "space");
-        return false;
+        return gm_fail(fault, 0, "%s is 0 with these values, and nothing changes in %s",
+                       is_zero(self->k, n * n) ? "K" : "L", is_zero(self->k, n * n) ? "time" : "space");
     }
     for (size_t c = 0; c < n; c++) {
-        if (!component_closes(problem, c, sentence, size)) {
+        if (!component_closes(problem, c, fault)) {
             return false;
         }
     }
@@ -275,13 +263,11 @@ bool gm_user_form_closes(const struct gm_problem *problem, char *sentence, size_
         gradients(self, s, further, 1);
         for (size_t c = 0; c < n; c++) {
             if (!isfinite(here[c])) {
-                snprintf(sentence, size, "the gradient of S is not finite at the start where x = %.6g", x);
-                return false;
+                return gm_fail(fault, 0, "the gradient of S is not finite at the start where x = %.6g", x);
             }
             if (!(fabs(further[c] - here[c]) <= 1e-9 * fmax(1, fabs(here[c])))) {
-                snprintf(sentence, size, "the derivative of S over %.60s does not repeat after the jumps",
-                         self->source->system->variables[c].name);
-                return false;
+                return gm_fail(fault, 0, "the derivative of S over %.60s does not repeat after the jumps",
+                               self->source->system->variables[c].name);
             }
         }
     }

@@ -10,7 +10,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -150,20 +149,21 @@ static const struct gm_problem *known_potential(const struct gm_user_system *sys
     return sine_gordon ? &gm_problem_sine_gordon : NULL;
 }
 
-bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
-                       const struct gm_grid1 *grid)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_wave *wave;
+    const double *values;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
-    struct own *self = calloc(1, sizeof *self);
+    const struct opening *opening = data;
+    const struct gm_user_wave *wave = opening->wave;
+    struct gm_problem *problem = opening->problem;
+    const double *values = opening->values;
     const struct gm_user_system *system = wave->system;
     const struct gm_system_item *jump = gm_system_item_of(system, GM_WORD_JUMP, 0);
-    *problem = (struct gm_problem){.name = "wave equation",
-                                   .kind = &gm_kind_field,
-                                   .m = 1,
-                                   .n = gm_wave_size(grid->points),
-                                   .line = *grid};
-    if (!self) {
-        return false;
-    }
+    struct own *self = gm_user_line_take(arena, problem, system, sizeof *self);
     self->facets = (struct gm_field){.form = &gm_form_of_waves, .wave = &formulas};
     const struct gm_problem *known = known_potential(system);
     if (known) {
@@ -171,49 +171,43 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
         problem->bound = known->bound;
     }
     problem->facets = &self->facets;
-    problem->parameters = self;
     self->brief = wave->degree <= EXACT;
-    return gm_tape_open(&self->potential, &system->graph, &system->energy, 1, 1, values) &&
-           gm_tape_open(&self->slope, &system->graph, &wave->by_u[0], 1, 1, values) &&
-           gm_tape_open(&self->curvature, &system->graph, &wave->by_u[1], 1, 1, values) &&
-           gm_user_line_open(&self->line, system, wave->start, gm_wave_start_count(wave), &wave->exact,
-                             values) &&
-           (!jump || gm_user_line_numbers(system, jump->nodes, 1, values, &problem->line.jump));
+    gm_user_line_tape(&self->line, &self->potential, &system->energy, 1, 1, values);
+    gm_user_line_tape(&self->line, &self->slope, &wave->by_u[0], 1, 1, values);
+    gm_user_line_tape(&self->line, &self->curvature, &wave->by_u[1], 1, 1, values);
+    gm_user_line_open(&self->line, wave->start, gm_wave_start_count(wave), &wave->exact, values);
+    gm_arena_need(arena, !jump || gm_user_line_numbers(system, jump->nodes, 1, values, &problem->line.jump));
 }
 
-void gm_user_wave_close(struct gm_problem *problem)
+bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
+                       const struct gm_grid1 *grid)
 {
-    struct own *self = (struct own *)problem->parameters;
-    if (self) {
-        struct gm_tape *const tapes[] = {&self->potential, &self->slope, &self->curvature};
-        gm_user_line_close(&self->line);
-        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
-            gm_tape_close(tapes[i]);
-        }
-    }
-    free(self);
-    problem->parameters = problem->facets = NULL;
+    *problem = (struct gm_problem){.name = "wave equation",
+                                   .kind = &gm_kind_field,
+                                   .m = 1,
+                                   .n = gm_wave_size(grid->points),
+                                   .line = *grid};
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values});
 }
 
-bool gm_user_wave_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_wave_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct gm_grid1 *grid = &problem->line;
     struct gm_line_ends ends;
     if (grid->walls && grid->jump != 0) {
-        snprintf(sentence, size, "a field between walls has no jump");
-        return false;
+        return gm_fail(fault, 0, "a field between walls has no jump");
     }
-    if (!gm_user_line_closes(problem->parameters, grid, 0, grid->jump, &ends, sentence, size)) {
+    if (!gm_user_line_closes(problem->parameters, grid, 0, grid->jump, &ends, fault)) {
         return false;
     }
     for (int i = 0; i <= 8 && grid->jump != 0; i++) {
         const double u = ends.low + (ends.high - ends.low) * i / 8, force = slope(problem, u),
                      further = slope(problem, u + grid->jump);
         if (!(fabs(further - force) <= 1e-9 * fmax(1, fabs(force)))) {
-            snprintf(sentence, size,
-                     "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
-                     force, own_of(problem)->line.system->variables[0].name, u, further, grid->jump);
-            return false;
+            return gm_fail(
+                fault, 0,
+                "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
+                force, own_of(problem)->line.system->variables[0].name, u, further, grid->jump);
         }
     }
     return true;

@@ -9,11 +9,11 @@
 
 #include <gsl/gsl_errno.h>
 
-#include "core/certify.h"
 #include "core/flow/families/families.h"
 #include "core/flow/room.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 enum { EDGES = 6, STRIPS = 8, MOST = EDGES * STRIPS, STATE = GM_FLOW_BLOCKS * MOST + 1 };
 

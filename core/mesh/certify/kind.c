@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
 /* Numbers of tangent directions, two for each node before and after a step, and of their values. */

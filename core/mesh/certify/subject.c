@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/certify.h"
 #include "core/linear/differences.h"
 #include "core/mesh/nodes.h"
+#include "core/theory/certify.h"
 
 static const struct gm_settings settings = {0};
 

@@ -232,22 +232,23 @@ static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
            self->refused[0];
 }
 
-bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
-                       const struct gm_user_mesh *chosen)
+struct opening {
+    struct gm_problem *problem;
+    const struct gm_user_wave *wave;
+    const double *values;
+    const struct gm_user_mesh *chosen;
+};
+
+static void open_problem(struct gm_arena *arena, void *data)
 {
     static const struct gm_potential *const known[] = {
         [GM_POTENTIAL_SINE_GORDON] = &gm_potential_sine_gordon, [GM_POTENTIAL_PHI4] = &gm_potential_phi4};
-    struct own *self = calloc(1, sizeof *self);
-    *problem = (struct gm_problem){.name = "wave equation",
-                                   .n = 4 * (size_t)chosen->points,
-                                   .m = 1,
-                                   .kind = &gm_kind_mesh,
-                                   .facets = &facets,
-                                   .parameters = self};
-    if (!self) {
-        return false;
-    }
-    const struct gm_formula *graph = &wave->system->graph;
+    const struct opening *opening = data;
+    const struct gm_user_wave *wave = opening->wave;
+    const struct gm_user_mesh *chosen = opening->chosen;
+    const double *values = opening->values;
+    struct own *self = gm_user_line_take(arena, opening->problem, wave->system, sizeof *self);
+    const struct gm_user_line *line = &self->line;
     const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
     const gm_node_id means
         [] = {wave->system->energy, wave->by_u[0]},
@@ -259,21 +260,23 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                                   .length = chosen->length,
                                   .potential = wave->known ? known[wave->known] : &self->functions};
     self->nodes = gm_user_mesh_order(wave);
-    if (!gm_memory_guard_gsl(set_rule, self) ||
-        !gm_tape_open(&self->means, graph, means, GM_COUNT(means), 1, values) ||
-        !gm_tape_open(&self->bend, graph, &wave->by_u[1], 1, 1, values) ||
-        (wave->exact_while != GM_NO_NODE &&
-         !gm_tape_open(&self->known, graph, &wave->exact_while, 1, 2, values)) ||
-        !gm_user_line_open(&self->line, wave->system, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START,
-                           &wave->exact, values)) {
-        return false;
+    gm_arena_need(arena, gm_memory_guard_gsl(set_rule, self));
+    gm_user_line_tape(line, &self->means, means, GM_COUNT(means), 1, values);
+    gm_user_line_tape(line, &self->bend, &wave->by_u[1], 1, 1, values);
+    if (wave->exact_while != GM_NO_NODE) {
+        gm_user_line_tape(line, &self->known, &wave->exact_while, 1, 2, values);
+    }
+    gm_user_line_open(&self->line, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START, &wave->exact, values);
+    struct gm_tape *const of_formulas[] = {&self->density.tape, &self->density.itself, &self->map.tape,
+                                           &self->between,      &self->cell.by_first,  &self->cell.by_second};
+    for (size_t i = 0; i < GM_COUNT(of_formulas); i++) {
+        gm_tape_keep(arena, of_formulas[i], true); /* they are opened below */
     }
     const double places[] = {chosen->first, chosen->first + chosen->length};
     double ends[2], slopes[2], rates[2];
     start(self, places, GM_COUNT(places), ends, slopes, rates);
-    if (held && !gm_user_line_numbers(wave->system, held->nodes, GM_COUNT(ends), values, ends)) {
-        return false;
-    }
+    gm_arena_need(arena,
+                  !held || gm_user_line_numbers(wave->system, held->nodes, GM_COUNT(ends), values, ends));
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
     self->mesh.density = &self->density.density;
@@ -285,9 +288,15 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    const bool good = weigh(self, chosen, values) && open_equation(self, chosen);
-    problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
-    return good;
+    gm_arena_need(arena, weigh(self, chosen, values) && open_equation(self, chosen));
+    opening->problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
+}
+
+bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
+                       const struct gm_user_mesh *chosen)
+{
+    *problem = (struct gm_problem){.name = "wave equation", .m = 1, .kind = &gm_kind_mesh, .facets = &facets};
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values, chosen});
 }
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
@@ -301,25 +310,11 @@ const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
     return &((const struct own *)problem->parameters)->names;
 }
 
-void gm_user_mesh_close(struct gm_problem *problem)
-{
-    struct own *self = (struct own *)problem->parameters;
-    if (self) {
-        struct gm_tape *const tapes[] = {&self->density.tape, &self->density.itself, &self->means,
-                                         &self->bend,         &self->known,          &self->map.tape,
-                                         &self->between,      &self->cell.by_first,  &self->cell.by_second};
-        gm_user_line_close(&self->line);
-        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
-            gm_tape_close(tapes[i]);
-        }
-    }
-    free(self);
-    problem->parameters = NULL;
-}
-
-bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = problem->parameters;
+    char *const sentence = fault->sentence;
+    const size_t size = sizeof fault->sentence;
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
     double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;

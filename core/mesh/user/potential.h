@@ -24,10 +24,9 @@ struct gm_user_mesh {
 size_t gm_user_mesh_order(const struct gm_user_wave *wave);
 
 /* The problem with these values of all variables (gm_equations_start). Returns false when out of memory;
-   the caller closes it in both cases. */
+   the caller closes it (gm_user_line_close). */
 bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wave, const double *values,
                        const struct gm_user_mesh *chosen);
-void gm_user_mesh_close(struct gm_problem *problem);
 
 /* The numbers that formulas of its mesh may hold: alpha, steepest and bend, resolved. */
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem);
@@ -37,7 +36,7 @@ const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m);
 
 /* Returns true if the start is finite and, unless a line ends: holds it there, rests at both ends up to a thousandth of
-   its largest rate; else `sentence` is the reason. */
-bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t size);
+   its largest rate; else the fault has the reason. */
+bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault);
 
 #endif

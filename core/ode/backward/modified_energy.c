@@ -131,39 +131,26 @@ static int branches_of(const struct gm_trees *trees, int tree, int branches[MOST
 
 /* ---- from a problem and a scheme ---- */
 
-static void close_modified(void *modified)
-{
-    gm_modified_close(modified);
-}
-
-static void close_coefficients(void *coefficients)
-{
-    gm_coefficients_close(coefficients);
-}
-
 /* Finds the terms from the scheme's coefficients. */
 static void open_terms(struct opening *opening)
 {
     struct gm_modified_energy *energy = opening->energy;
     struct gm_arena *arena = energy->arena;
     const char *title = opening->scheme->title;
-    struct gm_coefficients *coefficients = gm_arena_take(arena, 1, sizeof *coefficients);
-    gm_arena_keep(arena, &energy->modified, close_modified);
-    if (!gm_scheme_coefficients_open(opening->scheme, coefficients)) {
+    struct gm_coefficients coefficients;
+    if (!gm_scheme_coefficients_open(arena, opening->scheme, &coefficients)) {
         gm_arena_refuse(
             arena,
             "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, splitting or composition",
             title);
     }
-    gm_arena_keep(arena, coefficients, close_coefficients);
-    gm_coefficients_reduce(coefficients);
-    if (!gm_theory_is_symplectic(coefficients)) {
+    gm_coefficients_reduce(&coefficients);
+    if (!gm_theory_is_symplectic(arena, &coefficients)) {
         gm_arena_refuse(arena, "%.80s is not symplectic: the equation that it solves has no Hamiltonian",
                         title);
     }
-    gm_arena_check(arena, coefficients->nystrom == 0, "the modified equation of a Nystrom method is unknown");
-    gm_arena_need(arena, gm_modified_open(&energy->modified, coefficients, energy->power + 1));
-    gm_arena_drop(arena, coefficients);
+    gm_arena_check(arena, coefficients.nystrom == 0, "the modified equation of a Nystrom method is unknown");
+    energy->modified = gm_modified_of(arena, &coefficients, energy->power + 1);
     int branches[MOST_BRANCHES];
     for (size_t i = 0; i < energy->modified.count; i++) {
         energy->with[branches_of(&energy->modified.trees, energy->modified.terms[i].tree, branches)]++;

@@ -14,7 +14,11 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
 
-enum { MOST = 2 * GM_SUBJECT_COMPONENTS, TANGENTS = 2 * GM_SUBJECT_TANGENTS };
+enum {
+    MOST = 2 * GM_SUBJECT_COMPONENTS,
+    TANGENTS = 2 * GM_SUBJECT_TANGENTS,
+    SQUARE = GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS
+};
 
 /* The derivative of one step at the start, and the derivative of its initial state: the identity, or under
    constraints that of the nearest state on the manifold. */
@@ -145,61 +149,46 @@ static double areas_defect(const struct derivative *derivative, double area)
 static void find_omega(const struct gm_problem *problem, const double *q, double *omega)
 {
     const size_t n = problem->n;
-    double weights[GM_SUBJECT_TANGENTS + 1] = {0}, values[GM_SUBJECT_TANGENTS + 1],
-                                         slopes[(GM_SUBJECT_TANGENTS + 1) * GM_SUBJECT_TANGENTS],
-                                         curvature[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
+    double weights[GM_SUBJECT_TANGENTS + 1] = {0}, values[GM_SUBJECT_TANGENTS + 1], curvature[SQUARE],
+                                         slopes[SQUARE + GM_SUBJECT_TANGENTS];
     gm_ode_of(problem)->degenerate->functions(problem, q, weights, values, slopes, curvature);
     for (size_t i = 0; i < n * n; i++) {
         omega[i] = slopes[i % n * n + i / n] - slopes[i];
     }
 }
 
-/* The largest entry of T A T' - B, T the derivative or its transpose. */
-static double congruence_defect(const struct derivative *derivative, bool transposed, const double *a,
-                                const double *b)
+/* The largest entry of M' A(y1) M - A(y0) for a matrix A of states that is a form, else of M A(y0) M' - A(y1); NaN if
+   the step fails. */
+static double carried_defect(const struct derivative *derivative, bool form,
+                             void (*find)(const struct gm_problem *problem, const double *y, double *matrix))
 {
-    const size_t n = derivative->subject->problem.n;
-    double defect = 0;
+    const struct gm_subject *subject = derivative->subject;
+    const size_t n = subject->problem.n;
+    double start[MOST], end[MOST], defect = 0, from[SQUARE], to[SQUARE];
+    gm_subject_start(subject, start);
+    if (!gm_subject_advance(subject, derivative->dt, 1, start, end)) {
+        return NAN;
+    }
+    find(&subject->problem, form ? end : start, from);
+    find(&subject->problem, form ? start : end, to);
     for (size_t row = 0; row < n; row++) {
         for (size_t column = 0; column < n; column++) {
             double carried = 0;
             for (size_t i = 0; i < n * n; i++) {
                 const size_t k = i / n, l = i % n;
-                carried += (transposed ? derivative->at[k][row] : derivative->at[row][k]) * a[i] *
-                           (transposed ? derivative->at[l][column] : derivative->at[column][l]);
+                carried += (form ? derivative->at[k][row] : derivative->at[row][k]) * from[i] *
+                           (form ? derivative->at[l][column] : derivative->at[column][l]);
             }
-            defect = fmax(defect, fabs(carried - b[row * n + column]));
+            defect = fmax(defect, fabs(carried - to[row * n + column]));
         }
     }
     return defect;
 }
 
-/* Finds a matrix at the start of the step and at its end. Returns false if the step fails. */
-static bool find_at_ends(const struct derivative *derivative,
-                         void (*find)(const struct gm_problem *problem, const double *y, double *matrix),
-                         double *before, double *after)
-{
-    const struct gm_subject *subject = derivative->subject;
-    double start[MOST], end[MOST];
-    gm_subject_start(subject, start);
-    if (!gm_subject_advance(subject, derivative->dt, 1, start, end)) {
-        return false;
-    }
-    find(&subject->problem, start, before);
-    find(&subject->problem, end, after);
-    return true;
-}
-
 static double form_defect(const struct derivative *derivative)
 {
-    double before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
-        after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
-    if (!gm_ode_of(&derivative->subject->problem)->degenerate) {
-        return areas_defect(derivative, 1);
-    }
-    return find_at_ends(derivative, find_omega, before, after)
-               ? congruence_defect(derivative, true, after, before)
-               : NAN;
+    return gm_ode_of(&derivative->subject->problem)->degenerate ? carried_defect(derivative, true, find_omega)
+                                                                : areas_defect(derivative, 1);
 }
 
 static double conformal_form_defect(const struct derivative *derivative)
@@ -209,11 +198,7 @@ static double conformal_form_defect(const struct derivative *derivative)
 
 static double bracket_defect(const struct derivative *derivative)
 {
-    double before[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS],
-        after[GM_SUBJECT_TANGENTS * GM_SUBJECT_TANGENTS];
-    return find_at_ends(derivative, gm_ode_of(&derivative->subject->problem)->poisson->bracket, before, after)
-               ? congruence_defect(derivative, false, before, after)
-               : NAN;
+    return carried_defect(derivative, false, gm_ode_of(&derivative->subject->problem)->poisson->bracket);
 }
 
 static double determinant_defect(const struct derivative *derivative)

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
@@ -19,6 +18,7 @@
 #include "core/ode/variational/action.h"
 #include "core/quantity.h"
 #include "core/run.h"
+#include "core/theory/certify.h"
 
 static unsigned facets_of_bracket(const struct gm_poisson *poisson)
 {
@@ -456,14 +456,12 @@ static double *start_before_event(const struct gm_subject *subject)
         first = happened ? gm_events_last(problem, gm_run_events(run)) : NAN;
     }
     gm_run_close(run);
-    const double whole = floor((first - subject->dt / 2) / subject->dt),
-                 rest = first - subject->dt / 2 - whole * subject->dt;
-    run = state && whole >= 0
-              ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start)
-              : NULL;
+    const double until = first - subject->dt / 2, whole = floor(until / subject->dt);
+    run =
+        whole >= 0 ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
     bool good = run && gm_run_advance(run, (int64_t)whole) == GM_OK;
     if (good) {
-        gm_run_set_step(run, rest);
+        gm_run_set_step(run, until - whole * subject->dt);
         good = gm_run_advance(run, 1) == GM_OK;
         memcpy(state, gm_run_state(run), bytes);
     }

@@ -2,8 +2,8 @@
 #ifndef GM_CORE_ODE_CERTIFY_MEASURE_H
 #define GM_CORE_ODE_CERTIFY_MEASURE_H
 
-#include "core/certify.h"
 #include "core/ode/user/model.h"
+#include "core/theory/certify.h"
 
 /* The problems that schemes are certified on, and the measurements, for kind.c. */
 

@@ -6,11 +6,11 @@
 
 #include <gsl/gsl_errno.h>
 
-#include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 
 /* The error is summed over several times: at a single one it may happen to vanish. */
 enum { TIMES = 4 };
@@ -27,14 +27,9 @@ static bool solve_with_events(const struct gm_problem *problem, double until, do
 {
     enum { STEPS = 400 };
     const struct gm_settings settings = {.compensated = 1};
-    struct gm_run *run =
-        gm_run_open(problem, gm_scheme_find_for("gauss8", problem), &settings, 0, until / STEPS, y);
-    const bool good = run && gm_run_advance(run, STEPS) == GM_OK;
-    if (good) {
-        memcpy(y, gm_run_state(run), problem->n * sizeof *y);
-    }
-    gm_run_close(run);
-    return good;
+    const struct gm_trial trial = {problem, gm_scheme_find_for("gauss8", problem), &settings, until / STEPS,
+                                   STEPS};
+    return gm_trial_advance(&trial, y, y);
 }
 
 /* y := the solution at `until`, from y */

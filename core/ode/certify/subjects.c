@@ -180,7 +180,6 @@ void gm_subject_close(struct gm_subject *subject)
     if (subject->model.system) {
         gm_user_problem_close(&subject->problem);
     }
-    gm_user_model_close(&subject->model);
     gm_system_close(&subject->system);
 }
 

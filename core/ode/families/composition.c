@@ -85,12 +85,7 @@ static void open_work(struct gm_arena *arena, void *data)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     struct opening opening = {problem, scheme->coefficients, NULL};
-    struct gm_arena *arena = gm_arena_open();
-    if (!gm_arena_run(arena, open_work, &opening)) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.work;
+    return gm_arena_made(open_work, &opening) ? opening.work : NULL;
 }
 
 static void workspace_reset(void *data)

@@ -62,18 +62,13 @@ struct work {
     double complex *state, *rest, *stage;
 };
 
-static void close_modes(void *modes)
-{
-    gm_modes_close(modes);
-}
-
 static void *open_work(struct gm_members *members, const struct gm_problem *problem,
                        const struct gm_scheme *scheme)
 {
     const struct exponential *row = scheme->coefficients;
     const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields, points = n / fields;
     struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
-    gm_arena_keep(members->arena, &work->modes, close_modes);
+    gm_arena_keep(members->arena, &work->modes, gm_modes_close);
     gm_arena_need(members->arena, gm_modes_open(&work->modes, points, fields));
     work->matrices =
         gm_arena_take(members->arena, gm_modes_half(points) * row->stages * PER_STAGE * fields * fields,

@@ -18,7 +18,7 @@
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/theory/coefficients.h"
+#include "core/theory/theory.h"
 
 struct gm_tangent {
     struct gm_arena *arena; /* owns all memory but the runs */
@@ -55,7 +55,7 @@ struct gm_tangent {
 const char *gm_tangent_word(const struct gm_scheme *scheme)
 {
     return scheme->family->not_resumable || scheme->family->by_tolerance ? "none"
-           : scheme->exact || scheme->family->coefficients_open          ? "exact"
+           : gm_scheme_has_coefficients(scheme)                          ? "exact"
                                                                          : "differences";
 }
 
@@ -164,8 +164,6 @@ static void open_stages(struct gm_tangent *tangent, const struct gm_coefficients
 
 struct opening {
     struct gm_run *run;
-    bool known; /* the coefficients */
-    struct gm_coefficients coefficients;
     struct gm_tangent *tangent;
 };
 
@@ -189,8 +187,9 @@ static void open_all(struct gm_arena *arena, void *data)
     tangent->slope = doubles(tangent, size);
     tangent->far_slope = doubles(tangent, size);
     tangent->snapshot = gm_arena_take(arena, 1, gm_run_snapshot_size(run));
-    if (opening->known) {
-        open_stages(tangent, &opening->coefficients);
+    struct gm_coefficients coefficients;
+    if (gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(arena, run->scheme, &coefficients)) {
+        open_stages(tangent, &coefficients);
         tangent->together = tangent->memory == 0 && !family->adaptive;
     }
 }
@@ -198,18 +197,7 @@ static void open_all(struct gm_arena *arena, void *data)
 struct gm_tangent *gm_tangent_open(struct gm_run *run)
 {
     struct opening opening = {.run = run};
-    struct gm_arena *arena = gm_arena_open();
-    opening.known =
-        gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(run->scheme, &opening.coefficients);
-    const bool good = gm_arena_run(arena, open_all, &opening);
-    if (opening.known) {
-        gm_coefficients_close(&opening.coefficients);
-    }
-    if (!good) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.tangent;
+    return gm_arena_made(open_all, &opening) ? opening.tangent : NULL;
 }
 
 void gm_tangent_close(void *data)

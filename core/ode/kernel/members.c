@@ -66,12 +66,7 @@ static void open_members(struct gm_arena *arena, void *data)
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     struct opening opening = {problem, scheme, NULL};
-    struct gm_arena *arena = gm_arena_open();
-    if (!gm_arena_run(arena, open_members, &opening)) {
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return opening.members;
+    return gm_arena_made(open_members, &opening) ? opening.members : NULL;
 }
 
 void gm_members_close(void *members)

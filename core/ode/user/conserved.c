@@ -108,13 +108,11 @@ static const struct found *found_of(const struct gm_user_data *data)
     struct found *found = &kept[next_kept];
     next_kept = (next_kept + 1) % KEPT;
     gm_arena_close(found->arena);
-    *found = (struct found){.arena = gm_arena_open()};
-    const bool good = gm_arena_run(found->arena, find, &(struct finding){found, data});
-    if (!good) {
-        gm_arena_close(found->arena);
+    found->arena = gm_arena_made(find, &(struct finding){found, data});
+    if (!found->arena) {
         *found = (struct found){0};
     }
-    return good ? found : NULL;
+    return found->arena ? found : NULL;
 }
 
 /* The node of number `number` among those without a name, in `graph`. */
@@ -214,9 +212,6 @@ gm_node_id gm_user_conserved(const struct gm_problem *problem, const char *name,
                              char *lacks)
 {
     struct naming naming = {problem, gm_user_data_of(problem), name, graph, GM_NO_NODE, lacks};
-    struct gm_arena *arena = gm_arena_open();
     lacks[0] = '\0';
-    const bool good = gm_arena_run(arena, resolve, &naming);
-    gm_arena_close(arena);
-    return good ? naming.node : GM_NO_NODE;
+    return gm_arena_run_once(resolve, &naming) ? naming.node : GM_NO_NODE;
 }

@@ -47,7 +47,6 @@ struct own {
     double complex *symbols; /* the matrices of L, [mode][row][column] */
     double complex *masses;  /* [mode][field] */
     struct room *_Atomic idle;
-    struct gm_arena *arena; /* owns all of this */
 };
 
 static struct own *own_of(const struct gm_problem *problem)
@@ -68,11 +67,7 @@ static void number_inputs(struct deriving *deriving)
 {
     struct gm_user_system *system = deriving->system;
     const size_t n = system->n, inputs = n * ORDERS + 2;
-    gm_node_id *others = deriving->others =
-        gm_arena_take(deriving->arena, system->variable_count, sizeof *others);
-    for (size_t i = 0; i < system->variable_count; i++) {
-        others[i] = GM_NO_NODE;
-    }
+    gm_node_id *others = deriving->others = gm_system_no_nodes(system, system->variable_count);
     others[n] = gm_formula_variable(&system->graph, inputs - 1);
     others[system->velocities] = gm_formula_variable(&system->graph, inputs - 2);
     for (size_t i = 0; i < n * GM_MOST_DERIVATIVES; i++) {
@@ -158,16 +153,9 @@ static void derive_all(struct gm_arena *arena, void *data)
 
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system)
 {
-    *evolution = (struct gm_user_evolution){.system = system, .arena = gm_arena_open()};
-    return gm_arena_run(evolution->arena, derive_all,
+    *evolution = (struct gm_user_evolution){.system = system};
+    return gm_arena_run(system->arena, derive_all,
                         &(struct deriving){.evolution = evolution, .system = system});
-}
-
-void gm_user_evolution_close(void *data)
-{
-    struct gm_user_evolution *evolution = data;
-    gm_arena_close(evolution->arena);
-    evolution->arena = NULL;
 }
 
 /* ---- room ---- */
@@ -330,8 +318,7 @@ static void symbol(const struct gm_problem *problem, size_t mode, double complex
 static void open_tape(const struct own *self, struct gm_tape *tape, const gm_node_id *nodes, size_t count,
                       const double *values)
 {
-    gm_tape_keep(self->arena, tape,
-                 gm_tape_open(tape, &self->evolution->system->graph, nodes, count, self->inputs, values));
+    gm_user_line_tape(&self->along, tape, nodes, count, self->inputs, values);
 }
 
 /* Computes the coefficients of a linear formula: its values if one input is 1 and the others are 0. */
@@ -339,7 +326,7 @@ static void find_coefficients(const struct own *self, const gm_node_id *nodes, c
                               double *coefficients)
 {
     const size_t n = self->fields;
-    struct gm_tape *tape = gm_arena_take(self->arena, 1, sizeof *tape);
+    struct gm_tape *tape = gm_arena_take(self->along.arena, 1, sizeof *tape);
     open_tape(self, tape, nodes, n, values);
     for (size_t k = 0; k < n * ORDERS; k++) {
         double inputs[MOST_INPUTS] = {0}, outputs[GM_MOST_FIELDS];
@@ -355,8 +342,8 @@ static void make_symbols(struct own *self, const double *values)
 {
     const size_t n = self->fields, half = gm_modes_half(self->line.points);
     double linear[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS], mass[GM_MOST_FIELDS * GM_MOST_FIELDS * ORDERS];
-    self->symbols = gm_arena_take(self->arena, half * n * n, sizeof *self->symbols);
-    self->masses = gm_arena_take(self->arena, half * n, sizeof *self->masses);
+    self->symbols = gm_arena_take(self->along.arena, half * n * n, sizeof *self->symbols);
+    self->masses = gm_arena_take(self->along.arena, half * n, sizeof *self->masses);
     find_coefficients(self, self->evolution->lines, values, linear);
     find_coefficients(self, self->evolution->masses, values, mass);
     for (size_t mode = 0; mode < half; mode++) {
@@ -428,14 +415,14 @@ static void find_needed(struct own *self)
         const gm_node_id node =
             i < self->fields ? evolution->rates[i] : evolution->densities[i - self->fields];
         size_t count = 0;
-        gm_node_id *parts = gm_arena_keep(self->arena, gm_formula_parts(graph, node, &count), free);
+        gm_node_id *parts = gm_arena_keep(self->along.arena, gm_formula_parts(graph, node, &count), free);
         for (size_t k = 0; k < count; k++) {
             const struct gm_node *part = &graph->nodes[parts[k]];
             if (part->operation == GM_VARIABLE && part->a < self->fields * ORDERS) {
                 self->needed[part->a] = true;
             }
         }
-        gm_arena_drop(self->arena, parts);
+        gm_arena_drop(self->along.arena, parts);
     }
 }
 
@@ -443,7 +430,7 @@ static void name_fields(struct own *self)
 {
     self->names = "";
     for (size_t i = 0; i < self->fields; i++) {
-        self->names = gm_arena_print(self->arena, "%s%s%s[]", self->names, i ? " " : "",
+        self->names = gm_arena_print(self->along.arena, "%s%s%s[]", self->names, i ? " " : "",
                                      self->evolution->system->variables[i].name);
     }
 }
@@ -452,7 +439,7 @@ static void open_tapes(struct own *self, const double *values)
 {
     const struct gm_user_evolution *evolution = self->evolution;
     const size_t n = self->fields;
-    self->densities = gm_arena_take(self->arena, evolution->density_count, sizeof *self->densities);
+    self->densities = gm_arena_take(self->along.arena, evolution->density_count, sizeof *self->densities);
     open_tape(self, &self->rates, evolution->rates, n, values);
     open_tape(self, &self->rests, evolution->rests, n, values);
     for (size_t i = 0; i < evolution->density_count; i++) {
@@ -472,32 +459,23 @@ static void close_idle(void *idle)
     room_close(atomic_exchange((struct room * _Atomic *)idle, NULL));
 }
 
-static void close_line(void *line)
-{
-    gm_user_line_close(line);
-}
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
     const struct opening *opening = data;
     const struct gm_user_system *system = opening->evolution->system;
     struct gm_problem *problem = opening->problem;
     const size_t parameters = system->velocities - system->parameters;
-    struct own *self = gm_arena_take(arena, 1, sizeof *self);
+    struct own *self = gm_user_line_take(arena, problem, system, sizeof *self);
     gm_arena_keep(arena, &self->idle, close_idle);
-    self->arena = arena;
     self->evolution = opening->evolution;
     self->line = problem->line;
     self->space = opening->space;
     self->fields = system->n;
     self->inputs = self->fields * ORDERS + 2;
     problem->n = self->fields * self->line.points;
-    problem->parameters = self;
     problem->facets = &self->facets;
-    gm_arena_keep(arena, &self->along, close_line);
-    gm_arena_need(arena,
-                  gm_user_line_open(&self->along, system, opening->evolution->formulas.start, self->fields,
-                                    opening->evolution->formulas.exact, opening->values));
+    gm_user_line_open(&self->along, opening->evolution->formulas.start, self->fields,
+                      opening->evolution->formulas.exact, opening->values);
     /* the values of all variables in their new order */
     double *values = gm_arena_take(arena, self->inputs + parameters, sizeof *values);
     memcpy(values + self->inputs, opening->values + system->parameters, parameters * sizeof *values);
@@ -521,23 +499,8 @@ static void open_problem(struct gm_arena *arena, void *data)
 bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
 {
-    struct gm_arena *arena = gm_arena_open();
     *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
-    const bool opened =
-        gm_arena_run(arena, open_problem, &(struct opening){problem, evolution, values, space});
-    if (!opened) {
-        gm_arena_close(arena);
-        problem->parameters = problem->facets = NULL;
-    }
-    return opened;
-}
-
-void gm_user_evolution_shut(struct gm_problem *problem)
-{
-    if (problem->parameters) {
-        gm_arena_close(own_of(problem)->arena);
-    }
-    problem->parameters = problem->facets = NULL;
+    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, evolution, values, space});
 }
 
 /* ---- what is asked of it ---- */
@@ -573,78 +536,74 @@ double gm_user_evolution_integral(const struct gm_problem *problem, size_t densi
     return sum * self->line.dx;
 }
 
-static bool field_closes(const struct own *self, size_t field, char *sentence, size_t size)
+static bool field_closes(const struct own *self, size_t field, struct gm_fault *fault)
 {
     const struct gm_grid1 *grid = &self->line;
     struct gm_line_ends ends;
-    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, sentence, size)) {
+    if (!gm_user_line_closes(&self->along, grid, field, 0, &ends, fault)) {
         return false;
     }
     if (grid->walls && self->mirrored[field] < 0 &&
         !(fabs(ends.left) + fabs(ends.right) <= 1e-3 * fmax(fabs(ends.low), fabs(ends.high)))) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
             "%.6g at the other",
             self->evolution->system->variables[field].name, ends.left, ends.right);
-        return false;
     }
     return true;
 }
 
-static bool has_masses(const struct own *self, char *sentence, size_t size)
+static bool has_masses(const struct own *self, struct gm_fault *fault)
 {
     for (size_t i = 0; i < gm_modes_half(self->line.points) * self->fields; i++) {
         const size_t mode = i / self->fields;
         if (!(cabs(self->masses[i]) > 1e-12)) {
-            snprintf(sentence, size,
-                     "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
-                     self->evolution->system->variables[i % self->fields].name,
-                     2 * M_PI * (double)mode / ((double)self->line.points * self->line.dx));
-            return false;
+            return gm_fail(fault, 0,
+                           "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
+                           self->evolution->system->variables[i % self->fields].name,
+                           2 * M_PI * (double)mode / ((double)self->line.points * self->line.dx));
         }
     }
     return true;
 }
 
-static bool has_rates(const struct own *self, const double *rates, char *sentence, size_t size)
+static bool has_rates(const struct own *self, const double *rates, struct gm_fault *fault)
 {
     const size_t points = self->line.points;
     for (size_t i = 0; i < self->fields * points; i++) {
         if (!isfinite(rates[i])) {
-            snprintf(sentence, size, "the rate of %.60s at the start is not finite where x = %.6g",
-                     self->evolution->system->variables[i / points].name,
-                     gm_grid1_node(&self->line, i % points));
-            return false;
+            return gm_fail(fault, 0, "the rate of %.60s at the start is not finite where x = %.6g",
+                           self->evolution->system->variables[i / points].name,
+                           gm_grid1_node(&self->line, i % points));
         }
     }
     return true;
 }
 
-bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
+bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
     if (self->line.walls && self->mirrored[0] == 0) {
-        snprintf(
-            sentence, size,
+        return gm_fail(
+            fault, 0,
             "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
             "change their sign in the mirror");
-        return false;
     }
     double *y = malloc(2 * problem->n * sizeof *y), *rates = y ? y + problem->n : NULL;
     bool good = y != NULL;
     if (good) {
         gm_user_evolution_start(problem, y);
     } else {
-        snprintf(sentence, size, "not enough memory");
+        gm_fail(fault, 0, "not enough memory");
     }
     for (size_t i = 0; i < self->fields && good; i++) {
-        good = field_closes(self, i, sentence, size);
+        good = field_closes(self, i, fault);
     }
-    good = good && has_masses(self, sentence, size);
+    good = good && has_masses(self, fault);
     if (good) {
         field(problem, y, rates, 1);
-        good = has_rates(self, rates, sentence, size);
+        good = has_rates(self, rates, fault);
     }
     free(y);
     return good;

@@ -25,24 +25,20 @@ struct gm_user_evolution {
     size_t density_count;
     gm_node_id kink; /* the term of a rate, in fields and derivatives, that is not smooth; GM_NO_NODE: none */
     size_t kinked;   /* the number of that rate */
-    struct gm_arena *arena;
 };
 
-/* Derives the formulas; the graph grows. Returns false when out of memory. The caller closes in both cases.
-   */
+/* Derives the formulas; the system's graph and arena grow. Returns false when out of memory. */
 bool gm_user_evolution_derive(struct gm_user_evolution *evolution, struct gm_user_system *system);
-void gm_user_evolution_close(void *evolution);
 
 /* Opens the problem with these values of all variables (gm_equations_start) on this ring. Returns false when
-   out of memory. The caller closes in both cases. */
+   out of memory. The caller closes it (gm_user_line_close). */
 bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evolution *evolution,
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space);
-void gm_user_evolution_shut(struct gm_problem *problem);
 
 /* Returns true if the start is finite and closes (as fields of core/field/user/potential.h do), the rates are
    finite there, and no wave's mass vanishes; with walls each field or its negative must have the mirrored
-   rate. Otherwise fills the sentence. */
-bool gm_user_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size);
+   rate. Otherwise the fault has the reason. */
+bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault *fault);
 
 /* Writes the state at t = 0. */
 void gm_user_evolution_start(const struct gm_problem *problem, double *y);

@@ -130,16 +130,23 @@ static void compile(const struct compiling *compiling, struct gm_form_program *p
     gm_arena_need(system->arena, gm_form_compile(program, system, roots, count, linear, compiling->fault));
 }
 
-/* Refuses steps that need more than they may. */
-static void limit(const struct compiling *compiling, const struct gm_form_program *program, unsigned needs,
+/* All that the steps of a program need. */
+static unsigned needs_of(const struct gm_form_program *program)
+{
+    unsigned needs = 0;
+    for (size_t i = 0; i < program->count; i++) {
+        needs |= program->steps[i].needs;
+    }
+    return needs;
+}
+
+/* Refuses values that are not of x, y, z, t and parameters alone. */
+static void limit(const struct compiling *compiling, const struct gm_form_program *program,
                   const struct gm_form_root *roots, const char *sentence)
 {
-    for (size_t i = 0; i < program->count; i++) {
-        if (program->steps[i].needs & needs) {
-            gm_arena_need(compiling->model->system->arena,
-                          gm_fail(compiling->fault, roots[0].place, "%s", sentence));
-        }
-    }
+    gm_arena_need(compiling->model->system->arena,
+                  !(needs_of(program) & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS)) ||
+                      gm_fail(compiling->fault, roots[0].place, "%s", sentence));
 }
 
 /* The type of what the equation of unknown number k says. */
@@ -196,19 +203,13 @@ static void compile_forms(const struct compiling *compiling)
             gm_arena_leave(arena);
         }
     }
-    limit(compiling, &model->starts, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, starts,
-          "start: holds formulas of x, y, z, t and parameters alone");
-    limit(compiling, &model->exacts, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, exact,
-          "exact: holds formulas of x, y, z, t and parameters alone");
+    limit(compiling, &model->starts, starts, "start: holds formulas of x, y, z, t and parameters alone");
+    limit(compiling, &model->exacts, exact, "exact: holds formulas of x, y, z, t and parameters alone");
 }
 
 static bool is_timed(const struct gm_form_program *program)
 {
-    bool timed = false;
-    for (size_t i = 0; i < program->count; i++) {
-        timed |= (program->steps[i].needs & GM_NEEDS_TIME) != 0;
-    }
-    return timed;
+    return needs_of(program) & GM_NEEDS_TIME;
 }
 
 /* Compiles the values of forms that are held on a part of the boundary. */
@@ -234,8 +235,7 @@ static void compile_held(const struct compiling *compiling)
         roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
     }
     compile(compiling, &model->held, roots, count, false);
-    limit(compiling, &model->held, GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS, roots,
-          "a value that is held is a formula of x, y, z, t and parameters");
+    limit(compiling, &model->held, roots, "a value that is held is a formula of x, y, z, t and parameters");
     system->timed |= is_timed(&model->held);
 }
 
@@ -393,11 +393,6 @@ static void pin(struct own *own)
     }
 }
 
-static void close_lu(void *lu)
-{
-    gm_lu_close(lu);
-}
-
 /* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. */
 static void factor(struct own *own)
 {
@@ -423,7 +418,7 @@ static void factor(struct own *own)
     own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
     own->lu = own->factor ? NULL : gm_lu_open(n, a->start, a->column, a->value);
     if (own->lu) {
-        gm_arena_keep(own->arena, own->lu, close_lu);
+        gm_arena_keep(own->arena, own->lu, gm_lu_close);
     } else if (!own->factor) {
         const struct gm_form_model *model = own->model;
         gm_arena_refuse(own->arena, "equation: the equations do not determine %s: their matrix is singular",
@@ -699,11 +694,7 @@ static bool derive_at(struct own *own, const double *y, double t)
     place_forms(own, own->derived_at, t);
     solve(own, t);
     gm_form_values_run(&own->rates, t, own->forms);
-    own->derived = gm_arena_open();
-    if (!gm_arena_run(own->derived, derive, own)) {
-        gm_arena_close(own->derived);
-        own->derived = NULL;
-    }
+    own->derived = gm_arena_made(derive, own);
     return own->derived;
 }
 
@@ -745,7 +736,7 @@ static void factor_stages(struct gm_arena *arena, void *data)
     gm_arena_drop(arena, all);
     factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
     gm_arena_need(arena, factor->lu);
-    gm_arena_keep(arena, factor->lu, close_lu);
+    gm_arena_keep(arena, factor->lu, gm_lu_close);
 }
 
 /* The factors for these stages, new ones in the place of the oldest. NULL if the matrix is singular, or when out of
@@ -769,13 +760,8 @@ static const struct stage_factor *factor_of(struct own *own, const struct gm_sta
     struct stage_factor *factor = &own->factors[own->next_factor++ % MOST_FACTORS];
     gm_arena_close(factor->arena);
     *factor = wanted;
-    factor->arena = gm_arena_open();
-    if (!gm_arena_run(factor->arena, factor_stages, &(struct factoring){own, factor})) {
-        gm_arena_close(factor->arena);
-        factor->arena = NULL;
-        return NULL;
-    }
-    return factor;
+    factor->arena = gm_arena_made(factor_stages, &(struct factoring){own, factor});
+    return factor->arena ? factor : NULL;
 }
 
 /* gm_loops.correct */
@@ -1090,16 +1076,12 @@ static void make(struct gm_arena *arena, void *data)
     }
 }
 
-/* True if something observed is a part of a 1-form, for which equations are solved. */
-static bool decomposes(const struct gm_form_model *model)
+/* True if a program takes a part of a 1-form, for which equations are solved. */
+static bool decomposes(const struct gm_form_program *program)
 {
     bool found = false;
-    const struct gm_form_program *const programs[] = {&model->rates, &model->equations, &model->observed};
-    for (size_t k = 0; k < GM_COUNT(programs); k++) {
-        for (size_t i = 0; i < programs[k]->count; i++) {
-            found |=
-                programs[k]->steps[i].kind == GM_STEP_EXACT || programs[k]->steps[i].kind == GM_STEP_COEXACT;
-        }
+    for (size_t i = 0; i < program->count; i++) {
+        found |= program->steps[i].kind == GM_STEP_EXACT || program->steps[i].kind == GM_STEP_COEXACT;
     }
     return found;
 }
@@ -1110,8 +1092,9 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
     *fault = (struct gm_fault){0};
     struct opening opening = {.model = model, .variables = variables, .interior = choice.interior};
     const bool opened = open_mesh(&opening, choice.star, fault);
-    const bool solves = opened && (model->unknown_count > 0 || decomposes(model) ||
-                                   opening.file.complex->star != GM_STAR_CIRCUMCENTRIC);
+    const bool solves =
+        opened && (model->unknown_count > 0 || decomposes(&model->rates) || decomposes(&model->equations) ||
+                   decomposes(&model->observed) || opening.file.complex->star != GM_STAR_CIRCUMCENTRIC);
     if (solves && gm_cholesky_missing()) { /* else the library is not even loaded */
         gm_triangulation_close(&opening.file);
         return gm_fail(fault, 0, "equations of forms are solved by SuiteSparse: %s", gm_cholesky_missing());

@@ -77,7 +77,6 @@ struct gm_user_model {
     size_t event_count;
     gm_node_id *surfaces; /* [event_count], the g that become 0 */
     const char *names;    /* the components' names, in the format of struct gm_ode */
-    struct gm_arena *arena;
 };
 
 /* Derive the formulas of these, in the arena's body, which is left when out of memory; the graph grows. */

@@ -61,7 +61,6 @@ static char *kernel_of(struct gm_user_system *system, bool written_out, bool gen
         gm_tape_close(&tapes[i]);
     }
     free(start);
-    gm_user_model_close(&model);
     return text;
 }
 

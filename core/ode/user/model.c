@@ -244,9 +244,8 @@ static void open_model(struct gm_arena *arena, void *data)
 
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system)
 {
-    *model = (struct gm_user_model){
-        .system = system, .components = system->n + system->timed, .arena = gm_arena_open()};
-    return gm_arena_run(model->arena, open_model, &(struct opening){.model = model, .system = system});
+    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
+    return gm_arena_run(system->arena, open_model, &(struct opening){.model = model, .system = system});
 }
 
 void gm_user_system_again(struct gm_arena *arena, const struct gm_user_system *system, const double *values,
@@ -275,13 +274,6 @@ const struct gm_user_rates *gm_user_model_rates(const struct gm_user_model *mode
         i--;
     }
     return &model->rates[i > 1 ? i - 1 : 0];
-}
-
-void gm_user_model_close(void *data)
-{
-    struct gm_user_model *model = data;
-    gm_arena_close(model->arena);
-    *model = (struct gm_user_model){0};
 }
 
 bool gm_user_model_has_action(const struct gm_user_model *model)

@@ -5,10 +5,8 @@
 
 #include "core/ode/user/formulas.h"
 
-/* Opens the model; the system outlives it, and its graph grows. Returns false when out of memory. The caller
-   closes it in both cases. */
+/* Opens the model in the system's arena; the system's graph grows. Returns false when out of memory. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
-void gm_user_model_close(void *model);
 
 /* Reads a system again with these values of its parameters, or its motion without tangents; inside a body of the
    arena, which is left when out of memory. The caller closes it in all cases. */

@@ -42,14 +42,14 @@ static gm_node_id graft(const struct gm_problem *problem, struct gm_formula *gra
 }
 
 /* The rates of the energy `part`. */
-static void rates_of_energy(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id part,
-                            gm_node_id *rates)
+static void rates_of_energy(struct gm_arena *arena, const struct gm_problem *problem,
+                            struct gm_formula *graph, gm_node_id part, gm_node_id *rates)
 {
     const struct gm_user_system *system = system_of(problem);
     const size_t n = system->n, half = n / 2;
-    gm_node_id *gradient = calloc(problem->n + 1, sizeof *gradient);
-    graph->failed = !gradient || !gm_gradient(graph, part, NULL, problem->n, gradient) || graph->failed;
-    for (size_t i = 0; i < n && !graph->failed; i++) {
+    gm_node_id *gradient = gm_arena_take(arena, problem->n + 1, sizeof *gradient);
+    gm_arena_need(arena, gm_gradient(graph, part, NULL, problem->n, gradient) && !graph->failed);
+    for (size_t i = 0; i < n; i++) {
         rates[i] = system->kind == GM_POISSON ? gm_formula_constant(graph, 0)
                    : i < half                 ? gradient[half + i]
                                               : gm_negative(graph, gradient[i - half]);
@@ -58,7 +58,6 @@ static void rates_of_energy(const struct gm_problem *problem, struct gm_formula 
             rates[i] = gm_sum(graph, rates[i], gm_product(graph, entry, gradient[k]));
         }
     }
-    free(gradient);
 }
 
 /* The rates of a field, of which the time has none. */
@@ -124,7 +123,7 @@ static gm_node_id energy_in_jacobi(const struct gm_problem *problem, struct gm_f
 }
 
 /* Writes a part of the structure. Returns false if the system has no such structure. */
-static bool structural_rates(const struct gm_problem *problem, enum structural which,
+static bool structural_rates(struct gm_arena *arena, const struct gm_problem *problem, enum structural which,
                              struct gm_formula *graph, gm_node_id *rates)
 {
     const struct gm_user_data *data = gm_user_data_of(problem);
@@ -137,18 +136,15 @@ static bool structural_rates(const struct gm_problem *problem, enum structural w
         return false;
     }
     const gm_node_id zero = gm_formula_constant(graph, 0);
-    bool *fields = malloc(n * sizeof *fields), found = !linear;
-    gm_node_id *motions = calloc(n, sizeof *motions);
+    bool *fields = gm_arena_take(arena, n, sizeof *fields), found = !linear;
+    gm_node_id *motions = gm_arena_take(arena, n, sizeof *motions);
     const bool gravity = kepler && gm_ode_of(problem)->gravity;
-    graph->failed = !fields || !motions || graph->failed;
-    if (gravity && !graph->failed) {
-        rates_of_energy(problem, graph, energy_in_jacobi(problem, graph), motions);
+    if (gravity) {
+        rates_of_energy(arena, problem, graph, energy_in_jacobi(problem, graph), motions);
     }
     all_rates(problem, graph, data->model->system->rates, rates);
-    for (size_t i = 0; i < n && !graph->failed; i++) {
-        fields[i] = true;
-    }
-    for (size_t i = 0; i < n && !graph->failed; i++) {
+    memset(fields, true, n * sizeof *fields);
+    for (size_t i = 0; i < n; i++) {
         gm_node_id first = i < half ? rates[i] : zero, other = gm_difference(graph, rates[i], first);
         if (gravity) {
             first = motions[i];
@@ -157,32 +153,31 @@ static bool structural_rates(const struct gm_problem *problem, enum structural w
             other = graft(problem, graph, found_nodes[kepler ? 1 + i - half : i]);
             first = gm_difference(graph, rates[i], other);
         } else if (linear && !fast) {
-            graph->failed =
-                !gm_linear_part(graph, rates[i], fields, fields, n, &first, &other) || graph->failed;
+            gm_arena_need(arena, gm_linear_part(graph, rates[i], fields, fields, n, &first, &other));
         }
+        gm_arena_need(arena, !graph->failed);
         found = found || !gm_is_constant(graph, first, 0);
         rates[i] = second ? other : first;
     }
-    free(fields);
-    free(motions);
     return found;
 }
 
-static bool part_rates(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
-                       gm_node_id *rates)
+static bool part_rates(struct gm_arena *arena, const struct gm_problem *problem, const char *name,
+                       struct gm_formula *graph, gm_node_id *rates)
 {
     const struct gm_user_system *system = system_of(problem);
     const struct gm_system_item *item = item_of(system, name);
     bool found = item;
     all_rates(problem, graph, item && system->kind == GM_RATES ? item->nodes : NULL, rates);
     if (item && system->kind != GM_RATES) {
-        rates_of_energy(problem, graph, graft(problem, graph, item->nodes[0]), rates);
+        rates_of_energy(arena, problem, graph, graft(problem, graph, item->nodes[0]), rates);
     }
     for (enum structural which = 0; which < STRUCTURAL && !item; which++) {
-        found =
-            found || (strcmp(structural[which], name) == 0 && structural_rates(problem, which, graph, rates));
+        found = found || (strcmp(structural[which], name) == 0 &&
+                          structural_rates(arena, problem, which, graph, rates));
     }
-    return found && !graph->failed;
+    gm_arena_need(arena, !graph->failed);
+    return found;
 }
 
 /* The names with plus signs between them. */
@@ -195,13 +190,8 @@ static const char *sum_of(struct gm_arena *arena, const char *const *names, size
     return text;
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
-static const char *parts_differ(const struct gm_problem *problem, const char *const *names, size_t count,
-                                struct gm_arena *arena)
+static const char *parts_differ(struct gm_arena *arena, const struct gm_problem *problem,
+                                const char *const *names, size_t count)
 {
     const struct gm_user_system *system = system_of(problem);
     const size_t n = system->n;
@@ -209,12 +199,12 @@ static const char *parts_differ(const struct gm_problem *problem, const char *co
     gm_node_id *rest = gm_arena_take(arena, problem->n + 1, sizeof *rest),
                *rates = gm_arena_take(arena, problem->n + 1, sizeof *rates);
     gm_formula_open(graph);
-    gm_arena_keep(arena, graph, close_graph);
+    gm_arena_keep(arena, graph, gm_formula_close);
     all_rates(problem, graph, system->rates, rest);
     gm_node_id energy = system->kind == GM_RATES ? GM_NO_NODE : graft(problem, graph, system->energy);
     for (size_t k = 0; k < count; k++) {
         const struct gm_system_item *item = item_of(system, names[k]);
-        gm_arena_need(arena, part_rates(problem, names[k], graph, rates));
+        gm_arena_need(arena, part_rates(arena, problem, names[k], graph, rates));
         for (size_t i = 0; i < n; i++) {
             rest[i] = gm_difference(graph, rest[i], rates[i]);
         }

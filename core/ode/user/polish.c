@@ -264,18 +264,13 @@ static void gather(struct polishing *polishing)
     }
 }
 
-static void close_written(void *written)
-{
-    gm_written_close(written);
-}
-
 static void polish_all(struct gm_arena *arena, void *data)
 {
     struct polishing *polishing = data;
     struct gm_polish *polish = polishing->polish;
     const struct gm_user_scheme_source *source = polishing->source;
     struct gm_written_scheme *written = gm_arena_take(arena, 1, sizeof *written);
-    gm_arena_keep(arena, written, close_written);
+    gm_arena_keep(arena, written, gm_written_close);
     gm_arena_need(arena, gm_written_open(written, source->text, 0, source->length, NULL, polishing->fault));
     gather(polishing);
     solve(polishing);

@@ -520,11 +520,9 @@ static void open_problem(struct gm_arena *arena, void *data)
 
 bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model *model, const double *values)
 {
-    struct gm_arena *arena = gm_arena_open();
     *problem = (struct gm_problem){.name = "system", .kind = &gm_kind_ode, .n = model->components, .m = 1};
-    const bool opened = gm_arena_run(arena, open_problem, &(struct opening){problem, model, values});
+    const bool opened = gm_arena_made(open_problem, &(struct opening){problem, model, values});
     if (!opened) {
-        gm_arena_close(arena);
         *problem = (struct gm_problem){0};
     }
     return opened;
@@ -534,7 +532,6 @@ static void close_motion(void *data)
 {
     struct gm_user_motion *motion = data;
     gm_user_problem_close(&motion->problem);
-    gm_user_model_close(&motion->model);
     gm_system_close(&motion->system);
 }
 

@@ -39,21 +39,23 @@ struct own {
     struct gm_arena *arena; /* the opened scheme's: owns all its parts */
 };
 
+/* The schemes that a line names. */
+struct named {
+    int count;
+    const struct gm_scheme **at;
+};
+
 /* The body of an arena, which a fault leaves; the sentence is empty when out of memory. */
 struct making {
     const struct gm_user_scheme_source *source;
     struct gm_fault *fault;
     struct gm_arena *arena;
+    const struct gm_written_scheme *written; /* the part of the text that is made at this depth */
+    struct named schemes[GM_SCHEME_WORDS];   /* that its lines name */
     int depth;
-    struct gm_coefficients
-        *moved;       /* its copies, each with one decimal moved, go to the whole scheme; or NULL */
+    struct gm_coefficients *moved; /* of the whole scheme, each with one decimal moved */
+    int moved_count;
     struct own *made; /* the whole scheme */
-};
-
-/* The schemes that a line names. */
-struct named {
-    int count;
-    const struct gm_scheme **at;
 };
 
 _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct making *making, size_t place,
@@ -67,26 +69,28 @@ _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct ma
     gm_arena_leave(making->arena);
 }
 
-static void close_coefficients(void *coefficients)
+static void close_user(void *scheme)
 {
-    gm_coefficients_close(coefficients);
-}
-
-static void close_written(void *written)
-{
-    gm_written_close(written);
-}
-
-static void close_user(struct own *self)
-{
-    if (self) {
-        gm_arena_close(self->arena);
-    }
+    gm_arena_close(((struct own *)scheme)->arena);
 }
 
 void gm_user_scheme_close(const struct gm_scheme *scheme)
 {
-    close_user((struct own *)(void *)scheme);
+    if (scheme) {
+        close_user((void *)scheme);
+    }
+}
+
+static const struct gm_written_line *line_of(const struct making *making, enum gm_scheme_word word)
+{
+    return &making->written->lines[word];
+}
+
+/* The first scheme that a line names; NULL: it names none. */
+static const struct gm_scheme *first_of(const struct making *making, enum gm_scheme_word word)
+{
+    const struct named *named = &making->schemes[word];
+    return named->count > 0 ? named->at[0] : NULL;
 }
 
 /* The text of a span, with single blanks. */
@@ -95,22 +99,11 @@ static char *words_of(const struct making *making, struct gm_span span)
     return gm_arena_keep(making->arena, gm_span_words(making->source->text, span), free);
 }
 
-/* Returns `count` coefficients, not yet opened, which the arena closes. */
-static struct gm_coefficients *take_coefficients(const struct making *making, size_t count)
-{
-    struct gm_coefficients *taken = gm_arena_take(making->arena, count, sizeof *taken);
-    for (size_t i = 0; i < count; i++) {
-        gm_arena_keep(making->arena, &taken[i], close_coefficients);
-    }
-    return taken;
-}
-
 static struct own *open_user(const struct making *making, size_t coefficients)
 {
     struct own *self = gm_arena_take(making->arena, 1, sizeof *self);
     self->coefficients = gm_arena_take(making->arena, 1, coefficients);
     self->row.coefficients = self->coefficients;
-    gm_arena_keep(making->arena, &self->exact, close_coefficients);
     return self;
 }
 
@@ -142,31 +135,27 @@ static struct own *close_tableau(struct own *self, const struct gm_tableau *tabl
     return self;
 }
 
-static struct own *make_runge_kutta(const struct making *making, const struct gm_written_scheme *written,
-                                    const struct named *schemes)
+static struct own *make_runge_kutta(const struct making *making)
 {
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_line *lines = making->written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     struct own *self = open_user(making, sizeof(struct gm_tableau));
     struct gm_tableau tableau = {.stages = stages};
-    (void)schemes;
-    gm_arena_need(making->arena, gm_coefficients_open(&self->exact, GM_EQUATIONS_PLAIN, stages));
+    gm_coefficients_open(making->arena, &self->exact, GM_EQUATIONS_PLAIN, stages);
     put(lines[GM_SCHEME_WORD_A].numbers, stages, stages, tableau.a, self->exact.a[0]);
     put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &tableau.b, self->exact.b[0]);
     return close_tableau(self, &tableau);
 }
 
-static struct own *make_partitioned(const struct making *making, const struct gm_written_scheme *written,
-                                    const struct named *schemes)
+static struct own *make_partitioned(const struct making *making)
 {
-    (void)schemes;
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_line *lines = making->written->lines;
     const struct gm_written_number *b = lines[GM_SCHEME_WORD_B].numbers,
                                    *d = lines[GM_SCHEME_WORD_BH].numbers;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     struct own *self = open_user(making, sizeof(struct gm_partitioned_row));
     struct gm_coefficients *exact = &self->exact;
-    gm_arena_need(making->arena, gm_coefficients_open(exact, GM_EQUATIONS_PARTITIONED, stages));
+    gm_coefficients_open(making->arena, exact, GM_EQUATIONS_PARTITIONED, stages);
     struct gm_partitioned_row *row = self->coefficients;
     self->row.family = &gm_family_partitioned;
     self->row.needs = GM_NEEDS_HAMILTONIAN;
@@ -178,11 +167,9 @@ static struct own *make_partitioned(const struct making *making, const struct gm
     return self;
 }
 
-static struct own *make_nystrom(const struct making *making, const struct gm_written_scheme *written,
-                                const struct named *schemes)
+static struct own *make_nystrom(const struct making *making)
 {
-    (void)schemes;
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_line *lines = making->written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows;
     const size_t s = (size_t)stages;
     struct own *self = open_user(making, sizeof(struct gm_nystrom_row));
@@ -195,7 +182,8 @@ static struct own *make_nystrom(const struct making *making, const struct gm_wri
     put(lines[GM_SCHEME_WORD_B].numbers, 1, stages, &row->b, b);
     put(lines[GM_SCHEME_WORD_BV].numbers, 1, stages, &row->bv, b + s);
     put(lines[GM_SCHEME_WORD_C].numbers, 1, stages, &row->c, b + 2 * s);
-    gm_arena_need(making->arena, gm_coefficients_open_nystrom(&self->exact, stages, a, b, b + s, b + 2 * s));
+    gm_coefficients_open_nystrom(making->arena, &self->exact, stages,
+                                 &(struct gm_nystrom_balls){a, b, b + s, b + 2 * s});
     return self;
 }
 
@@ -209,20 +197,26 @@ struct pieces {
     } at[GM_SPLITTING_PIECES];
 };
 
+/* A short dyadic fraction, which is exact. */
+static struct gm_written_number number_of(double value)
+{
+    return (struct gm_written_number){.value = value, .ball = gm_ball_of(value)};
+}
+
 /* Adds a piece; neighbours of one kind are merged. Returns false if there are too many. */
-static bool add_piece(struct pieces *pieces, enum gm_piece piece, double value, struct gm_ball ball)
+static bool add_piece(struct pieces *pieces, enum gm_piece piece, struct gm_written_number fraction)
 {
     const int last = pieces->count - 1;
     if (last >= 0 && pieces->at[last].piece == piece) {
-        pieces->at[last].fraction.value += value;
-        pieces->at[last].fraction.ball = gm_ball_add(pieces->at[last].fraction.ball, ball);
+        pieces->at[last].fraction.value += fraction.value;
+        pieces->at[last].fraction.ball = gm_ball_add(pieces->at[last].fraction.ball, fraction.ball);
         return true;
     }
     if (pieces->count == GM_SPLITTING_PIECES) {
         return false;
     }
     pieces->at[pieces->count].piece = piece;
-    pieces->at[pieces->count++].fraction = (struct gm_written_number){.value = value, .ball = ball};
+    pieces->at[pieces->count++].fraction = fraction;
     return true;
 }
 
@@ -247,7 +241,7 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
         return self;
     }
     /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
-    gm_arena_need(making->arena, gm_family_splitting.coefficients_open(&self->row, &self->exact));
+    gm_family_splitting.coefficients_open(making->arena, &self->row, &self->exact);
     for (int j = 0; j < pieces->count; j++) {
         const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
         self->exact.b[side][j] = pieces->at[j].fraction.ball;
@@ -264,50 +258,45 @@ static const struct gm_parts_row *parts_of(const struct gm_scheme *scheme)
     return scheme->family == &gm_family_parts ? scheme->coefficients : NULL;
 }
 
-static bool has_coefficients(const struct gm_scheme *scheme)
-{
-    return scheme->exact || scheme->family->coefficients_open;
-}
-
 /* Adds the pieces of a splitting, each times a fraction, forwards or backwards. */
 static bool add_pieces(const struct making *making, struct pieces *pieces, const struct gm_scheme *scheme,
-                       const struct gm_written_number *fraction, bool backwards)
+                       struct gm_written_number fraction, bool backwards)
 {
     const struct gm_splitting *table = scheme->coefficients;
-    struct gm_coefficients *exact = has_coefficients(scheme) ? take_coefficients(making, 1) : NULL;
-    bool good = true;
-    gm_arena_need(making->arena, !exact || gm_scheme_coefficients_open(scheme, exact));
+    struct gm_coefficients exact;
+    const bool known = gm_scheme_coefficients_open(making->arena, scheme, &exact);
     for (int k = 0; k < table->count; k++) {
         const int i = backwards ? table->count - 1 - k : k;
         const int side = table->pieces[i].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
-        const struct gm_ball ball = exact ? exact->b[side][i] : gm_ball_written(table->pieces[i].fraction);
-        good = good && add_piece(pieces, table->pieces[i].piece, table->pieces[i].fraction * fraction->value,
-                                 gm_ball_multiply(ball, fraction->ball));
+        const struct gm_ball ball = known ? exact.b[side][i] : gm_ball_written(table->pieces[i].fraction);
+        const struct gm_written_number product = {.value = table->pieces[i].fraction * fraction.value,
+                                                  .ball = gm_ball_multiply(ball, fraction.ball)};
+        if (!add_piece(pieces, table->pieces[i].piece, product)) {
+            return false;
+        }
     }
-    return good;
+    return true;
 }
 
-static struct own *make_splitting(const struct making *making, const struct gm_written_scheme *written,
-                                  const struct named *schemes)
+static struct own *make_splitting(const struct making *making)
 {
-    (void)schemes;
-    const struct gm_written_line *drifts = &written->lines[GM_SCHEME_WORD_DRIFTS];
-    const struct gm_written_line *kicks = &written->lines[GM_SCHEME_WORD_KICKS];
+    const struct gm_written_line *drifts = line_of(making, GM_SCHEME_WORD_DRIFTS),
+                                 *kicks = line_of(making, GM_SCHEME_WORD_KICKS),
+                                 *corrector = line_of(making, GM_SCHEME_WORD_CORRECTOR);
     struct pieces pieces = {0};
     const int all = drifts->columns + kicks->columns;
-    bool kick = written->kick_first;
+    bool kick = making->written->kick_first;
     for (int i = 0; i < all; i++, kick = !kick) {
         const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
         const bool only = i + 1 == all && pieces.count == 0;
         if (number->value != 0 || only) { /* zeros that fill up tables are skipped */
-            add_piece(&pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
+            add_piece(&pieces, kick ? GM_KICK : GM_DRIFT, *number);
         }
     }
-    const struct gm_written_line *corrector = &written->lines[GM_SCHEME_WORD_CORRECTOR];
     const struct gm_parts_row corrected = {.parts = 2,
                                            .list = {{"kinetic", NULL}, {"potential", NULL}},
                                            .corrector = corrector->said ? corrector->numbers[0].value : 0};
-    return of_pieces(making, &pieces, written->nystrom || corrector->said ? GM_NEEDS_NYSTROM : 0,
+    return of_pieces(making, &pieces, making->written->nystrom || corrector->said ? GM_NEEDS_NYSTROM : 0,
                      corrector->said ? &corrected : NULL);
 }
 
@@ -367,7 +356,6 @@ static void check_parts(const struct making *making, const struct gm_parts_row *
 static void put_strang(const struct making *making, struct gm_parts_row *row, struct pieces *pieces,
                        size_t place)
 {
-    const struct gm_ball half = gm_ball_divide(gm_ball_of(1), gm_ball_of(2));
     const size_t count = row->parts;
     size_t mirrored[GM_MOST_PARTS];
     for (size_t k = 0; k < count; k++) {
@@ -379,22 +367,20 @@ static void put_strang(const struct making *making, struct gm_parts_row *row, st
             mirrored[k] = row->parts++;
             row->list[mirrored[k]] = (struct gm_named_part){row->list[k].name, &adjoint->row};
         }
-        add_piece(pieces, (enum gm_piece)k, 0.5, half);
+        add_piece(pieces, (enum gm_piece)k, number_of(0.5));
     }
     for (size_t k = count; k-- > 0;) {
-        add_piece(pieces, (enum gm_piece)mirrored[k], 0.5, half);
+        add_piece(pieces, (enum gm_piece)mirrored[k], number_of(0.5));
     }
 }
 
 /* lie, strang and split, and splittings that are called with parts. */
-static struct own *make_parts(const struct making *making, const struct gm_written_scheme *written,
-                              const struct named *schemes)
+static struct own *make_parts(const struct making *making)
 {
-    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
-    const struct gm_scheme *base = bases->count > 0 ? bases->at[0] : NULL;
-    const struct gm_written_line *parts = &written->lines[GM_SCHEME_WORD_PARTS],
-                                 *steps = &written->lines[GM_SCHEME_WORD_STEPS];
-    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)};
+    const struct gm_scheme *base = first_of(making, GM_SCHEME_WORD_BASE);
+    const enum gm_written_kind kind = making->written->kind;
+    const struct gm_written_line *parts = line_of(making, GM_SCHEME_WORD_PARTS),
+                                 *steps = line_of(making, GM_SCHEME_WORD_STEPS);
     struct pieces pieces = {0};
     struct gm_parts_row row = {.parts = 0};
     const size_t place = parts->value.begin;
@@ -403,31 +389,29 @@ static struct own *make_parts(const struct making *making, const struct gm_writt
         const struct gm_parts_row *named = parts_of(base);
         const size_t wanted = named ? named->parts : 2;
         if ((!named && base->family != &gm_family_splitting) || wanted == 0) {
-            fail(making, written->lines[GM_SCHEME_WORD_BASE].value.begin,
+            fail(making, line_of(making, GM_SCHEME_WORD_BASE)->value.begin,
                  "%.60s is not a splitting of named parts", base->name);
         }
         if (row.parts != wanted) {
             fail(making, place, "%.60s splits into %zu parts, not into %zu", base->name, wanted, row.parts);
         }
         row.corrector = named ? named->corrector : 0;
-        add_pieces(making, &pieces, base, &one, false);
-    } else if (written->kind == GM_WRITTEN_SPLIT) {
+        add_pieces(making, &pieces, base, number_of(1), false);
+    } else if (kind == GM_WRITTEN_SPLIT) {
         for (int i = 0; i < steps->columns; i++) {
-            add_piece(&pieces, (enum gm_piece)((size_t)i % row.parts), steps->numbers[i].value,
-                      steps->numbers[i].ball);
+            add_piece(&pieces, (enum gm_piece)((size_t)i % row.parts), steps->numbers[i]);
         }
         check_parts(making, &row, &pieces, steps->value.begin);
     } else if (row.parts == 1 && strcmp(row.list[0].name, "pieces") == 0) {
-        row =
-            (struct gm_parts_row){.of_pieces = written->kind == GM_WRITTEN_LIE ? NULL : &gm_composition_none};
+        row = (struct gm_parts_row){.of_pieces = kind == GM_WRITTEN_LIE ? NULL : &gm_composition_none};
     } else if (row.parts == 1) {
         fail(making, place, "%s splits into 2 parts or more, not into %.40s alone",
-             gm_written_kind_name(written->kind), row.list[0].name);
-    } else if (written->kind == GM_WRITTEN_STRANG) {
+             gm_written_kind_name(kind), row.list[0].name);
+    } else if (kind == GM_WRITTEN_STRANG) {
         put_strang(making, &row, &pieces, place);
     } else {
         for (size_t k = 0; k < row.parts; k++) {
-            add_piece(&pieces, (enum gm_piece)k, 1, one.ball);
+            add_piece(&pieces, (enum gm_piece)k, number_of(1));
         }
     }
     const bool turned = row.parts == 2 && strcmp(row.list[0].name, "potential") == 0;
@@ -451,7 +435,7 @@ static struct own *flatten(const struct making *making, const struct named *step
     unsigned needs = 0;
     for (int k = 0; k < steps->count; k++) {
         needs |= steps->at[k]->needs;
-        if (!add_pieces(making, &pieces, steps->at[k], &fractions[k], false)) {
+        if (!add_pieces(making, &pieces, steps->at[k], fractions[k], false)) {
             fail(making, place, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
         }
     }
@@ -478,21 +462,20 @@ static void open_exact(const struct making *making, struct gm_coefficients *exac
                        const struct gm_written_number *fractions)
 {
     const size_t count = (size_t)steps->count;
-    struct gm_coefficients *parts = take_coefficients(making, count);
+    struct gm_coefficients *parts = gm_arena_take(making->arena, count, sizeof *parts);
     struct gm_ball *balls = gm_arena_take(making->arena, count, sizeof *balls);
     int stages = 0;
     for (size_t k = 0; k < count; k++) {
-        if (!has_coefficients(steps->at[k])) {
+        if (!gm_scheme_coefficients_open(making->arena, steps->at[k], &parts[k])) {
             return;
         }
-        gm_arena_need(making->arena, gm_scheme_coefficients_open(steps->at[k], &parts[k]));
         balls[k] = fractions[k].ball;
         stages += parts[k].stages;
         if (stages > MOST_STAGES) {
             return;
         }
     }
-    gm_arena_need(making->arena, gm_coefficients_open_composition(exact, parts, balls, steps->count));
+    gm_coefficients_open_composition(making->arena, exact, parts, balls, steps->count);
 }
 
 /* Makes a composition of steps of schemes, one after the other, of these fractions; faults are reported at `place`. */
@@ -529,8 +512,7 @@ static struct own *compose(const struct making *making, const struct named *step
 static struct own *same(const struct making *making, const struct gm_scheme *scheme)
 {
     struct own *self = open_user(making, 1);
-    gm_arena_need(making->arena,
-                  !has_coefficients(scheme) || gm_scheme_coefficients_open(scheme, &self->exact));
+    gm_scheme_coefficients_open(making->arena, scheme, &self->exact);
     self->row.family = scheme->family;
     self->row.coefficients = scheme->coefficients;
     self->row.needs = scheme->needs;
@@ -542,7 +524,6 @@ static struct own *same(const struct making *making, const struct gm_scheme *sch
 static struct own *adjoint_splitting(const struct making *making, const struct gm_scheme *scheme,
                                      size_t place)
 {
-    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)};
     struct pieces pieces = {0};
     const struct gm_parts_row *parts = parts_of(scheme);
     struct gm_parts_row row = parts ? *parts : (struct gm_parts_row){.parts = 0};
@@ -553,7 +534,7 @@ static struct own *adjoint_splitting(const struct making *making, const struct g
             row.list[i].by = &adjoint->row;
         }
     }
-    add_pieces(making, &pieces, scheme, &one, true);
+    add_pieces(making, &pieces, scheme, number_of(1), true);
     return of_pieces(making, &pieces, scheme->needs, parts ? &row : NULL);
 }
 
@@ -562,7 +543,7 @@ static struct own *adjoint_tableau(const struct making *making, const struct gm_
     const int stages = exact->stages;
     struct own *self = open_user(making, sizeof(struct gm_tableau));
     struct gm_tableau adjoint = {.stages = stages};
-    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
+    gm_coefficients_open_adjoint(making->arena, &self->exact, exact);
     for (int i = 0; i < stages; i++) {
         for (int j = 0; j < stages; j++) {
             adjoint.a[i][j] = gm_ball_midpoint(self->exact.a[0][i * stages + j]);
@@ -579,7 +560,7 @@ static struct own *adjoint_nystrom(const struct making *making, const struct gm_
     const struct gm_nystrom_row *row = scheme->coefficients;
     const int stages = row->stages, last = stages - 1;
     struct own *self = open_user(making, sizeof *row);
-    gm_arena_need(making->arena, gm_coefficients_open_adjoint(&self->exact, exact));
+    gm_coefficients_open_adjoint(making->arena, &self->exact, exact);
     struct gm_nystrom_row *adjoint = self->coefficients;
     adjoint->stages = stages;
     for (int i = 0; i < stages; i++) {
@@ -621,7 +602,9 @@ static struct own *adjoint_composition(const struct making *making, const struct
     reversed->count = substeps->count;
     self->row.family = scheme->family;
     self->row.needs = scheme->needs;
-    gm_arena_need(making->arena, !scheme->exact || gm_coefficients_open_adjoint(&self->exact, scheme->exact));
+    if (scheme->exact) {
+        gm_coefficients_open_adjoint(making->arena, &self->exact, scheme->exact);
+    }
     return self;
 }
 
@@ -631,22 +614,21 @@ static struct own *adjoint_single(const struct making *making, const struct gm_s
     if (scheme->family == &gm_family_splitting || (parts_of(scheme) && parts_of(scheme)->parts > 0)) {
         return adjoint_splitting(making, scheme, place);
     }
-    if (!has_coefficients(scheme)) {
+    struct gm_coefficients exact;
+    if (!gm_scheme_coefficients_open(making->arena, scheme, &exact)) {
         fail(making, place,
              "the adjoint of %.60s is unknown: it is neither a Runge-Kutta method nor a splitting",
              scheme->name);
     }
-    struct gm_coefficients *exact = take_coefficients(making, 1);
     const struct gm_tableau *row = scheme->coefficients;
-    gm_arena_need(making->arena, gm_scheme_coefficients_open(scheme, exact));
     if (scheme->family == &gm_family_nystrom) {
-        return adjoint_nystrom(making, scheme, exact);
+        return adjoint_nystrom(making, scheme, &exact);
     }
     if ((scheme->family != &gm_family_explicit && scheme->family != &gm_family_implicit) ||
-        exact->stages != row->stages) {
+        exact.stages != row->stages) {
         fail(making, place, "the adjoint of %.60s is not known", scheme->name);
     }
-    return adjoint_tableau(making, exact);
+    return adjoint_tableau(making, &exact);
 }
 
 /* The adjoint of a scheme, which outlives it. */
@@ -674,16 +656,15 @@ static bool are_adjoint(const struct making *making, const struct gm_scheme *a, 
                        are_adjoint(making, here->scheme, there->scheme);
         }
     }
-    if (mirrored || !has_coefficients(a) || !has_coefficients(b)) {
+    struct gm_coefficients parts[2], both;
+    if (mirrored || !gm_scheme_coefficients_open(making->arena, a, &parts[0]) ||
+        !gm_scheme_coefficients_open(making->arena, b, &parts[1])) {
         return mirrored;
     }
     /* then a step of one after a step of the other is symmetric */
-    struct gm_coefficients *taken = take_coefficients(making, 3);
     const struct gm_ball fractions[] = {gm_ball_of(1), gm_ball_of(1)};
-    gm_arena_need(making->arena, gm_scheme_coefficients_open(a, &taken[0]) &&
-                                     gm_scheme_coefficients_open(b, &taken[1]) &&
-                                     gm_coefficients_open_composition(&taken[2], taken, fractions, 2));
-    return taken[0].stages == taken[1].stages && gm_theory_is_symmetric(&taken[2]);
+    gm_coefficients_open_composition(making->arena, &both, parts, fractions, 2);
+    return parts[0].stages == parts[1].stages && gm_theory_is_symmetric(making->arena, &both);
 }
 
 /* ---- schemes of schemes ---- */
@@ -740,17 +721,16 @@ static const struct gm_scheme *scheme_of(const struct making *making, struct gm_
     return scheme;
 }
 
-static struct named schemes_of(const struct making *making, const struct gm_written_scheme *written,
-                               enum gm_scheme_word word)
+static struct named schemes_of(const struct making *making, enum gm_scheme_word word)
 {
-    const struct gm_written_line *line = &written->lines[word];
+    const struct gm_written_line *line = line_of(making, word);
     struct named named = {.count = line->said ? line->columns : 0};
     struct gm_span rest = line->value, piece;
     named.at = gm_arena_take(making->arena, (size_t)named.count, sizeof(*named.at));
     for (int i = 0; i < named.count; i++) {
         gm_span_take(making->source->text, &rest, ",", &piece);
         named.at[i] = scheme_of(making, piece);
-        if (written->kind != GM_WRITTEN_ADJOINT && !gm_scheme_composes(named.at[i])) {
+        if (making->written->kind != GM_WRITTEN_ADJOINT && !gm_scheme_composes(named.at[i])) {
             fail(making, piece.begin,
                  "%.60s cannot be a part of a step: it is adaptive, or carries data between steps",
                  named.at[i]->name);
@@ -771,32 +751,29 @@ static const char *join(const struct making *making, const struct named *named, 
 }
 
 /* The bases take turns. */
-static struct own *make_composition(const struct making *making, const struct gm_written_scheme *written,
-                                    const struct named *schemes)
+static struct own *make_composition(const struct making *making)
 {
-    const struct named *bases = &schemes[GM_SCHEME_WORD_BASE];
-    const struct gm_written_line *steps = &written->lines[GM_SCHEME_WORD_STEPS];
+    const struct named *bases = &making->schemes[GM_SCHEME_WORD_BASE];
+    const struct gm_written_line *steps = line_of(making, GM_SCHEME_WORD_STEPS);
     const size_t count = (size_t)steps->columns;
     struct named parts = {steps->columns, gm_arena_take(making->arena, count, sizeof(*parts.at))};
     for (int i = 0; i < parts.count; i++) {
         parts.at[i] = bases->at[i % bases->count];
     }
-    return compose(making, &parts, steps->numbers, written->lines[GM_SCHEME_WORD_BASE].value.begin);
+    return compose(making, &parts, steps->numbers, line_of(making, GM_SCHEME_WORD_BASE)->value.begin);
 }
 
-static struct own *make_processed(const struct making *making, const struct gm_written_scheme *written,
-                                  const struct named *schemes)
+static struct own *make_processed(const struct making *making)
 {
-    const struct gm_scheme *kernel = schemes[GM_SCHEME_WORD_KERNEL].at[0],
-                           *processor = schemes[GM_SCHEME_WORD_PROCESSOR].at[0];
-    struct own *adjoint = adjoint_of(making, processor, written->lines[GM_SCHEME_WORD_PROCESSOR].value.begin);
+    const struct gm_scheme *kernel = first_of(making, GM_SCHEME_WORD_KERNEL),
+                           *processor = first_of(making, GM_SCHEME_WORD_PROCESSOR);
+    struct own *adjoint =
+        adjoint_of(making, processor, line_of(making, GM_SCHEME_WORD_PROCESSOR)->value.begin);
     const struct gm_scheme *parts[] = {&adjoint->row, kernel, processor};
-    const struct gm_written_number one = {.value = 1, .ball = gm_ball_of(1)},
-                                   back = {.value = -1, .ball = gm_ball_of(-1)},
-                                   fractions[] = {back, one, one};
+    const struct gm_written_number fractions[] = {number_of(-1), number_of(1), number_of(1)};
     adjoint->row.name = processor->name;
     return compose(making, &(struct named){3, parts}, fractions,
-                   written->lines[GM_SCHEME_WORD_KERNEL].value.begin);
+                   line_of(making, GM_SCHEME_WORD_KERNEL)->value.begin);
 }
 
 /* The name in a piece of the line, of those that are held before it. */
@@ -819,12 +796,12 @@ static const char *held_name(const struct making *making, const struct gm_holdin
 
 /* A scheme that holds invariants keeps the order of its base, and of its claims the symmetry if that is asked for, or
    what every part of a step keeps. */
-static struct own *make_holding(const struct making *making, const struct gm_written_scheme *written,
-                                const struct named *schemes)
+static struct own *make_holding(const struct making *making)
 {
-    const struct gm_scheme *base = schemes[GM_SCHEME_WORD_BASE].at[0];
-    const struct gm_written_line *symmetric = &written->lines[GM_SCHEME_WORD_SYMMETRIC];
-    const struct gm_span named = written->lines[GM_SCHEME_WORD_INVARIANTS].value;
+    const struct gm_scheme *base = first_of(making, GM_SCHEME_WORD_BASE);
+    const struct gm_written_scheme *written = making->written;
+    const struct gm_written_line *symmetric = line_of(making, GM_SCHEME_WORD_SYMMETRIC);
+    const struct gm_span named = line_of(making, GM_SCHEME_WORD_INVARIANTS)->value;
     const bool relaxed = written->kind == GM_WRITTEN_RELAXED;
     const size_t most = relaxed ? 1 : GM_MOST_CONSERVED;
     struct own *self = open_user(making, sizeof(struct gm_holding));
@@ -892,28 +869,28 @@ static const char *numbers_of(const struct gm_written_line *line, char text[64])
 }
 
 /* Returns the title in pictures if the text gives none. */
-static char *title_of(const struct making *making, const struct gm_written_scheme *written,
-                      const struct named schemes[GM_SCHEME_WORDS])
+static char *title_of(const struct making *making)
 {
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_scheme *base = first_of(making, GM_SCHEME_WORD_BASE);
+    const enum gm_written_kind kind = making->written->kind;
+    const struct gm_written_line *lines = making->written->lines;
     const int stages = lines[GM_SCHEME_WORD_A].rows, steps = lines[GM_SCHEME_WORD_STEPS].columns;
     char numbers[64], others[64];
-    switch (written->kind) {
+    switch (kind) {
     case GM_WRITTEN_COMPOSITION:
         return gm_arena_print(making->arena, "%d step%s of %s (%s)", steps, gm_plural(steps),
-                              join(making, &schemes[GM_SCHEME_WORD_BASE], true),
+                              join(making, &making->schemes[GM_SCHEME_WORD_BASE], true),
                               numbers_of(&lines[GM_SCHEME_WORD_STEPS], numbers));
     case GM_WRITTEN_ADJOINT:
-        return gm_arena_print(making->arena, "adjoint of %s", schemes[GM_SCHEME_WORD_BASE].at[0]->title);
+        return gm_arena_print(making->arena, "adjoint of %s", base->title);
     case GM_WRITTEN_PROJECTED:
     case GM_WRITTEN_RELAXED:
-        return gm_arena_print(making->arena, "%s, %s (%s)", schemes[GM_SCHEME_WORD_BASE].at[0]->title,
-                              gm_written_kind_name(written->kind),
+        return gm_arena_print(making->arena, "%s, %s (%s)", base->title, gm_written_kind_name(kind),
                               words_of(making, lines[GM_SCHEME_WORD_INVARIANTS].value));
     case GM_WRITTEN_PROCESSED:
         return gm_arena_print(making->arena, "%s, processed by %s",
-                              schemes[GM_SCHEME_WORD_KERNEL].at[0]->title,
-                              schemes[GM_SCHEME_WORD_PROCESSOR].at[0]->title);
+                              first_of(making, GM_SCHEME_WORD_KERNEL)->title,
+                              first_of(making, GM_SCHEME_WORD_PROCESSOR)->title);
     case GM_WRITTEN_SPLITTING:
         return gm_arena_print(making->arena, "splitting (%s / %s)",
                               numbers_of(&lines[GM_SCHEME_WORD_DRIFTS], numbers),
@@ -921,23 +898,17 @@ static char *title_of(const struct making *making, const struct gm_written_schem
     case GM_WRITTEN_LIE:
     case GM_WRITTEN_STRANG:
     case GM_WRITTEN_SPLIT:
-    case GM_WRITTEN_CALLED: {
-        const struct gm_scheme *base =
-            schemes[GM_SCHEME_WORD_BASE].count ? schemes[GM_SCHEME_WORD_BASE].at[0] : NULL;
-        const char *parts = words_of(making, lines[GM_SCHEME_WORD_PARTS].value);
-        return gm_arena_print(making->arena, "%s of %s",
-                              base ? base->title : gm_written_kind_name(written->kind), parts);
-    }
+    case GM_WRITTEN_CALLED:
+        return gm_arena_print(making->arena, "%s of %s", base ? base->title : gm_written_kind_name(kind),
+                              words_of(making, lines[GM_SCHEME_WORD_PARTS].value));
     default:
-        return gm_arena_print(making->arena, "own %s, %d stage%s (b: %s)",
-                              gm_written_kind_name(written->kind), stages, gm_plural(stages),
-                              numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
+        return gm_arena_print(making->arena, "own %s, %d stage%s (b: %s)", gm_written_kind_name(kind), stages,
+                              gm_plural(stages), numbers_of(&lines[GM_SCHEME_WORD_B], numbers));
     }
 }
 
 /* Each side's weights sum to 1, but for a part of another scheme. */
-static void check_weights(const struct making *making, const struct gm_written_scheme *written,
-                          const struct gm_coefficients *exact)
+static void check_weights(const struct making *making, const struct gm_coefficients *exact)
 {
     static const enum gm_scheme_word weights[][GM_SIDES] = {
         [GM_WRITTEN_SPLITTING] = {GM_SCHEME_WORD_DRIFTS, GM_SCHEME_WORD_KICKS},
@@ -951,33 +922,32 @@ static void check_weights(const struct making *making, const struct gm_written_s
             sum += gm_ball_midpoint(exact->b[side][i]);
         }
         if (fabs(sum - 1) > 1e-3) {
-            const enum gm_scheme_word word =
-                weights[written->kind][side] ? weights[written->kind][side] : GM_SCHEME_WORD_B;
-            const struct gm_written_line *line = &written->lines[word];
+            const enum gm_written_kind kind = making->written->kind;
+            const enum gm_scheme_word word = weights[kind][side] ? weights[kind][side] : GM_SCHEME_WORD_B;
+            const struct gm_written_line *line = line_of(making, word);
             const char *what =
-                written->kind == GM_WRITTEN_SPLITTING ? side == GM_SIDE_Q ? "drifts" : "kicks" : "weights";
+                kind == GM_WRITTEN_SPLITTING ? side == GM_SIDE_Q ? "drifts" : "kicks" : "weights";
             fail(making, line->said ? line->value.begin : 0, "the %s sum to %.15g, not to 1", what, sum);
         }
     }
 }
 
 /* The row's texts, its word among them. */
-static void tell(const struct making *making, const struct gm_written_scheme *written, struct own *self,
-                 const char *name, const char *title, const struct named schemes[GM_SCHEME_WORDS])
+static void tell(const struct making *making, struct own *self, const char *name, const char *title)
 {
-    const struct gm_written_line *own_title = &written->lines[GM_SCHEME_WORD_TITLE],
-                                 *reference = &written->lines[GM_SCHEME_WORD_REFERENCE];
+    const struct gm_written_line *own_title = line_of(making, GM_SCHEME_WORD_TITLE),
+                                 *reference = line_of(making, GM_SCHEME_WORD_REFERENCE);
     struct gm_scheme *row = &self->row;
     const char *words[GM_SCHEME_WORDS] = {NULL};
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        words[word] = join(making, &schemes[word], false);
+        words[word] = join(making, &making->schemes[word], false);
     }
     row->name = gm_arena_print(making->arena, "%s", name);
     row->title = own_title->said ? words_of(making, own_title->value)
                  : title         ? gm_arena_print(making->arena, "%s", title)
-                                 : title_of(making, written, schemes);
+                                 : title_of(making);
     row->formula = row->word =
-        gm_arena_keep(making->arena, gm_written_word(written, row->title, words), free);
+        gm_arena_keep(making->arena, gm_written_word(making->written, row->title, words), free);
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
@@ -1023,23 +993,23 @@ static struct gm_theory theory_of_parts(const struct making *making, const struc
 
 /* Fills order and claims that the text does not give from theory; without theory they follow from the
    parts. A scheme that is already open under this name with the same text passes on its order and claims. */
-static void finish(const struct making *making, const struct gm_written_scheme *written, struct own *self,
-                   const char *name, const char *title, const struct named schemes[GM_SCHEME_WORDS])
+static void finish(const struct making *making, struct own *self, const char *name, const char *title)
 {
+    const struct gm_written_scheme *written = making->written;
+    const struct named *schemes = making->schemes;
     struct gm_scheme *row = &self->row;
-    const struct gm_written_line *lines = written->lines;
+    const struct gm_written_line *claims = line_of(making, GM_SCHEME_WORD_CLAIMS);
     row->exact = self->exact.stages > 0 ? &self->exact : NULL;
     const struct gm_decimals *decimals = making->source->decimals;
     const bool tried = decimals && (decimals->instead || decimals->alone);
-    if (making->depth == 1 && making->moved && row->exact) {
-        self->exact.moved = making->moved->moved;
-        self->exact.moved_count = making->moved->moved_count;
-        *making->moved = (struct gm_coefficients){0};
+    if (making->depth == 1) {
+        self->exact.moved = making->moved;
+        self->exact.moved_count = making->moved_count;
     }
     if (making->depth == 1 && !making->source->part && !tried && row->exact) {
-        check_weights(making, written, row->exact);
+        check_weights(making, row->exact);
     }
-    tell(making, written, self, name, title, schemes);
+    tell(making, self, name, title);
     const struct gm_scheme *known = gm_scheme_find(name);
     if (known && known->word && strcmp(known->word, row->word) == 0) {
         row->order = known->order;
@@ -1047,9 +1017,8 @@ static void finish(const struct making *making, const struct gm_written_scheme *
         return;
     }
     struct gm_theory theory = {.known = false};
-    if (row->exact && !tried && (written->order == 0 || !lines[GM_SCHEME_WORD_CLAIMS].said)) {
-        theory = gm_theory_of(row->exact);
-        gm_arena_need(making->arena, theory.known);
+    if (row->exact && !tried && (written->order == 0 || !claims->said)) {
+        theory = gm_theory_of(making->arena, row->exact);
     }
     if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
@@ -1064,22 +1033,20 @@ static void finish(const struct making *making, const struct gm_written_scheme *
     row->claims = gm_holding_of(row)
                       ? row->claims
                       : (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
-    if (lines[GM_SCHEME_WORD_CLAIMS].said) {
-        read_claims(making, &lines[GM_SCHEME_WORD_CLAIMS], &row->claims);
+    if (claims->said) {
+        read_claims(making, claims, &row->claims);
     }
 }
 
-static struct own *make_adjoint(const struct making *making, const struct gm_written_scheme *written,
-                                const struct named *schemes)
+static struct own *make_adjoint(const struct making *making)
 {
-    return adjoint_of(making, schemes[GM_SCHEME_WORD_BASE].at[0],
-                      written->lines[GM_SCHEME_WORD_BASE].value.begin);
+    return adjoint_of(making, first_of(making, GM_SCHEME_WORD_BASE),
+                      line_of(making, GM_SCHEME_WORD_BASE)->value.begin);
 }
 
 static struct own *make(const struct making *outer, struct gm_span span, const char *name, const char *title)
 {
-    static struct own *(*const makers[GM_WRITTEN_KINDS])(
-        const struct making *, const struct gm_written_scheme *, const struct named *) = {
+    static struct own *(*const makers[GM_WRITTEN_KINDS])(const struct making *making) = {
         [GM_WRITTEN_RUNGE_KUTTA] = make_runge_kutta,
         [GM_WRITTEN_EXPLICIT] = make_runge_kutta,
         [GM_WRITTEN_PARTITIONED] = make_partitioned,
@@ -1098,83 +1065,73 @@ static struct own *make(const struct making *outer, struct gm_span span, const c
     static const enum gm_scheme_word of_schemes[] = {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_KERNEL,
                                                      GM_SCHEME_WORD_PROCESSOR};
     struct making making = *outer;
-    struct named schemes[GM_SCHEME_WORDS] = {{0}};
+    memset(making.schemes, 0, sizeof making.schemes);
     if (++making.depth > DEEPEST) {
         fail(outer, span.begin, "schemes are made of schemes more than %d deep", DEEPEST);
     }
     struct gm_written_scheme *written = gm_arena_take(making.arena, 1, sizeof *written);
-    gm_arena_keep(making.arena, written, close_written);
+    gm_arena_keep(making.arena, written, gm_written_close);
+    making.written = written;
     gm_arena_need(making.arena, gm_written_open(written, making.source->text, span.begin, span.end,
                                                 making.source->decimals, making.fault));
     for (size_t i = 0; i < GM_COUNT(of_schemes); i++) {
-        schemes[of_schemes[i]] = schemes_of(&making, written, of_schemes[i]);
+        making.schemes[of_schemes[i]] = schemes_of(&making, of_schemes[i]);
     }
-    struct own *own = makers[written->kind](&making, written, schemes);
-    finish(&making, written, own, name, title, schemes);
+    struct own *own = makers[written->kind](&making);
+    finish(&making, own, name, title);
     return own;
+}
+
+/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; none if
+   there are too many. */
+static void open_moved(struct making *making)
+{
+    enum { MOST = 1000 }; /* decimals times stages */
+    struct gm_arena *arena = making->arena;
+    struct gm_decimals decimals = {.alone = true};
+    struct gm_user_scheme_source tried = *making->source;
+    tried.decimals = &decimals;
+    const struct gm_scheme *typed = gm_user_scheme_open(&tried, making->fault);
+    const size_t stages = typed && typed->exact ? (size_t)typed->exact->stages : 0, count = decimals.count;
+    gm_user_scheme_close(typed);
+    if (decimals.at) {
+        gm_arena_keep(arena, decimals.at, free);
+    }
+    gm_arena_need(arena, typed);
+    const size_t asked = count * stages <= MOST && stages > 0 ? count : 0;
+    struct gm_ball *x = gm_arena_take(arena, count, sizeof *x);
+    making->moved = gm_arena_take(arena, asked, sizeof *making->moved);
+    for (size_t k = 0; k < asked; k++) {
+        for (size_t i = 0; i < count; i++) {
+            x[i] = decimals.at[i].ball;
+            x[i].radius = 0;
+        }
+        x[k] = gm_ball_add(x[k], gm_ball_of(decimals.at[k].ball.radius));
+        decimals.instead = x;
+        struct own *other = (void *)gm_user_scheme_open(&tried, making->fault);
+        gm_arena_need(arena, other);
+        gm_arena_keep(arena, other, close_user);
+        gm_coefficients_copy(arena, &making->moved[making->moved_count++], &other->exact);
+        gm_arena_drop(arena, other);
+    }
 }
 
 static void make_whole(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
     const struct gm_user_scheme_source *source = making->source;
+    making->arena = arena;
+    if (!source->decimals) {
+        open_moved(making);
+    }
     making->made = make(making, (struct gm_span){0, source->length}, source->name, source->title);
     making->made->arena = arena;
-}
-
-/* `moved` may be NULL. */
-static struct own *open_source(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
-                               struct gm_fault *fault)
-{
-    struct making making = {.source = source, .fault = fault, .arena = gm_arena_open(), .moved = moved};
-    *fault = (struct gm_fault){0};
-    if (gm_arena_run(making.arena, make_whole, &making)) {
-        return making.made;
-    }
-    gm_arena_close(making.arena);
-    return NULL;
-}
-
-/* Opens the coefficients of the scheme with each of its decimals moved by half a unit of its last digit; does
-   nothing if there are too many. False with a fault. */
-static bool open_moved(const struct gm_user_scheme_source *source, struct gm_coefficients *moved,
-                       struct gm_fault *fault)
-{
-    enum { MOST = 1000 }; /* decimals times stages */
-    struct gm_decimals decimals = {0};
-    struct gm_user_scheme_source tried = *source;
-    tried.decimals = &decimals;
-    decimals.alone = true;
-    struct own *self = open_source(&tried, NULL, fault);
-    const size_t all = decimals.count;
-    const size_t asked = self && self->exact.stages > 0 && all * (size_t)self->exact.stages <= MOST ? all : 0;
-    struct gm_ball *x = malloc((asked + 1) * sizeof *x);
-    moved->moved = asked ? calloc(asked, sizeof *moved->moved) : NULL;
-    bool good = self && x && (moved->moved || !asked);
-    close_user(self);
-    for (size_t k = 0; good && k < asked; k++) {
-        for (size_t i = 0; i < all; i++) {
-            x[i] = decimals.at[i].ball;
-            x[i].radius = 0;
-        }
-        x[k] = gm_ball_add(x[k], gm_ball_of(decimals.at[k].ball.radius));
-        decimals.instead = x;
-        struct own *other = open_source(&tried, NULL, fault);
-        good = other && gm_coefficients_copy(&moved->moved[k], &other->exact);
-        moved->moved_count += good;
-        close_user(other);
-    }
-    free(x);
-    free(decimals.at);
-    return good;
 }
 
 const struct gm_scheme *gm_user_scheme_open(const struct gm_user_scheme_source *source,
                                             struct gm_fault *fault)
 {
-    struct gm_coefficients moved = {0};
-    const bool good = source->decimals || open_moved(source, &moved, fault);
-    struct own *self = good ? open_source(source, &moved, fault) : NULL;
-    gm_coefficients_close(&moved);
-    return self ? &self->row : NULL;
+    struct making making = {.source = source, .fault = fault};
+    *fault = (struct gm_fault){0};
+    return gm_arena_made(make_whole, &making) ? &making.made->row : NULL;
 }

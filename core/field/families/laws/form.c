@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#include "core/certify.h"
 #include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
+#include "core/theory/certify.h"
 
 /* s at a node of one level, or of both in the middle, further by the jump around the ring. */
 static void at_node(const struct gm_problem *problem, const double *y, const double *other, size_t i,

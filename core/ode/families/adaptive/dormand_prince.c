@@ -244,15 +244,13 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                              struct gm_coefficients *coefficients)
 {
     (void)scheme;
     enum { USED = STAGES - 1 }; /* the last stage is the next step's first */
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, USED)) {
-        return false;
-    }
+    gm_coefficients_open(arena, coefficients, GM_EQUATIONS_PLAIN, USED);
     gm_coefficients_write(coefficients, 0, a[0], STAGES, a[USED]);
-    return true;
 }
 
 static const struct gm_scheme schemes[] = {

@@ -439,13 +439,12 @@ static const struct gm_scheme schemes[] = {
 
 /* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
    g_l b_j of each earlier one. */
-bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+void gm_tableau_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                  struct gm_coefficients *coefficients)
 {
     const struct gm_tableau *row = scheme->coefficients;
     const int steps = row->composition ? row->composition->steps : 1, stages = steps * row->stages;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
-        return false;
-    }
+    gm_coefficients_open(arena, coefficients, GM_EQUATIONS_PLAIN, stages);
     for (int j = 0; j < stages; j++) {
         const int step = j / row->stages, own = j % row->stages;
         const struct gm_ball fraction =
@@ -459,7 +458,6 @@ bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coef
                     : b;
         }
     }
-    return true;
 }
 
 const struct gm_family gm_family_implicit = {

@@ -10,6 +10,7 @@ extern const struct gm_tableau gm_implicit_midpoint, gm_implicit_gauss4, gm_impl
     gm_implicit_gauss8;
 
 /* gm_family.coefficients_open of a family whose rows are tableaus. */
-bool gm_tableau_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
+void gm_tableau_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                                  struct gm_coefficients *coefficients);
 
 #endif

@@ -22,11 +22,6 @@ struct work {
     double complex *matrix;                     /* the equations of one mode */
 };
 
-static void close_modes(void *modes)
-{
-    gm_modes_close(modes);
-}
-
 static void *open_work(struct gm_members *members, const struct gm_problem *problem,
                        const struct gm_scheme *scheme)
 {
@@ -34,7 +29,7 @@ static void *open_work(struct gm_members *members, const struct gm_problem *prob
                  stages = (size_t)((const struct gm_tableau *)scheme->coefficients)->stages,
                  unknowns = stages * fields;
     struct work *work = gm_arena_take(members->arena, 1, sizeof *work);
-    gm_arena_keep(members->arena, &work->modes, close_modes);
+    gm_arena_keep(members->arena, &work->modes, gm_modes_close);
     gm_arena_need(members->arena, gm_modes_open(&work->modes, n / fields, fields));
     work->stages = stages;
     work->n = n;

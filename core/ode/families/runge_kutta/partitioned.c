@@ -69,15 +69,13 @@ static const struct gm_scheme schemes[] = {
     {GM_TEXTS_lobatto4, .coefficients = &lobatto4, .needs = GM_NEEDS_HAMILTONIAN, PARTITIONED},
 };
 
-static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                              struct gm_coefficients *coefficients)
 {
     const struct gm_partitioned_row *tableau = scheme->coefficients;
-    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)tableau->stages)) {
-        return false;
-    }
+    gm_coefficients_open(arena, coefficients, GM_EQUATIONS_PARTITIONED, (int)tableau->stages);
     gm_coefficients_write(coefficients, GM_SIDE_Q, tableau->a[0], GM_TABLEAU_STAGES, tableau->b);
     gm_coefficients_write(coefficients, GM_SIDE_P, tableau->c[0], GM_TABLEAU_STAGES, tableau->d);
-    return true;
 }
 
 const struct gm_family gm_family_partitioned = {

@@ -174,9 +174,7 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
     if (!parts) {
         gm_arena_refuse(work->arena, "a field that is a sum of named parts");
     }
-    const bool found = parts->rates(work->problem, name, &work->graph, rates);
-    gm_arena_need(work->arena, !work->graph.failed);
-    if (!found) {
+    if (!parts->rates(work->arena, work->problem, name, &work->graph, rates)) {
         gm_arena_refuse(work->arena, "a part %.40s%s; %s", name, column_of(work, name),
                         other_names(work, name));
     }
@@ -342,7 +340,7 @@ static void list_parts(struct work *work)
         count += same == count;
         work->carrier = work->carrier == row->parts && !work->parts[i].timed ? i : work->carrier;
     }
-    const char *difference = parts ? parts->differ(work->problem, names, count, work->arena) : NULL;
+    const char *difference = parts ? parts->differ(work->arena, work->problem, names, count) : NULL;
     if (difference) {
         gm_arena_refuse(work->arena, "%s", difference);
     }
@@ -357,18 +355,13 @@ static void list_parts(struct work *work)
     }
 }
 
-static void close_graph(void *graph)
-{
-    gm_formula_close(graph);
-}
-
 static void open_work(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     const size_t n = work->problem->n;
     size_t largest = n;
     gm_formula_open(&work->graph);
-    gm_arena_keep(arena, &work->graph, close_graph);
+    gm_arena_keep(arena, &work->graph, gm_formula_close);
     (work->row->parts > 0 ? list_parts : list_pieces)(work);
     for (size_t i = 0; i < work->flow_count; i++) {
         const struct part *part = &work->parts[work->flows[i].part];
@@ -610,12 +603,26 @@ static double time_of(const struct gm_task *task, const struct work *work, size_
 }
 
 /* One evaluation is a flow of the last part. */
+static enum gm_status make_step(const struct gm_task *task, struct gm_progress *progress)
+{
+    struct work *work = task->workspace;
+    const size_t m = task->problem->m;
+    for (size_t i = 0; i < work->flow_count; i++) {
+        const double h = time_of(task, work, i, progress->done);
+        if (h != 0 && !advance_flow(task, work, i, h, task->out, progress)) {
+            progress->unsolved.obstacle = GM_NOT_FINITE;
+            return GM_NO_CONVERGENCE;
+        }
+        progress->evaluations += h != 0 && work->flows[i].part + 1 == work->part_count ? m : 0;
+    }
+    return gm_is_within(task->out, task->problem->n * m, task->limit) ? GM_OK : GM_BLOW_UP;
+}
+
 static struct gm_progress loop(const struct gm_task *task)
 {
     struct work *work = task->workspace;
-    const size_t count = task->problem->n * task->problem->m;
     struct gm_progress progress = {.status = GM_OK};
-    memcpy(task->out, task->y, count * sizeof(double));
+    memcpy(task->out, task->y, task->problem->n * task->problem->m * sizeof(double));
     for (size_t i = 0; i < work->flow_count && work->dt != task->dt; i++) {
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
@@ -624,25 +631,8 @@ static struct gm_progress loop(const struct gm_task *task)
         }
     }
     work->dt = task->dt;
-    for (; progress.done < task->steps; progress.done++) {
-        for (size_t i = 0; i < work->flow_count; i++) {
-            const double h = time_of(task, work, i, progress.done);
-            if (h == 0) {
-                continue;
-            }
-            if (!advance_flow(task, work, i, h, task->out, &progress)) {
-                convert(work, false, task->out);
-                progress.unsolved.obstacle = GM_NOT_FINITE;
-                progress.status = GM_NO_CONVERGENCE;
-                return progress;
-            }
-            progress.evaluations += work->flows[i].part + 1 == work->part_count ? task->problem->m : 0;
-        }
-        if (!gm_is_within(task->out, count, task->limit)) {
-            convert(work, false, task->out);
-            progress.status = GM_BLOW_UP;
-            return progress;
-        }
+    while (progress.done < task->steps && (progress.status = make_step(task, &progress)) == GM_OK) {
+        progress.done++;
     }
     convert(work, false, task->out);
     return progress;
@@ -655,7 +645,7 @@ static void open_one(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     gm_formula_open(&work->graph);
-    gm_arena_keep(arena, &work->graph, close_graph);
+    gm_arena_keep(arena, &work->graph, gm_formula_close);
     open_part(work, work->parts, &work->row->list[0]);
 }
 

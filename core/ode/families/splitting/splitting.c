@@ -31,15 +31,14 @@ static const struct gm_scheme schemes[] = {
 
 /* Writes each piece as a stage that depends on those before it. A first kick uses the last force of the step
    before. */
-static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
+                              struct gm_coefficients *coefficients)
 {
     const struct gm_splitting *splitting = scheme->coefficients;
     const int stages = splitting->count;
-    if (!gm_coefficients_open(
-            coefficients, scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
-            stages)) {
-        return false;
-    }
+    gm_coefficients_open(arena, coefficients,
+                         scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
+                         stages);
     coefficients->evaluations = 0;
     for (int j = 0; j < stages; j++) {
         const bool kick = splitting->pieces[j].piece == GM_KICK;
@@ -52,7 +51,6 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
             coefficients->a[side][i * stages + j] = fraction;
         }
     }
-    return true;
 }
 
 /* The loop for an n chosen at run time, like the loop over kernels: the force is stored from the last kick of

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The common part of certificates: the tolerances, the verdicts, and the call of the kind's measurement. */
-#include "core/certify.h"
+#include "core/theory/certify.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,6 +10,7 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "core/arena.h"
 #include "core/memory.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -234,15 +235,26 @@ bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, doub
     return gm_memory_guard_gsl(solve, &(struct solution){equations, tolerance, until, y});
 }
 
+/* The body of an arena. */
+struct theorising {
+    const struct gm_scheme *scheme;
+    struct gm_theory theory;
+};
+
+static void find_theory(struct gm_arena *arena, void *data)
+{
+    struct theorising *theorising = data;
+    struct gm_coefficients coefficients;
+    if (gm_scheme_coefficients_open(arena, theorising->scheme, &coefficients)) {
+        theorising->theory = gm_theory_of(arena, &coefficients);
+    }
+}
+
 struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme)
 {
-    struct gm_theory theory = {.known = false};
-    struct gm_coefficients coefficients;
-    if (gm_scheme_coefficients_open(scheme, &coefficients)) {
-        theory = gm_theory_of(&coefficients);
-        gm_coefficients_close(&coefficients);
-    }
-    return theory;
+    struct theorising theorising = {.scheme = scheme};
+    gm_arena_run_once(find_theory, &theorising);
+    return theorising.theory;
 }
 
 static void ask_theory(struct gm_certificate *certificate)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_CERTIFY_H
-#define GM_CORE_CERTIFY_H
+#ifndef GM_CORE_THEORY_CERTIFY_H
+#define GM_CORE_THEORY_CERTIFY_H
 
 #include <gsl/gsl_odeiv2.h>
 
