@@ -77,6 +77,14 @@ void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triang
     }
 }
 
+void gm_triangle_normal(const double p[9], double normal[3])
+{
+    for (size_t c = 0; c < 3; c++) {
+        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
+        normal[c] = (p[3 + a] - p[a]) * (p[6 + b] - p[b]) - (p[6 + a] - p[a]) * (p[3 + b] - p[b]);
+    }
+}
+
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
 {
     double p[9];
@@ -145,11 +153,11 @@ static void orient(struct building *building, bool in_plane)
         double p[9], normal[3], longest = 0;
         gm_complex_corners_in_space(complex, t, p);
         for (int k = 0; k < 3; k++) {
-            const int n = (k + 1) % 3, u = (k + 1) % 3, w = (k + 2) % 3;
+            const int n = (k + 1) % 3;
             longest = fmax(longest, hypot(hypot(p[3 * n] - p[3 * k], p[3 * n + 1] - p[3 * k + 1]),
                                           p[3 * n + 2] - p[3 * k + 2]));
-            normal[k] = (p[3 + u] - p[u]) * (p[6 + w] - p[w]) - (p[6 + u] - p[u]) * (p[3 + w] - p[w]);
         }
+        gm_triangle_normal(p, normal);
         const double twice = in_plane ? normal[2] : hypot(hypot(normal[0], normal[1]), normal[2]);
         const int *v = complex->triangle + 3 * t;
         const bool flat = !(fabs(twice) > 1e-12 * longest * longest) || !isfinite(twice);

@@ -125,6 +125,8 @@ void gm_complex_close(struct gm_complex *complex);
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6]);
 /* The same with z: x0 y0 z0 .. z2. */
 void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9]);
+/* The normal of a triangle with these corners in space, as long as twice its area. */
+void gm_triangle_normal(const double corners[9], double normal[3]);
 
 /* The edge between two vertices, or -1. */
 int gm_complex_edge(const struct gm_complex *complex, int a, int b);

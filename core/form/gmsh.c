@@ -641,13 +641,13 @@ static void drop_repeated(struct reader *reader)
 static void add_normals(const struct reader *reader, double normal[3])
 {
     for (size_t t = 0; t < reader->triangle_count; t++) {
-        const long *corner = reader->triangles[t].nodes;
-        const double *p = reader->nodes[corner[0]].at, *q = reader->nodes[corner[1]].at,
-                     *r = reader->nodes[corner[2]].at;
+        double corners[9], one[3];
+        for (int k = 0; k < 9; k++) {
+            corners[k] = reader->nodes[reader->triangles[t].nodes[k / 3]].at[k % 3];
+        }
+        gm_triangle_normal(corners, one);
         for (int k = 0; k < 3; k++) {
-            const int next = (k + 1) % 3, last = (k + 2) % 3;
-            normal[k] +=
-                (q[next] - p[next]) * (r[last] - p[last]) - (q[last] - p[last]) * (r[next] - p[next]);
+            normal[k] += one[k];
         }
     }
 }

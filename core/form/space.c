@@ -100,11 +100,7 @@ static void gradients(const struct gm_complex *complex, size_t t, double g[3][3]
 {
     double p[9], n[3];
     gm_complex_corners_in_space(complex, t, p);
-    for (int c = 0; c < 3; c++) {
-        const int next = (c + 1) % 3, last = (c + 2) % 3;
-        n[c] = (p[3 + next] - p[next]) * (p[6 + last] - p[last]) -
-               (p[3 + last] - p[last]) * (p[6 + next] - p[next]);
-    }
+    gm_triangle_normal(p, n);
     for (int a = 0; a < 3; a++) {
         const double *from = p + (a + 1) % 3 * 3, *to = p + (a + 2) % 3 * 3;
         for (int c = 0; c < 3; c++) {

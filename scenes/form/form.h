@@ -75,13 +75,4 @@ void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
 void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel,
                         const struct gm_form_sheet *sheet);
 
-/* The normal of a triangle, p the corners in space, as long as twice its area. */
-static inline void gm_form_normal(const double p[9], double normal[3])
-{
-    for (size_t c = 0; c < 3; c++) {
-        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
-        normal[c] = (p[3 + a] - p[a]) * (p[6 + b] - p[b]) - (p[6 + a] - p[a]) * (p[3 + b] - p[b]);
-    }
-}
-
 #endif

@@ -58,7 +58,7 @@ static void find_vector(const struct gm_complex *complex, size_t t, const double
 {
     double p[9], n[3], w[3] = {0, 0, 0};
     gm_complex_corners_in_space(complex, t, p);
-    gm_form_normal(p, n);
+    gm_triangle_normal(p, n);
     const double twice = 2 * complex->area[t];
     for (size_t k = 0; k < 3; k++) {
         const double value =

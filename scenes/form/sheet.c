@@ -40,7 +40,7 @@ static void find_normals(const struct gm_complex *complex, double *normals)
     for (size_t t = 0; t < complex->triangles; t++) {
         double p[9], n[3];
         gm_complex_corners_in_space(complex, t, p);
-        gm_form_normal(p, n);
+        gm_triangle_normal(p, n);
         for (size_t k = 0; k < 9; k++) {
             normals[3 * (size_t)complex->triangle[3 * t + k / 3] + k % 3] += n[k % 3];
         }
