@@ -26,21 +26,19 @@ static void close_lu(void *lu)
 }
 
 /* Marks a vertex of each piece, and a triangle of each closed one. */
-static void pin(struct gm_hodge *hodge, struct gm_arena *arena)
+static void pin(struct gm_hodge *hodge)
 {
     const struct gm_complex *complex = hodge->space->complex;
-    int *piece = gm_arena_take(arena, complex->vertices + complex->triangles, sizeof *piece);
-    for (size_t side = 0; side < 2; side++) {
-        const size_t count = side ? complex->triangles : complex->vertices;
-        bool *pinned = hodge->pinned + (side ? complex->vertices : 0);
-        gm_form_pieces(complex, side == 1, piece);
-        for (size_t i = 0; i < count; i++) {
-            pinned[i] = piece[i] == (int)i;
-        }
-        for (size_t b = 0; b < complex->boundary && side; b++) {
-            const int *pair = complex->edge_triangle + 2 * complex->boundary_edge[b];
-            pinned[piece[pair[0] >= 0 ? pair[0] : pair[1]]] = false;
-        }
+    bool *of_triangle = hodge->pinned + complex->vertices;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        hodge->pinned[v] = complex->vertex_piece[v] == (int)v;
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        of_triangle[t] = complex->triangle_piece[t] == (int)t;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int *pair = complex->edge_triangle + 2 * complex->boundary_edge[b];
+        of_triangle[complex->triangle_piece[pair[0] >= 0 ? pair[0] : pair[1]]] = false;
     }
 }
 
@@ -100,7 +98,7 @@ struct gm_hodge *gm_hodge_open(struct gm_arena *arena, const struct gm_form_spac
     hodge->pinned = gm_arena_take(arena, complex->vertices + complex->triangles, sizeof *hodge->pinned);
     hodge->right = gm_arena_take(arena, 2 * (complex->edges + complex->triangles), sizeof *hodge->right);
     hodge->found = hodge->right + complex->edges + complex->triangles;
-    pin(hodge, arena);
+    pin(hodge);
     make_potential(hodge, arena);
     make_saddle(hodge, arena);
     return hodge;

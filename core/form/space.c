@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/linear/cholesky.h"
+#include "core/linear/vectors.h"
 
 size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type)
 {
@@ -28,34 +29,6 @@ long gm_form_betti(const struct gm_complex *complex, int degree)
     const long euler = (long)complex->vertices - (long)complex->edges + (long)complex->triangles;
     const long pieces = (long)complex->pieces, closed = (long)complex->closed;
     return degree == 0 ? pieces : degree == 2 ? closed : pieces + closed - euler;
-}
-
-void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece)
-{
-    const size_t count = triangles ? complex->triangles : complex->vertices;
-    bool changed = true;
-    for (size_t i = 0; i < count; i++) {
-        piece[i] = (int)i;
-    }
-    while (changed) { /* the least number of a piece spreads */
-        changed = false;
-        for (size_t e = 0; e < complex->edges; e++) {
-            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
-            if (pair[0] < 0 || pair[1] < 0) {
-                continue;
-            }
-            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
-            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
-            piece[pair[0]] = piece[pair[1]] = least;
-        }
-    }
-}
-
-void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
-{
-    for (size_t c = 0; c < 3; c++) {
-        point[c] = c < complex->coordinates ? complex->point[complex->coordinates * vertex + c] : 0;
-    }
 }
 
 /* The entries of a matrix that is being made. */
@@ -90,11 +63,6 @@ static struct gm_matrix made(struct gm_form_space *space, struct entries *entrie
     return made_of(space->arena, entries, rows, columns);
 }
 
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The gradients of barycentric coordinates: e_a turned by 90 degrees over 2 area, e_a opposite to corner a. */
 static void gradients(const struct gm_complex *complex, size_t t, double g[3][3])
 {
@@ -102,11 +70,11 @@ static void gradients(const struct gm_complex *complex, size_t t, double g[3][3]
     gm_complex_corners_in_space(complex, t, p);
     gm_triangle_normal(p, n);
     for (int a = 0; a < 3; a++) {
-        const double *from = p + (a + 1) % 3 * 3, *to = p + (a + 2) % 3 * 3;
+        double side[3];
+        gm_subtract(p + (a + 2) % 3 * 3, p + (a + 1) % 3 * 3, side);
+        gm_cross(n, side, g[a]);
         for (int c = 0; c < 3; c++) {
-            const int next = (c + 1) % 3, last = (c + 2) % 3;
-            g[a][c] = (n[next] * (to[last] - from[last]) - n[last] * (to[next] - from[next])) /
-                      (4 * complex->area[t] * complex->area[t]);
+            g[a][c] /= 4 * complex->area[t] * complex->area[t];
         }
     }
 }
@@ -124,8 +92,8 @@ static struct gm_matrix mass_of(struct gm_form_space *space)
                 const double sign = complex->triangle_sign[3 * t + a] * complex->triangle_sign[3 * t + b];
                 const double unit = complex->area[t] / 12;
                 const double value =
-                    unit * ((1 + (i == k)) * dot(g[j], g[l]) - (1 + (i == l)) * dot(g[j], g[k]) -
-                            (1 + (j == k)) * dot(g[i], g[l]) + (1 + (j == l)) * dot(g[i], g[k]));
+                    unit * ((1 + (i == k)) * gm_dot(g[j], g[l]) - (1 + (i == l)) * gm_dot(g[j], g[k]) -
+                            (1 + (j == k)) * gm_dot(g[i], g[l]) + (1 + (j == l)) * gm_dot(g[i], g[k]));
                 add(&entries, (size_t)complex->triangle_edge[3 * t + a],
                     (size_t)complex->triangle_edge[3 * t + b], sign * value);
             }
@@ -190,11 +158,7 @@ static struct gm_matrix averaged_transfer_of(const struct gm_form_space *space, 
                     for (size_t c = 0; c < 3; c++) {
                         for (int k = 0; k < 3; k++) {
                             const double middle = (p[3 * edge + k] + p[(edge + 1) % 3 * 3 + k]) / 2;
-                            double centre = 0;
-                            for (int corner = 0; corner < 3; corner++) {
-                                centre += complex->weight[3 * other + corner] * p[3 * corner + k];
-                            }
-                            to[c] += g[c][k] * (centre - middle);
+                            to[c] += g[c][k] * (space->dual_vertex[3 * other + k] - middle);
                         }
                     }
                 }
@@ -512,7 +476,7 @@ struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struc
     for (size_t i = 0; i < numbers && each == 1; i++) {
         double p[3];
         if (vertices) {
-            gm_form_vertex(complex, i, p);
+            gm_complex_vertex(complex, i, p);
         }
         put(&points, i, vertices ? p : space->dual_vertex + 3 * i, type.degree == 2 ? complex->star0[i] : 1);
     }

@@ -94,12 +94,6 @@ size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);
 /* The Betti numbers: pieces, loops that bound nothing, closed pieces. */
 long gm_form_betti(const struct gm_complex *complex, int degree);
 
-/* Labels the vertices, or the triangles, by the first one of their piece. */
-void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece);
-
-/* A point on the mesh. */
-void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);
-
 /* Called in a body of the arena, which outlives the space's use of them. 0-forms and dual 2-forms take their value in one point, primal 2-forms
    in seven (degree 5), 1-forms in five of each straight piece. */
 struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struct gm_arena *arena,

@@ -146,7 +146,7 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
         centre[c] = (sight->low[c] + sight->high[c]) / 2;
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        gm_form_vertex(complex, v, p);
+        gm_complex_vertex(complex, v, p);
         const double away = hypot(p[0] - centre[0], p[1] - centre[1]);
         across = fmax(across, away);
         along = fmax(along, fabs(sight->towards[2]) * away + fabs(sight->up[2] * (p[2] - centre[2])));
@@ -204,7 +204,7 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
     struct gm_space *sight = &sheet->sight;
     for (size_t v = 0; v < complex->vertices; v++) {
         double p[3];
-        gm_form_vertex(complex, v, p);
+        gm_complex_vertex(complex, v, p);
         for (size_t c = 0; c < 3; c++) {
             gm_range_add(&sight->low[c], &sight->high[c], p[c]);
         }

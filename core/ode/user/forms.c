@@ -365,11 +365,10 @@ static void find_constants(struct own *own, size_t form)
         }
         free_of = fabs(sum) <= 1e-10 * size;
     }
-    if (free_of) {
-        gm_form_pieces(own->space.complex, type.dual, own->piece + first);
-        for (size_t i = 0; i < n; i++) {
-            own->piece[first + i] += (int)first; /* the number that is pinned */
-        }
+    const struct gm_complex *complex = own->space.complex;
+    const int *piece = type.dual ? complex->triangle_piece : complex->vertex_piece;
+    for (size_t i = 0; i < n && free_of; i++) {
+        own->piece[first + i] = (int)first + piece[i]; /* the number that is pinned */
     }
 }
 
@@ -839,8 +838,8 @@ static void mark_part(const struct own *own, const char *line, const char *part,
     for (size_t b = 0; b < complex->boundary; b++) {
         double p[3], q[3], middle[3];
         const size_t e = (size_t)complex->boundary_edge[b];
-        gm_form_vertex(complex, (size_t)complex->edge[2 * e], p);
-        gm_form_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * e], p);
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
         for (int c = 0; c < 3; c++) {
             middle[c] = (p[c] + q[c]) / 2;
         }
