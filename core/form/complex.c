@@ -297,27 +297,22 @@ static void make_edges(struct building *building)
         pair[0] = pair[1] = -1;
         complex->edge[2 * edges] = sides[i].low;
         complex->edge[2 * edges + 1] = sides[i].high;
-        for (end = i; end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high;
-             end++) {
-            const int place = sides[end].place;
-            const bool along = complex->triangle[place] == sides[end].low;
-            int *seat = &pair[along ? 0 : 1];
-            if (end - i == 2) {
-                building->fault->nodes[1] = tag_of(building->from, sides[i].high);
-                refuse_vertex(building, sides[i].low, GM_TRIANGULATION_EDGE_OF_THREE);
-            }
+        while (end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high) {
+            end++;
+        }
+        if (end - i > 2) {
+            building->fault->nodes[1] = tag_of(building->from, sides[i].high);
+            refuse_vertex(building, sides[i].low, GM_TRIANGULATION_EDGE_OF_THREE);
+        }
+        for (size_t k = i; k < end; k++) {
+            const int place = sides[k].place;
+            const bool along = complex->triangle[place] == sides[k].low;
             complex->triangle_edge[place] = (int)edges;
             complex->triangle_sign[place] = along ? 1 : -1;
-            if (*seat < 0) {
-                *seat = place / 3;
-            } else {
-                /* two on one side; a third one of the same edge is reported first */
-                const bool third = end + 1 < count && sides[end + 1].low == sides[i].low &&
-                                   sides[end + 1].high == sides[i].high;
-                if (!third) {
-                    refuse_triangle(building, (size_t)(place / 3), GM_TRIANGULATION_OVERLAP);
-                }
+            if (pair[along ? 0 : 1] >= 0) {
+                refuse_triangle(building, (size_t)(place / 3), GM_TRIANGULATION_OVERLAP);
             }
+            pair[along ? 0 : 1] = place / 3;
         }
     }
     complex->edges = edges;
