@@ -65,25 +65,20 @@ static void make_saddle(struct gm_hodge *hodge, struct gm_arena *arena)
     const struct gm_form_space *space = hodge->space;
     const size_t edges = space->complex->edges, triangles = space->complex->triangles;
     const bool *pinned = hodge->pinned + space->complex->vertices;
-    const struct gm_matrix *parts[3] = {&space->matrix[GM_MATRIX_STAR1], &space->matrix[GM_MATRIX_D1],
-                                        &space->matrix[GM_MATRIX_D1]};
-    struct gm_matrix_entry *all =
-        gm_arena_take(arena, (size_t)parts[0]->start[edges] + 7 * triangles, sizeof *all);
-    size_t count = 0;
-    for (int k = 0; k < 3; k++) {
-        for (size_t i = 0; i < parts[k]->rows; i++) {
-            for (int l = parts[k]->start[i]; l < parts[k]->start[i + 1]; l++) {
-                const int row = (int)(i + (k ? edges : 0)), column = parts[k]->column[l];
-                const double value = k && pinned[i] ? 0 : parts[k]->value[l];
-                all[count++] = k < 2 ? (struct gm_matrix_entry){row, column, value}
-                                     : (struct gm_matrix_entry){column, row, -value};
-            }
-        }
-    }
+    const struct gm_matrix *star = &space->matrix[GM_MATRIX_STAR1];
+    struct gm_matrix d = gm_matrix_sum(arena, 1, &space->matrix[GM_MATRIX_D1], 0, NULL);
+    double *moves = gm_arena_take(arena, triangles, sizeof *moves);
+    struct gm_matrix_entries all = gm_matrix_entries(arena, gm_matrix_count(star) + 7 * triangles);
     for (size_t t = 0; t < triangles; t++) {
-        all[count++] = (struct gm_matrix_entry){(int)(edges + t), (int)(edges + t), pinned[t]};
+        moves[t] = pinned[t] ? 0 : 1;
+        gm_matrix_put(&all, edges + t, edges + t, pinned[t]);
     }
-    hodge->saddle = gm_matrix_of(arena, edges + triangles, edges + triangles, all, count);
+    gm_matrix_scale(&d, moves);
+    const struct gm_matrix back = gm_matrix_transposed(arena, &d, -1);
+    gm_matrix_put_block(&all, star, 0, 0, 1);
+    gm_matrix_put_block(&all, &d, edges, 0, 1);
+    gm_matrix_put_block(&all, &back, 0, edges, 1);
+    hodge->saddle = gm_matrix_of(&all, edges + triangles, edges + triangles);
     hodge->lu =
         gm_lu_open(hodge->saddle.rows, hodge->saddle.start, hodge->saddle.column, hodge->saddle.value);
     gm_arena_need(arena, hodge->lu);

@@ -720,28 +720,24 @@ static void factor_stages(struct gm_arena *arena, void *data)
     struct stage_factor *factor = factoring->factor;
     const struct gm_matrix *rows = &own->rows;
     const size_t n = own->n, each = rows->rows, count = factor->count;
-    size_t entries = 0;
-    struct gm_matrix_entry *all = gm_arena_keep(
-        arena, malloc((count * count * (size_t)rows->start[each] + count * n) * sizeof *all), free);
-    gm_arena_need(arena, all);
+    struct gm_matrix_entries all =
+        gm_matrix_entries(arena, count * count * gm_matrix_count(rows) + count * n);
     for (size_t i = 0; i < count; i++) {
         for (size_t r = 0; r < each; r++) {
             const double *scaled = factor->scaled[r >= n / 2] + i * GM_TABLEAU_STAGES;
-            const int row = (int)(i * each + r);
+            const size_t row = i * each + r;
             if (r < n) {
-                all[entries++] = (struct gm_matrix_entry){row, row, 1};
+                gm_matrix_put(&all, row, row, 1);
             }
             for (size_t j = r < n ? 0 : i; j < (r < n ? count : i + 1); j++) {
                 const double by = r < n ? -scaled[j] : 1;
                 for (int k = rows->start[r]; k < rows->start[r + 1] && by != 0; k++) {
-                    all[entries++] =
-                        (struct gm_matrix_entry){row, (int)(j * each) + rows->column[k], by * rows->value[k]};
+                    gm_matrix_put(&all, row, j * each + (size_t)rows->column[k], by * rows->value[k]);
                 }
             }
         }
     }
-    factor->matrix = gm_matrix_of(arena, count * each, count * each, all, entries);
-    gm_arena_drop(arena, all);
+    factor->matrix = gm_matrix_of(&all, count * each, count * each);
     factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
     gm_arena_need(arena, factor->lu);
     gm_arena_keep(arena, factor->lu, close_lu);
@@ -858,21 +854,20 @@ static void make_closings(struct own *own)
     own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
          *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
-    struct gm_matrix_entry *entries = gm_arena_take(arena, 2 * complex->edges, sizeof *entries);
     for (size_t i = system->item_count; i-- > 0;) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
             continue;
         }
-        size_t count = 0;
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
         mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
-                entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
+                gm_matrix_put(&entries, (size_t)complex->edge[2 * e + k], e, 0.5);
             }
             taken[e] |= edges[e];
         }
-        own->closings[i] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+        own->closings[i] = gm_matrix_of(&entries, complex->vertices, complex->edges);
     }
 }
 
@@ -883,16 +878,16 @@ static void make_around(struct own *own)
     const struct gm_complex *complex = own->space.complex;
     struct gm_arena *arena = own->arena;
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges);
-    struct gm_matrix_entry *entries = gm_arena_take(arena, complex->edges, sizeof *entries);
     own->around = gm_arena_take(arena, system->boundary_count + 1, sizeof *own->around);
     for (size_t i = 0; i < system->boundary_count; i++) {
-        size_t count = 0;
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, complex->edges);
         mark_part(own, "observe", system->boundaries[i], edges);
         for (size_t e = 0; e < complex->edges; e++) {
-            entries[count] = (struct gm_matrix_entry){0, (int)e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1};
-            count += edges[e];
+            if (edges[e]) {
+                gm_matrix_put(&entries, 0, e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1);
+            }
         }
-        own->around[i] = gm_matrix_of(arena, 1, complex->edges, entries, count);
+        own->around[i] = gm_matrix_of(&entries, 1, complex->edges);
     }
 }
 
