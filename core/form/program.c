@@ -43,7 +43,9 @@ struct compiling {
     gm_node_id now; /* the node that is compiled */
 };
 
-static const struct gm_form_type any_number = {GM_FORM_NUMBER, false};
+static const struct gm_form_type any_number = {GM_FORM_NUMBER, false}, primal_0 = {0, false},
+                                 primal_1 = {1, false}, primal_2 = {2, false}, dual_0 = {0, true},
+                                 dual_1 = {1, true};
 
 const char *gm_form_type_text(struct gm_form_type type)
 {
@@ -160,9 +162,10 @@ static struct part decided(struct compiling *compiling, struct part part)
     if (!is_formula(part)) {
         return part;
     }
-    const int degree = part.type.degree == GM_FORM_COVECTOR ? 1 : 0;
     return sampled(compiling, part,
-                   part.type.degree == GM_FORM_NUMBER ? any_number : (struct gm_form_type){degree, false});
+                   part.type.degree == GM_FORM_NUMBER     ? any_number
+                   : part.type.degree == GM_FORM_COVECTOR ? primal_1
+                                                          : primal_0);
 }
 
 /* The part as a form of that type; false if it is another one. A number is a 0-form. */
@@ -184,6 +187,16 @@ static bool fit(struct compiling *compiling, struct part *part, struct gm_form_t
 static unsigned needs_of(const struct compiling *compiling, struct part part)
 {
     return compiling->program->steps[part.step].needs;
+}
+
+/* Adds a step on one part. */
+static struct part made_of(struct compiling *compiling, enum gm_form_step_kind kind, size_t number,
+                           struct part a, struct gm_form_type type)
+{
+    return made(
+        compiling,
+        (struct gm_form_step){
+            .kind = kind, .type = type, .needs = needs_of(compiling, a), .a = a.step, .number = number});
 }
 
 /* An operation on entries, with the type of the form if the other part is a number. */
@@ -217,11 +230,7 @@ static struct part operate(struct compiling *compiling, enum gm_operation operat
 static struct part times(struct compiling *compiling, enum gm_form_matrix matrix, struct part a,
                          struct gm_form_type type)
 {
-    return made(compiling, (struct gm_form_step){.kind = GM_STEP_MATRIX,
-                                                 .type = type,
-                                                 .needs = needs_of(compiling, a),
-                                                 .a = a.step,
-                                                 .number = matrix});
+    return made_of(compiling, GM_STEP_MATRIX, matrix, a, type);
 }
 
 static struct part zero_of(struct compiling *compiling, struct gm_form_type type)
@@ -240,11 +249,16 @@ static struct part negative(struct compiling *compiling, struct part a)
 
 /* ---- operators ---- */
 
+/* A part as a form: a formula without a place is a 0-form here. */
+static struct part form_of(struct compiling *compiling, struct part part)
+{
+    return is_formula(part) && part.type.degree == GM_FORM_NUMBER ? sampled(compiling, part, primal_0)
+                                                                  : decided(compiling, part);
+}
+
 static struct part star(struct compiling *compiling, struct part a)
 {
-    a = is_formula(a) && a.type.degree == GM_FORM_NUMBER
-            ? sampled(compiling, a, (struct gm_form_type){0, false})
-            : decided(compiling, a);
+    a = form_of(compiling, a);
     if (a.type.degree == GM_FORM_NUMBER) {
         refuse(compiling, "star is of a form, and this is a number");
     }
@@ -314,14 +328,8 @@ static struct part laplace(struct compiling *compiling, struct part a)
 
 static struct part wedge(struct compiling *compiling, struct part a, struct part b)
 {
-    if (a.type.degree == GM_FORM_PLACE || (is_formula(a) && a.type.degree == GM_FORM_NUMBER)) {
-        a = sampled(compiling, a, (struct gm_form_type){0, false});
-    }
-    if (b.type.degree == GM_FORM_PLACE || (is_formula(b) && b.type.degree == GM_FORM_NUMBER)) {
-        b = sampled(compiling, b, (struct gm_form_type){0, false});
-    }
-    a = decided(compiling, a);
-    b = decided(compiling, b);
+    a = form_of(compiling, a);
+    b = form_of(compiling, b);
     const int j = a.type.degree, k = b.type.degree;
     if (j < 0 || k < 0 || a.type.dual || b.type.dual || j + k > 2) {
         refuse(compiling, "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
@@ -332,7 +340,7 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
             refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
         }
         return made(compiling, (struct gm_form_step){.kind = GM_STEP_WEDGE,
-                                                     .type = {2, false},
+                                                     .type = primal_2,
                                                      .needs = needs_of(compiling, a) | needs_of(compiling, b),
                                                      .a = a.step,
                                                      .b = b.step});
@@ -348,7 +356,7 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
 /* The velocity's flux; refuses what is not a velocity. */
 static struct part flux_of(struct compiling *compiling, struct part u)
 {
-    if (!fit(compiling, &u, (struct gm_form_type){1, true})) {
+    if (!fit(compiling, &u, dual_1)) {
         refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
                gm_form_type_text(u.type));
     }
@@ -362,14 +370,13 @@ static struct part speed_along(struct compiling *compiling, struct part flux, st
     if (!a.type.dual) {
         return star(compiling, wedge(compiling, a, flux));
     }
-    const struct gm_form_type type = {0, true};
     const struct part turned = star(compiling, a);
     struct part sum = {0};
     for (int c = 0; c < 3; c++) {
         const enum gm_form_matrix matrix = (enum gm_form_matrix)(GM_MATRIX_CENTRE_X + c);
         const struct part product =
-            operate(compiling, GM_OPERATION_MULTIPLY, times(compiling, matrix, flux, type),
-                    times(compiling, matrix, turned, type));
+            operate(compiling, GM_OPERATION_MULTIPLY, times(compiling, matrix, flux, dual_0),
+                    times(compiling, matrix, turned, dual_0));
         sum = c == 0 ? product : operate(compiling, GM_OPERATION_ADD, sum, product);
     }
     return sum;
@@ -409,8 +416,7 @@ static struct part lie(struct compiling *compiling, struct part u, struct part c
     if (!c.type.dual) {
         return inside;
     }
-    const struct gm_form_type edges = {1, false};
-    const struct part out = times(compiling, GM_MATRIX_OUT, flux_of(compiling, u), edges),
+    const struct part out = times(compiling, GM_MATRIX_OUT, flux_of(compiling, u), primal_1),
                       twice = operate(compiling, GM_OPERATION_ADD, out,
                                       operate(compiling, GM_OPERATION_ABS, out, out)),
                       through = times(compiling, GM_MATRIX_HALVES, twice, c.type);
@@ -431,17 +437,12 @@ static void refuse_nonlocal(struct compiling *compiling, struct part a)
 static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
 {
     refuse_nonlocal(compiling, a);
-    return made(compiling,
-                (struct gm_form_step){
-                    .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
+    return made_of(compiling, kind, 0, a, any_number);
 }
 
 static struct part integral(struct compiling *compiling, struct part a)
 {
-    if (is_formula(a) && a.type.degree != GM_FORM_COVECTOR) {
-        a = sampled(compiling, a, (struct gm_form_type){0, false});
-    }
-    a = decided(compiling, a);
+    a = form_of(compiling, a);
     if (a.type.degree == 1 || a.type.degree < 0) {
         refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
     }
@@ -455,16 +456,12 @@ static struct part around(struct compiling *compiling, gm_node_id part, struct p
     if (node->operation != GM_CONSTANT) {
         refuse(compiling, "integral(PART, a) begins with a part of the boundary");
     }
-    if (!fit(compiling, &a, (struct gm_form_type){1, false})) {
+    if (!fit(compiling, &a, primal_1)) {
         refuse(compiling, "the integral along a part of the boundary is of a 1-form, and this is %s",
                gm_form_type_text(a.type));
     }
     refuse_nonlocal(compiling, a);
-    return made(compiling, (struct gm_form_step){.kind = GM_STEP_AROUND,
-                                                 .type = any_number,
-                                                 .needs = needs_of(compiling, a),
-                                                 .a = a.step,
-                                                 .number = (size_t)node->value});
+    return made_of(compiling, GM_STEP_AROUND, (size_t)node->value, a, any_number);
 }
 
 /* at(a, x, y, z) */
@@ -496,21 +493,18 @@ static struct part at(struct compiling *compiling, const struct gm_form_call *ca
 /* Parts of a 1-form by Hodge. */
 static struct part part_of(struct compiling *compiling, enum gm_form_operator operator, struct part a)
 {
-    const struct gm_form_type type = {1, false};
-    if (!fit(compiling, &a, type)) {
+    if (!fit(compiling, &a, primal_1)) {
         refuse(compiling, "exact, coexact and harmonic are of a 1-form, and this is %s",
                gm_form_type_text(a.type));
     }
     refuse_nonlocal(compiling, a);
-    struct gm_form_step step = {
-        .kind = GM_STEP_EXACT, .type = type, .needs = needs_of(compiling, a), .a = a.step};
-    const struct part exact = operator== GM_FORM_COEXACT ? a : made(compiling, step);
-    step.kind = GM_STEP_COEXACT;
-    const struct part coexact = operator== GM_FORM_EXACT ? a : made(compiling, step);
-    return operator== GM_FORM_EXACT   ? exact :
-           operator== GM_FORM_COEXACT ? coexact
-                                      : operate(compiling, GM_OPERATION_SUBTRACT,
-                                                operate(compiling, GM_OPERATION_SUBTRACT, a, exact), coexact);
+    if (operator!= GM_FORM_HARMONIC) {
+        return made_of(compiling, operator== GM_FORM_EXACT ? GM_STEP_EXACT : GM_STEP_COEXACT, 0, a, primal_1);
+    }
+    const struct part exact = made_of(compiling, GM_STEP_EXACT, 0, a, primal_1),
+                      coexact = made_of(compiling, GM_STEP_COEXACT, 0, a, primal_1);
+    return operate(compiling, GM_OPERATION_SUBTRACT, operate(compiling, GM_OPERATION_SUBTRACT, a, exact),
+                   coexact);
 }
 
 static struct part inner(struct compiling *compiling, struct part a, struct part b)
@@ -552,13 +546,9 @@ static struct part closed(struct compiling *compiling, gm_node_id let, struct pa
             compiling->known[item->nodes[0]].of_forms) {
             refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
         }
-        const struct part along = sampled(compiling, formula, (struct gm_form_type){1, false});
-        const struct part closing = made(compiling, (struct gm_form_step){.kind = GM_STEP_CLOSING,
-                                                                          .type = derivative.type,
-                                                                          .needs = needs_of(compiling, along),
-                                                                          .a = along.step,
-                                                                          .number = i});
-        derivative = operate(compiling, GM_OPERATION_ADD, derivative, closing);
+        const struct part along = sampled(compiling, formula, primal_1);
+        derivative = operate(compiling, GM_OPERATION_ADD, derivative,
+                             made_of(compiling, GM_STEP_CLOSING, i, along, derivative.type));
     }
     return derivative;
 }
@@ -717,10 +707,7 @@ static void survey(struct compiling *compiling)
             }
             continue;
         }
-        known[node->a].marked = true;
-        if (gm_operation_rows[node->operation].arity == 2) {
-            known[node->b].marked = true;
-        }
+        known[node->a].marked = known[gm_second_operand(node)].marked = true;
     }
     for (size_t i = 0; i < nodes; i++) {
         const struct gm_node *node = &system->graph.nodes[i];
@@ -735,8 +722,7 @@ static void survey(struct compiling *compiling)
             here->of_time = number == system->n;
             continue;
         }
-        const struct known *a = &known[node->a],
-                           *b = &known[gm_operation_rows[node->operation].arity == 2 ? node->b : node->a];
+        const struct known *a = &known[node->a], *b = &known[gm_second_operand(node)];
         here->of_forms = a->of_forms || b->of_forms;
         here->of_place = a->of_place || b->of_place;
         here->of_time = a->of_time || b->of_time;
