@@ -102,6 +102,14 @@ __attribute__((format(printf, 2, 3))) _Noreturn static void refuse(struct compil
     gm_arena_leave(compiling->arena);
 }
 
+/* Leaves with a fault if a rule about a part does not hold. */
+static void require(struct compiling *compiling, bool holds, const char *rule, struct part part)
+{
+    if (!holds) {
+        refuse(compiling, "%s, and this is %s", rule, gm_form_type_text(part.type));
+    }
+}
+
 /* Adds a step. */
 static struct part made(struct compiling *compiling, struct gm_form_step step)
 {
@@ -259,9 +267,7 @@ static struct part form_of(struct compiling *compiling, struct part part)
 static struct part star(struct compiling *compiling, struct part a)
 {
     a = form_of(compiling, a);
-    if (a.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "star is of a form, and this is a number");
-    }
+    require(compiling, a.type.degree != GM_FORM_NUMBER, "star is of a form", a);
     const struct gm_form_type type = {2 - a.type.degree, !a.type.dual};
     /* star star is 1, or -1 of a 1-form: nothing is computed */
     const struct gm_form_step *step = &compiling->program->steps[a.step];
@@ -300,18 +306,14 @@ static struct part d(struct compiling *compiling, struct part a)
 static struct part delta(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
-    if (a.type.degree < 1) {
-        refuse(compiling, "delta is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree >= 1, "delta is of a 1-form or a 2-form", a);
     return negative(compiling, star(compiling, d(compiling, star(compiling, a))));
 }
 
 static struct part laplace(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
-    if (a.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "laplace is of a form, and this is a number");
-    }
+    require(compiling, a.type.degree != GM_FORM_NUMBER, "laplace is of a form", a);
     if (a.type.degree == 0 && !a.type.dual) {
         return times(compiling, GM_MATRIX_LAPLACE, a, a.type);
     }
@@ -356,10 +358,8 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
 /* The velocity's flux; refuses what is not a velocity. */
 static struct part flux_of(struct compiling *compiling, struct part u)
 {
-    if (!fit(compiling, &u, dual_1)) {
-        refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
-               gm_form_type_text(u.type));
-    }
+    const bool fits = fit(compiling, &u, dual_1);
+    require(compiling, fits, "the velocity of interior and lie is a dual 1-form", u);
     return star(compiling, u);
 }
 
@@ -389,9 +389,7 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
     if (a.type.degree == 1) {
         return speed_along(compiling, flux, a);
     }
-    if (a.type.degree != 2) {
-        refuse(compiling, "interior is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree == 2, "interior is of a 1-form or a 2-form", a);
     const bool dual = a.type.dual;
     const struct part density = star(compiling, a);
     const struct gm_form_type type = {1, dual};
@@ -409,9 +407,7 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
 static struct part lie(struct compiling *compiling, struct part u, struct part c)
 {
     c = decided(compiling, c);
-    if (c.type.degree != 2) {
-        refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
-    }
+    require(compiling, c.type.degree == 2, "lie is of a 2-form here", c);
     const struct part inside = d(compiling, interior(compiling, u, c));
     if (!c.type.dual) {
         return inside;
@@ -443,9 +439,7 @@ static struct part reduced(struct compiling *compiling, enum gm_form_step_kind k
 static struct part integral(struct compiling *compiling, struct part a)
 {
     a = form_of(compiling, a);
-    if (a.type.degree == 1 || a.type.degree < 0) {
-        refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree == 0 || a.type.degree == 2, "integral is of a 0-form or a 2-form", a);
     return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
 }
 
@@ -456,10 +450,8 @@ static struct part around(struct compiling *compiling, gm_node_id part, struct p
     if (node->operation != GM_CONSTANT) {
         refuse(compiling, "integral(PART, a) begins with a part of the boundary");
     }
-    if (!fit(compiling, &a, primal_1)) {
-        refuse(compiling, "the integral along a part of the boundary is of a 1-form, and this is %s",
-               gm_form_type_text(a.type));
-    }
+    const bool fits = fit(compiling, &a, primal_1);
+    require(compiling, fits, "the integral along a part of the boundary is of a 1-form", a);
     refuse_nonlocal(compiling, a);
     return made_of(compiling, GM_STEP_AROUND, (size_t)node->value, a, any_number);
 }
@@ -468,9 +460,7 @@ static struct part around(struct compiling *compiling, gm_node_id part, struct p
 static struct part at(struct compiling *compiling, const struct gm_form_call *call)
 {
     const struct part a = decided(compiling, compiling->known[call->operands[0]].part);
-    if (a.type.degree != 0) {
-        refuse(compiling, "at is of a 0-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree == 0, "at is of a 0-form", a);
     refuse_nonlocal(compiling, a);
     struct gm_form_step step = {.kind = GM_STEP_AT,
                                 .type = any_number,
@@ -479,10 +469,7 @@ static struct part at(struct compiling *compiling, const struct gm_form_call *ca
                                 .components = call->count - 1};
     for (size_t i = 0; i < step.components; i++) {
         const struct part place = compiling->known[call->operands[i + 1]].part;
-        if (place.type.degree != GM_FORM_NUMBER) {
-            refuse(compiling, "the coordinates of at are numbers, and this is %s",
-                   gm_form_type_text(place.type));
-        }
+        require(compiling, place.type.degree == GM_FORM_NUMBER, "the coordinates of at are numbers", place);
         const struct part number = decided(compiling, place);
         step.needs |= needs_of(compiling, number);
         step.nodes[i] = (gm_node_id)number.step;
@@ -493,10 +480,8 @@ static struct part at(struct compiling *compiling, const struct gm_form_call *ca
 /* Parts of a 1-form by Hodge. */
 static struct part part_of(struct compiling *compiling, enum gm_form_operator operator, struct part a)
 {
-    if (!fit(compiling, &a, primal_1)) {
-        refuse(compiling, "exact, coexact and harmonic are of a 1-form, and this is %s",
-               gm_form_type_text(a.type));
-    }
+    const bool fits = fit(compiling, &a, primal_1);
+    require(compiling, fits, "exact, coexact and harmonic are of a 1-form", a);
     refuse_nonlocal(compiling, a);
     if (operator!= GM_FORM_HARMONIC) {
         return made_of(compiling, operator== GM_FORM_EXACT ? GM_STEP_EXACT : GM_STEP_COEXACT, 0, a, primal_1);
@@ -519,9 +504,7 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
         refuse(compiling, "inner is of two forms of one type, and these are %s and %s",
                gm_form_type_text(a.type), gm_form_type_text(b.type));
     }
-    if (b.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "inner is of two forms, and this is a number");
-    }
+    require(compiling, b.type.degree != GM_FORM_NUMBER, "inner is of two forms", b);
     struct part other = star(compiling, b);
     other.type = a.type;
     if (a.type.degree == 1 && a.type.dual) {
@@ -591,10 +574,7 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
         return inner(compiling, a, b);
     default: {
         const struct part c = decided(compiling, a);
-        if (c.type.degree > 0) {
-            refuse(compiling, "max and min of one form are of a 0-form, and this is %s",
-                   gm_form_type_text(c.type));
-        }
+        require(compiling, c.type.degree <= 0, "max and min of one form are of a 0-form", c);
         return reduced(compiling, call->operator== GM_FORM_LARGEST ? GM_STEP_LARGEST : GM_STEP_LEAST, c);
     }
     }
