@@ -629,9 +629,9 @@ struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_tr
     return building.complex;
 }
 
-void gm_complex_close(struct gm_complex *complex)
+void gm_complex_close(void *complex)
 {
     if (complex) {
-        gm_arena_close(complex->arena);
+        gm_arena_close(((struct gm_complex *)complex)->arena);
     }
 }

@@ -122,7 +122,7 @@ struct gm_triangles {
 
 /* Builds the complex. Returns NULL with a fault if the mesh is not valid. */
 struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault);
-void gm_complex_close(struct gm_complex *complex);
+void gm_complex_close(void *complex); /* for arenas too */
 
 /* A vertex in space: z is 0 in the plane. */
 void gm_complex_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);

@@ -327,11 +327,6 @@ static void lay_strip(struct laying *laying)
     }
 }
 
-static void close_complex(void *complex)
-{
-    gm_complex_close(complex);
-}
-
 static void put_on_sphere(double *p, double radius)
 {
     const double length = sqrt(gm_dot(p, p));
@@ -351,7 +346,7 @@ static void refine(struct laying *laying, double radius)
                                                                         .corners = coarse.corners,
                                                                         .count = coarse.count},
                                                  &fault);
-    gm_arena_keep(laying->arena, complex, close_complex);
+    gm_arena_keep(laying->arena, complex, gm_complex_close);
     reserve(laying, coarse.vertices + complex->edges, 4 * coarse.count);
     memcpy(laying->points, coarse.points, 3 * coarse.vertices * sizeof *coarse.points);
     for (size_t e = 0; e < complex->edges; e++) {
@@ -539,7 +534,7 @@ static void make(struct gm_arena *arena, void *data)
     from->count = laying->count;
     struct gm_complex *complex = gm_complex_open(from, making->fault);
     if (complex && laying->rectangle && laying->rectangle->irregular > 0) {
-        gm_arena_keep(arena, complex, close_complex);
+        gm_arena_keep(arena, complex, gm_complex_close);
         making->fault->kind = GM_TRIANGULATION_MEMORY;
         jiggle(laying, complex);
         gm_arena_drop(arena, complex);

@@ -868,11 +868,12 @@ bool gm_triangulation_read_in_space(const char *text, size_t size, enum gm_star 
                      (struct reader){.star = star, .in_space = true, .mesh = mesh, .fault = fault});
 }
 
-void gm_triangulation_close(struct gm_triangulation *mesh)
+void gm_triangulation_close(void *mesh)
 {
-    gm_complex_close(mesh->complex);
-    gm_arena_close(mesh->arena);
-    *mesh = (struct gm_triangulation){0};
+    struct gm_triangulation *self = mesh;
+    gm_complex_close(self->complex);
+    gm_arena_close(self->arena);
+    *self = (struct gm_triangulation){0};
 }
 
 int gm_triangulation_first(const struct gm_triangulation *mesh, size_t edge)

@@ -203,24 +203,10 @@ static void make_derivatives(struct gm_form_space *space)
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }
 
-static void close_factor(void *factor)
-{
-    gm_cholesky_close(factor);
-}
-
 struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
-    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->rows, gm_matrix_count(a));
-    for (size_t i = 0; i < a->rows; i++) {
-        for (int k = a->start[i]; k < a->start[i + 1] && a->column[k] <= (int)i; k++) {
-            gm_matrix_add(&rows, a->column[k], a->value[k]);
-        }
-        gm_matrix_end_row(&rows, false);
-    }
-    const struct gm_matrix half = gm_matrix_end(&rows);
-    struct gm_cholesky *factor =
-        gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
-    return factor ? gm_arena_keep(arena, factor, close_factor) : NULL;
+    struct gm_cholesky *factor = gm_cholesky_open(a->rows, a->start, a->column, a->value, GM_CHOLESKY_EXACT);
+    return factor ? gm_arena_keep(arena, factor, gm_cholesky_close) : NULL;
 }
 
 static void make_stars(struct gm_form_space *space)
@@ -233,13 +219,9 @@ static void make_stars(struct gm_form_space *space)
     matrix[GM_MATRIX_STAR2] = gm_matrix_diagonal(arena, complex->area, complex->triangles, -1, 1);
     matrix[GM_MATRIX_DUAL_STAR0] = gm_matrix_diagonal(arena, complex->area, complex->triangles, 1, 1);
     struct gm_matrix diagonal = gm_matrix_diagonal(arena, complex->star1, complex->edges, 1, 1);
-    const struct gm_matrix flux = gm_matrix_product(arena, &diagonal, &matrix[GM_MATRIX_D0]);
-    matrix[GM_MATRIX_LAPLACE] = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_D1], &flux);
-    double *cells = gm_arena_take(arena, complex->vertices, sizeof *cells);
-    for (size_t v = 0; v < complex->vertices; v++) {
-        cells[v] = 1 / complex->star0[v];
-    }
-    gm_matrix_scale(&matrix[GM_MATRIX_LAPLACE], cells);
+    const struct gm_matrix flux = gm_matrix_product(arena, &diagonal, &matrix[GM_MATRIX_D0]),
+                           back = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_D1], &flux);
+    matrix[GM_MATRIX_LAPLACE] = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_STAR2], &back);
     if (complex->star == GM_STAR_CIRCUMCENTRIC) {
         matrix[GM_MATRIX_STAR1] = diagonal;
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
@@ -257,12 +239,7 @@ void gm_form_space_hold(struct gm_form_space *space, const bool *held)
         return;
     }
     struct gm_matrix inner = gm_matrix_sum(space->arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
-    for (size_t e = 0; e < inner.rows; e++) {
-        for (int k = inner.start[e]; k < inner.start[e + 1]; k++) {
-            const int column = inner.column[k];
-            inner.value[k] = held[e] || held[column] ? column == (int)e : inner.value[k];
-        }
-    }
+    gm_matrix_pin(&inner, held);
     space->inner = inner;
     space->held = held;
     gm_arena_drop(space->arena, space->mass);
@@ -270,15 +247,10 @@ void gm_form_space_hold(struct gm_form_space *space, const bool *held)
     gm_arena_need(space->arena, space->mass);
 }
 
-static void close_complex(void *complex)
-{
-    gm_complex_close(complex);
-}
-
 static void make(struct gm_arena *arena, void *data)
 {
     struct gm_form_space *space = data;
-    gm_arena_keep(arena, space->complex, close_complex);
+    gm_arena_keep(arena, space->complex, gm_complex_close);
     make_derivatives(space);
     make_stars(space);
     space->dual_vertex = gm_arena_take(arena, 3 * space->complex->triangles, sizeof(double));
@@ -306,10 +278,11 @@ bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex)
     return true;
 }
 
-void gm_form_space_close(struct gm_form_space *space)
+void gm_form_space_close(void *space)
 {
-    gm_arena_close(space->arena);
-    space->arena = NULL;
+    struct gm_form_space *self = space;
+    gm_arena_close(self->arena);
+    self->arena = NULL;
 }
 
 /* ---- integrals ---- */
@@ -361,38 +334,29 @@ static void put_piece(const struct gm_form_points *points, size_t at, const doub
     }
 }
 
-/* The corners of edge number `side` of a triangle, from low to high, and its middle. */
-static void edge_of(const struct gm_complex *complex, size_t t, size_t side, double low[3], double high[3],
-                    double middle[3])
-{
-    double p[9];
-    gm_complex_corners_in_space(complex, t, p);
-    const bool along = complex->triangle_sign[3 * t + side] > 0;
-    for (size_t c = 0; c < 3; c++) {
-        const double a = p[3 * side + c], b = p[(side + 1) % 3 * 3 + c];
-        low[c] = along ? a : b;
-        high[c] = along ? b : a;
-        middle[c] = (a + b) / 2;
-    }
-}
-
 static struct gm_form_points *points_of_lines(const struct gm_form_space *space, struct gm_arena *arena,
                                               bool dual)
 {
     const struct gm_complex *complex = space->complex;
     struct gm_form_points *points = room_for(arena, complex->edges, dual ? 10 : 5, true);
     for (size_t k = 0; k < 3 * complex->triangles; k++) {
-        double low[3], high[3], middle[3];
+        double p[9], middle[3];
+        gm_complex_corners_in_space(complex, k / 3, p);
+        const double *from = p + 3 * (k % 3), *to = p + 3 * ((k + 1) % 3);
+        for (size_t c = 0; c < 3; c++) {
+            middle[c] = (from[c] + to[c]) / 2;
+        }
         const size_t e = (size_t)complex->triangle_edge[k];
-        edge_of(complex, k / 3, k % 3, low, high, middle);
+        /* the triangle is on the left of the edge, which runs from its low to its high vertex */
+        const bool left = complex->triangle_sign[k] > 0;
         const double *centre = space->dual_vertex + 3 * (k / 3);
         const int *pair = complex->edge_triangle + 2 * e;
         if (dual && (pair[0] < 0 || pair[1] < 0)) { /* half of a dual edge: the other one has no length */
             put_piece(points, pair[0] < 0 ? 10 * e : 10 * e + 5, middle, middle);
         }
         if (!dual) {
-            put_piece(points, 5 * e, low, high);
-        } else if (complex->triangle_sign[k] > 0) { /* on the left: the dual edge ends here */
+            put_piece(points, 5 * e, left ? from : to, left ? to : from);
+        } else if (left) { /* the dual edge ends here */
             put_piece(points, 10 * e, middle, centre);
         } else {
             put_piece(points, 10 * e + 5, centre, middle);

@@ -79,7 +79,7 @@ struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_mat
 
 /* Takes the complex; false when out of memory, and nothing to close. */
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
-void gm_form_space_close(struct gm_form_space *space);
+void gm_form_space_close(void *space); /* for arenas too */
 
 /* Makes a matrix, unless it is there, in a body of an arena that the space does not outlive. */
 void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enum gm_form_matrix number);

@@ -24,7 +24,6 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
     values->slot = gm_arena_take(arena, program->count + 1, sizeof *values->slot);
     values->tapes = gm_arena_take(arena, program->count + 1, sizeof *values->tapes);
     values->sampled = gm_arena_take(arena, program->count + 1, sizeof *values->sampled);
-    values->solved = gm_arena_take(arena, space->complex->edges, sizeof *values->solved);
     for (size_t i = 0; i < program->count; i++) {
         const struct gm_form_step *step = &program->steps[i];
         if (step->kind != GM_STEP_FORM) {

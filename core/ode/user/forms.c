@@ -960,16 +960,6 @@ static void hold(struct own *own, const double *variables)
     gm_form_space_hold(&own->space, own_edges);
 }
 
-static void close_space(void *space)
-{
-    gm_form_space_close(space);
-}
-
-static void close_file(void *file)
-{
-    gm_triangulation_close(file);
-}
-
 static void close_turn(void *turn)
 {
     pthread_mutex_destroy(turn);
@@ -1034,9 +1024,9 @@ static void make(struct gm_arena *arena, void *data)
     own->file = opening->file;
     own->file.complex = NULL; /* the space takes it */
     opening->file = (struct gm_triangulation){0};
-    gm_arena_keep(arena, &own->file, close_file);
+    gm_arena_keep(arena, &own->file, gm_triangulation_close);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
-    gm_arena_keep(arena, &own->space, close_space);
+    gm_arena_keep(arena, &own->space, gm_form_space_close);
     own->space.interior = opening->interior;
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);
