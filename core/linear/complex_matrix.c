@@ -14,7 +14,7 @@ enum { SIZE = GM_COMPLEX_LARGEST * GM_COMPLEX_LARGEST, TERMS = 20 };
 
 static const double factorials[GM_PHI_MOST] = {1, 1, 2, 6};
 
-#define NUMBER double complex
+#define ENTRY double complex
 #define MAGNITUDE cabs
 #define ELIMINATE eliminate_columns
 #include "core/linear/eliminate.loop.h"

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gaussian elimination with partial pivoting: of real numbers in core/linear/iteration.h, of complex ones in
-   core/linear/complex_matrix.c, which include this file with NUMBER, their type, MAGNITUDE, its absolute value, and
+   core/linear/complex_matrix.c, which include this file with ENTRY, the type of an entry, MAGNITUDE, its absolute value, and
    ELIMINATE, the name of the function. The loops over kernels include it too. */
 
 /* Solves a x = r for `columns` right sides, a an n * n matrix by rows. Each x overwrites its r; a becomes the upper
    triangle of the elimination. Returns false if a is singular. */
-static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, NUMBER *restrict a, size_t columns,
-                                                            NUMBER *restrict r)
+static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, ENTRY *restrict a, size_t columns,
+                                                            ENTRY *restrict r)
 {
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
@@ -21,19 +21,19 @@ static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, NUMBER *re
         }
         if (pivot != k) {
             for (size_t j = k; j < n; j++) {
-                const NUMBER swap = a[k * n + j];
+                const ENTRY swap = a[k * n + j];
                 a[k * n + j] = a[pivot * n + j];
                 a[pivot * n + j] = swap;
             }
             for (size_t c = 0; c < columns; c++) {
-                const NUMBER swap = r[c * n + k];
+                const ENTRY swap = r[c * n + k];
                 r[c * n + k] = r[c * n + pivot];
                 r[c * n + pivot] = swap;
             }
         }
         for (size_t i = k + 1; i < n; i++) {
-            NUMBER *restrict row = a + i * n;
-            const NUMBER *top = a + k * n, factor = row[k] / top[k];
+            ENTRY *restrict row = a + i * n;
+            const ENTRY *top = a + k * n, factor = row[k] / top[k];
             for (size_t j = k + 1; j < n; j++) {
                 row[j] -= factor * top[j];
             }
@@ -44,7 +44,7 @@ static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, NUMBER *re
     }
     for (size_t c = 0; c < columns; c++) {
         for (size_t k = n; k-- > 0;) {
-            NUMBER sum = r[c * n + k];
+            ENTRY sum = r[c * n + k];
             for (size_t j = k + 1; j < n; j++) {
                 sum -= a[k * n + j] * r[c * n + j];
             }
@@ -54,6 +54,6 @@ static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, NUMBER *re
     return true;
 }
 
-#undef NUMBER
+#undef ENTRY
 #undef MAGNITUDE
 #undef ELIMINATE

@@ -12,7 +12,7 @@
 #include "core/linear/settled.h"
 #include "core/problem.h"
 
-#define NUMBER double
+#define ENTRY double
 #define MAGNITUDE fabs
 #define ELIMINATE gm_eliminate_columns
 #include "core/linear/eliminate.loop.h"
