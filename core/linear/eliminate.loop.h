@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gaussian elimination with partial pivoting: of real numbers in core/linear/iteration.h, of complex ones in
-   core/linear/complex_matrix.c, which include this file with ENTRY, the type of an entry, MAGNITUDE, its absolute value, and
-   ELIMINATE, the name of the function. The loops over kernels include it too. */
+   core/linear/complex_matrix.c. They include this file with ENTRY, the type of an entry, MAGNITUDE, its absolute
+   value, and ELIMINATE, the name of the function. The loops over kernels include it too. */
 
 /* Solves a x = r for `columns` right sides, a an n * n matrix by rows. Each x overwrites its r; a becomes the upper
    triangle of the elimination. Returns false if a is singular. */
