@@ -70,9 +70,9 @@ _Noreturn static void fail(struct reader *reader, enum gm_triangulation_fault_ki
     gm_arena_leave(reader->arena);
 }
 
-static void expect(struct reader *reader, bool good, const char *what)
+static void expect(struct reader *reader, bool there, const char *what)
 {
-    if (!good) {
+    if (!there) {
         fail(reader, GM_TRIANGULATION_SYNTAX, what);
     }
 }

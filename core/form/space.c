@@ -150,19 +150,18 @@ void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enu
         return;
     }
     struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
-    for (size_t e = 0; e < complex->edges; e++) {
-        const int *pair = complex->edge_triangle + 2 * e, *ends = complex->edge + 2 * e;
-        const bool inside = pair[0] >= 0 && pair[1] >= 0;
-        for (size_t k = 0; k < 2; k++) {
-            if (number == GM_MATRIX_JUMP1 && upwind) {
-                gm_matrix_put(&entries, e, (size_t)ends[k], k ? 0.5 : -0.5);
-            } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
-                gm_matrix_put(&entries, e, (size_t)pair[k], k ? 0.5 : -0.5);
-            } else if (number == GM_MATRIX_HALVES && !inside) {
-                gm_matrix_put(&entries, (size_t)ends[k], e, 0.25);
-            } else if (number == GM_MATRIX_OUT && !inside && k == 0) {
-                gm_matrix_put(&entries, e, e, pair[0] >= 0 ? 1 : -1);
-            }
+    for (size_t k = 0; k < 2 * complex->edges; k++) {
+        const size_t e = k / 2, end = (size_t)complex->edge[k];
+        const int side = complex->edge_triangle[k];
+        const bool inside = side >= 0 && complex->edge_triangle[k ^ 1] >= 0;
+        if (number == GM_MATRIX_JUMP1 && upwind) {
+            gm_matrix_put(&entries, e, end, k % 2 ? 0.5 : -0.5);
+        } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
+            gm_matrix_put(&entries, e, (size_t)side, k % 2 ? 0.5 : -0.5);
+        } else if (number == GM_MATRIX_HALVES && !inside) {
+            gm_matrix_put(&entries, end, e, 0.25);
+        } else if (number == GM_MATRIX_OUT && !inside && side >= 0) {
+            gm_matrix_put(&entries, e, e, k % 2 ? -1 : 1);
         }
     }
     const size_t cells = number == GM_MATRIX_HALVES ? complex->vertices : complex->edges,

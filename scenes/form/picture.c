@@ -318,14 +318,14 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
         view.state = i % 2 ? view.state : view.start;
         view.t = i % 2 ? view.t : view.t0;
         const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
-        const bool good = paint(picture, &view, &painted);
-        for (size_t k = 0; k < corners && good; k++) { /* NaN fails both */
+        if (!paint(picture, &view, &painted)) {
+            continue;
+        }
+        for (size_t k = 0; k < corners; k++) { /* NaN fails both */
             range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
             range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];
         }
-        if (good && painted.vector) {
-            range[0] = 0;
-        }
+        range[0] = painted.vector ? 0 : range[0];
     }
     const double most = fmax(fabs(range[0]), fabs(range[1]));
     if (range[1] - range[0] <= 1e-12 * most || !isfinite(most)) { /* a constant */
