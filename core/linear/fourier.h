@@ -37,18 +37,4 @@ void gm_modes_forward(const struct gm_modes *modes, const double *y, double _Com
 /* The inverse of gm_modes_forward, from modes 0 .. points / 2; the waves are destroyed. */
 void gm_modes_back(const struct gm_modes *modes, double _Complex *waves, double *y);
 
-/* The sum over closed curves (q, p) of the integral of p dq, of its magnitude, and of the magnitudes of the shares
-   of all waves and of the upper half of those that the points carry. */
-struct gm_curve_action {
-    double action, magnitude, waves, short_waves;
-};
-
-/* Adds the curve through `count` points at equal distances of a parameter from 0 to 2 pi. Returns false when
-   out of memory. */
-bool gm_curve_add_action(const double *q, const double *p, size_t count, struct gm_curve_action *sum);
-
-/* Replaces points by derivatives of the trigonometric polynomial through them, without its alternating
-   part. Returns false when out of memory. */
-bool gm_curve_differentiate(double _Complex *points, size_t count);
-
 #endif

@@ -665,6 +665,11 @@ static void find_mesh(struct gm_user_room *user_room)
     }
 }
 
+static void close_mesh(void *mesh)
+{
+    gm_triangulation_close(mesh);
+}
+
 /* A scene while it is made, and the fault of its file. */
 struct making {
     const struct gm_room_file *file;
@@ -733,7 +738,7 @@ static void make(struct gm_arena *arena, void *data)
         find_mesh(user_room);
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
-        gm_arena_keep(arena, mesh, gm_triangulation_close);
+        gm_arena_keep(arena, mesh, close_mesh);
         if (!gm_flows_mesh(&user_room->initial, NULL, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/linear/fourier.h"
+#include "core/linear/curve.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"

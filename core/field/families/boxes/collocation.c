@@ -153,6 +153,11 @@ static void invert(struct gm_collocation *work)
     work->rest = round(work->rest);
 }
 
+static void close_fourier(void *fourier)
+{
+    gm_fourier_close(fourier);
+}
+
 static void open_arrays(struct gm_arena *arena, void *data)
 {
     struct gm_collocation *work = data;
@@ -173,7 +178,7 @@ static void open_arrays(struct gm_arena *arena, void *data)
     work->right = take(work, stages + sides);
     work->scratch = take(work, sides + 2 * points);
     work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
-    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), gm_fourier_close);
+    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
     /* a run needs these, or its numbers would depend on memory; the factors of Newton's method are many */
     if (gm_field_of(work->problem)->form->potential_count == 0 &&
         !open_factors(work, &work->constant, true)) {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/linear/fourier.h"
+#include "core/linear/curve.h"
 
 /* False: out of memory. */
 static bool differentiate(const struct gm_grid1 *grid, const double *u, double *slopes)
