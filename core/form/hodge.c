@@ -50,7 +50,12 @@ static void make_potential(struct gm_hodge *hodge, struct gm_arena *arena)
                                                     &space->matrix[GM_MATRIX_D0]),
                            back = gm_matrix_product(arena, &space->matrix[GM_MATRIX_DUAL_D1], &flux);
     *k = gm_matrix_sum(arena, -1, &back, 0, NULL);
-    gm_matrix_pin(k, hodge->pinned);
+    for (size_t i = 0; i < k->rows; i++) {
+        for (int l = k->start[i]; l < k->start[i + 1]; l++) {
+            const int j = k->column[l];
+            k->value[l] = hodge->pinned[i] || hodge->pinned[j] ? j == (int)i : k->value[l];
+        }
+    }
     hodge->factor = gm_matrix_factor(arena, k);
     gm_arena_need(arena, hodge->factor);
 }

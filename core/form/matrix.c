@@ -178,16 +178,6 @@ void gm_matrix_scale(struct gm_matrix *matrix, const double *scale)
     }
 }
 
-void gm_matrix_pin(struct gm_matrix *matrix, const bool *pinned)
-{
-    for (size_t i = 0; i < matrix->rows; i++) {
-        for (int k = matrix->start[i]; k < matrix->start[i + 1]; k++) {
-            const int j = matrix->column[k];
-            matrix->value[k] = pinned[i] || pinned[j] ? j == (int)i : matrix->value[k];
-        }
-    }
-}
-
 struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *numbers, size_t count, int power,
                                     double factor)
 {

@@ -64,8 +64,6 @@ struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm
                                const struct gm_matrix *b);
 /* Multiplies row i by scale[i]. */
 void gm_matrix_scale(struct gm_matrix *matrix, const double *scale);
-/* Replaces rows and columns that are pinned, of a square matrix, by those of the identity. */
-void gm_matrix_pin(struct gm_matrix *matrix, const bool *pinned);
 /* The diagonal matrix of `count` numbers, each to this power, 1 or -1, times a factor. */
 struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *numbers, size_t count, int power,
                                     double factor);

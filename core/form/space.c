@@ -238,7 +238,12 @@ void gm_form_space_hold(struct gm_form_space *space, const bool *held)
         return;
     }
     struct gm_matrix inner = gm_matrix_sum(space->arena, 1, &space->matrix[GM_MATRIX_STAR1], 0, NULL);
-    gm_matrix_pin(&inner, held);
+    for (size_t e = 0; e < inner.rows; e++) {
+        for (int k = inner.start[e]; k < inner.start[e + 1]; k++) {
+            const int column = inner.column[k];
+            inner.value[k] = held[e] || held[column] ? column == (int)e : inner.value[k];
+        }
+    }
     space->inner = inner;
     space->held = held;
     gm_arena_drop(space->arena, space->mass);
