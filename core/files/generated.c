@@ -7,20 +7,21 @@
 
 char *gm_input_read(const char *path, size_t *length)
 {
-    char *text = NULL, part[4096];
-    FILE *in = fopen(path, "r"), *memory = in ? open_memstream(&text, length) : NULL;
-    for (size_t count; memory && (count = fread(part, 1, sizeof part, in)) > 0;) {
-        fwrite(part, 1, count, memory);
+    FILE *in = fopen(path, "r");
+    const long size = in && fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
+    char *text = size >= 0 ? calloc((size_t)size + 1, 1) : NULL;
+    if (text) {
+        rewind(in);
+        *length = (size_t)size;
     }
-    bool good = memory && !ferror(in);
-    good = memory && fclose(memory) == 0 && good;
+    if (text && fread(text, 1, *length, in) < *length) {
+        free(text);
+        text = NULL;
+    }
     if (in) {
         fclose(in);
     }
-    if (!good) {
-        free(text);
-    }
-    return good ? text : NULL;
+    return text;
 }
 
 void gm_string_put(FILE *out, const char *text, size_t length)

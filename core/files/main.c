@@ -19,18 +19,24 @@ static const char *path_of(const char *path)
     return slash ? slash : path;
 }
 
-/* Writes a member with its line, and frees the line. Returns false if the line is NULL: out of memory. */
-static bool put_line(FILE *out, const char *member, char *line)
+_Noreturn static void fail(const char *path)
 {
-    if (line) {
-        fprintf(out, ", .%s = ", member);
-        gm_string_put(out, line, strlen(line));
-    }
-    free(line);
-    return line;
+    fprintf(stderr, "%s could not be read\n", path);
+    exit(EXIT_FAILURE);
 }
 
-static bool put_file(FILE *out, const char *given)
+/* Writes a member with its line of a file, and frees the line; NULL: out of memory. */
+static void put_line(FILE *out, const char *path, const char *member, char *line)
+{
+    if (!line) {
+        fail(path);
+    }
+    fprintf(out, ", .%s = ", member);
+    gm_string_put(out, line, strlen(line));
+    free(line);
+}
+
+static void put_file(FILE *out, const char *given)
 {
     const char *path = path_of(given), *name = strrchr(path, '/');
     size_t length = 0;
@@ -39,39 +45,31 @@ static bool put_file(FILE *out, const char *given)
         kind++;
     }
     char *text = kind < GM_FILE_KINDS && name ? gm_input_read(given, &length) : NULL;
-    bool good = text != NULL;
-    if (good) {
-        const size_t letters = strlen(name + 1) - (kind == GM_FILE_MESH ? 0 : strlen(gm_file_endings[kind]));
-        fprintf(out, "{.kind = %d, .path = \"%s\", .name = \"%.*s\"", (int)kind, path, (int)letters,
-                name + 1);
-        const size_t described = kind == GM_FILE_MESH ? 0 : length;
-        good = put_line(out, "title", gm_file_title(text, described)) &&
-               put_line(out, "about", gm_file_line(text, described, "about"));
-        fprintf(out, ", .length = %zu, .text = ", length);
-        gm_string_put(out, text, length);
-        fputs("},\n", out);
+    if (!text) {
+        fail(given);
     }
+    const size_t letters = strlen(name + 1) - (kind == GM_FILE_MESH ? 0 : strlen(gm_file_endings[kind])),
+                 described = kind == GM_FILE_MESH ? 0 : length;
+    fprintf(out, "{.kind = %d, .path = \"%s\", .name = \"%.*s\"", (int)kind, path, (int)letters, name + 1);
+    put_line(out, given, "title", gm_file_title(text, described));
+    put_line(out, given, "about", gm_file_line(text, described, "about"));
+    fprintf(out, ", .length = %zu, .text = ", length);
+    gm_string_put(out, text, length);
+    fputs("},\n", out);
     free(text);
-    return good;
 }
 
 int main(int argc, char *argv[])
 {
     FILE *out = argc > 2 ? fopen(argv[1], "w") : NULL;
-    bool good = out != NULL;
-    if (good) {
-        fputs("#include \"core/files/files.h\"\n\nconst struct gm_built_in gm_built_in_files[] = {\n", out);
+    if (!out) {
+        return EXIT_FAILURE;
     }
-    for (int i = 2; i < argc && good; i++) {
-        good = put_file(out, argv[i]);
-        if (!good) {
-            fprintf(stderr, "%s could not be read\n", argv[i]);
-        }
+    fputs("#include \"core/files/files.h\"\n\nconst struct gm_built_in gm_built_in_files[] = {\n", out);
+    for (int i = 2; i < argc; i++) {
+        put_file(out, argv[i]);
     }
-    if (out) {
-        fprintf(out, "};\nconst size_t gm_built_in_count = %d;\n", argc - 2);
-        good = !ferror(out) && good;
-        good = fclose(out) == 0 && good;
-    }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    fprintf(out, "};\nconst size_t gm_built_in_count = %d;\n", argc - 2);
+    const bool failed = ferror(out);
+    return fclose(out) == 0 && !failed ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -80,8 +80,8 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
             continue;
         }
         /* in a mesh that overlaps itself no loop is within another */
-        const bool elsewhere = flow->openings > 0 && gm_complex_loop(complex, e) !=
-                                                         gm_complex_loop(complex, flow->opening[0].first);
+        const bool elsewhere =
+            flow->openings > 0 && complex->loop[e] != complex->loop[flow->opening[0].first];
         flow->faulty = side;
         if (flow->hole[complex->boundary_vertex[e]] > 0 || elsewhere) {
             return GM_BOUNDARY_IN_HOLE;

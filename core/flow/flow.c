@@ -32,11 +32,6 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
     return y + gm_flow_block_numbers(flow) + 1 + GM_TRACER_NUMBERS * tracer;
 }
 
-static void close_complex(void *complex)
-{
-    gm_complex_close(complex);
-}
-
 /* An array for n vertices: zeros, or a copy. */
 static void *array(struct gm_arena *arena, size_t n, size_t size, const void *values)
 {
@@ -82,7 +77,7 @@ struct gm_flow *gm_flow_open(struct gm_complex *complex)
     struct gm_flow *flow = gm_flow_open_now(&(struct gm_flow){.complex = complex, .time_unit = 1});
     if (!flow) {
         gm_complex_close(complex);
-    } else if (!gm_arena_keep(flow->arena, complex, close_complex)) {
+    } else if (!gm_arena_keep(flow->arena, complex, gm_complex_close)) {
         gm_flow_close(flow);
         flow = NULL;
     }

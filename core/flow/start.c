@@ -13,18 +13,13 @@ struct poisson {
     double *psi;
 };
 
-static void close_factor(void *factor)
-{
-    gm_cholesky_close(factor);
-}
-
 static void solve(struct gm_arena *arena, void *data)
 {
     const struct poisson *poisson = data;
     const struct gm_unknowns unknowns = gm_unknowns_of(arena, poisson->flow);
     if (unknowns.count > 0) {
         struct gm_cholesky *factor = gm_arena_keep(
-            arena, gm_unknowns_factor(&unknowns, poisson->flow, GM_CHOLESKY_EXACT, 1, 0), close_factor);
+            arena, gm_unknowns_factor(&unknowns, poisson->flow, GM_CHOLESKY_EXACT, 1, 0), gm_cholesky_close);
         double *b = gm_arena_take(arena, 2 * unknowns.count, sizeof *b);
         gm_unknowns_solve_poisson(&unknowns, poisson->flow, factor, poisson->right, b, b + unknowns.count,
                                   poisson->psi);

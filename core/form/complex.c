@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/linear/vectors.h"
 
 /* A dual edge shorter than this part of its edge counts as none: two right angles that face each other leave
    round-off of either sign. */
@@ -62,19 +63,30 @@ _Noreturn static void refuse_vertex(struct building *building, int vertex,
     refuse(building, kind);
 }
 
+void gm_complex_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
+{
+    for (size_t c = 0; c < 3; c++) {
+        point[c] = c < complex->coordinates ? complex->point[complex->coordinates * vertex + c] : 0;
+    }
+}
+
 void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9])
 {
-    const int *t = complex->triangle + 3 * triangle;
     for (size_t k = 0; k < 3; k++) {
-        for (size_t c = 0; c < 3; c++) {
-            double x = c < complex->coordinates ? complex->point[complex->coordinates * (size_t)t[k] + c] : 0;
-            const double period = c < 2 ? complex->period[c] : 0;
-            if (period > 0 && k > 0) {
-                x -= period * round((x - corners[c]) / period);
-            }
-            corners[3 * k + c] = x;
+        double *corner = corners + 3 * k;
+        gm_complex_vertex(complex, (size_t)complex->triangle[3 * triangle + k], corner);
+        for (size_t c = 0; c < 2 && k > 0 && complex->period[c] > 0; c++) {
+            corner[c] -= complex->period[c] * round((corner[c] - corners[c]) / complex->period[c]);
         }
     }
+}
+
+void gm_triangle_normal(const double p[9], double normal[3])
+{
+    double a[3], b[3];
+    gm_subtract(p + 3, p, a);
+    gm_subtract(p + 6, p, b);
+    gm_cross(a, b, normal);
 }
 
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
@@ -142,15 +154,14 @@ static void orient(struct building *building, bool in_plane)
 {
     struct gm_complex *complex = building->complex;
     for (size_t t = 0; t < complex->triangles; t++) {
-        double p[9], normal[3], longest = 0;
+        double p[9], normal[3], side[3], longest = 0;
         gm_complex_corners_in_space(complex, t, p);
         for (int k = 0; k < 3; k++) {
-            const int n = (k + 1) % 3, u = (k + 1) % 3, w = (k + 2) % 3;
-            longest = fmax(longest, hypot(hypot(p[3 * n] - p[3 * k], p[3 * n + 1] - p[3 * k + 1]),
-                                          p[3 * n + 2] - p[3 * k + 2]));
-            normal[k] = (p[3 + u] - p[u]) * (p[6 + w] - p[w]) - (p[6 + u] - p[u]) * (p[3 + w] - p[w]);
+            gm_subtract(p + (k + 1) % 3 * 3, p + 3 * k, side);
+            longest = fmax(longest, gm_length(side));
         }
-        const double twice = in_plane ? normal[2] : hypot(hypot(normal[0], normal[1]), normal[2]);
+        gm_triangle_normal(p, normal);
+        const double twice = in_plane ? normal[2] : gm_length(normal);
         const int *v = complex->triangle + 3 * t;
         const bool flat = !(fabs(twice) > 1e-12 * longest * longest) || !isfinite(twice);
         if (flat || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
@@ -232,17 +243,20 @@ static void find_pieces(struct building *building, bool in_plane)
             continue;
         }
         bool closed = true;
-        double volume = 0, p[9];
+        double volume = 0, p[9], normal[3];
+        int least = complex->triangle[3 * first];
         sense[first] = 1;
         queue[end++] = (int)first;
         building->other = complex->pieces++ == 1 ? first : building->other;
         for (size_t i = begin; i < end; i++) {
             const int t = queue[i];
             gm_complex_corners_in_space(complex, (size_t)t, p);
-            volume += sense[t] * (p[0] * (p[4] * p[8] - p[5] * p[7]) + p[1] * (p[5] * p[6] - p[3] * p[8]) +
-                                  p[2] * (p[3] * p[7] - p[4] * p[6]));
+            gm_cross(p + 3, p + 6, normal);
+            volume += sense[t] * gm_dot(p, normal);
+            complex->triangle_piece[t] = (int)first;
             for (int k = 0; k < 3; k++) {
                 const int here = 3 * t + k, there = across[here];
+                least = complex->triangle[here] < least ? complex->triangle[here] : least;
                 closed &= there >= 0;
                 if (there < 0) {
                     continue;
@@ -262,6 +276,9 @@ static void find_pieces(struct building *building, bool in_plane)
         }
         complex->closed += closed;
         for (; begin < end; begin++) {
+            for (int k = 0; k < 3; k++) {
+                complex->vertex_piece[complex->triangle[3 * queue[begin] + k]] = least;
+            }
             if (!in_plane && (sense[queue[begin]] < 0) != (closed && volume < 0)) {
                 flip(complex->triangle + 3 * queue[begin]);
             }
@@ -280,27 +297,22 @@ static void make_edges(struct building *building)
         pair[0] = pair[1] = -1;
         complex->edge[2 * edges] = sides[i].low;
         complex->edge[2 * edges + 1] = sides[i].high;
-        for (end = i; end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high;
-             end++) {
-            const int place = sides[end].place;
-            const bool along = complex->triangle[place] == sides[end].low;
-            int *seat = &pair[along ? 0 : 1];
-            if (end - i == 2) {
-                building->fault->nodes[1] = tag_of(building->from, sides[i].high);
-                refuse_vertex(building, sides[i].low, GM_TRIANGULATION_EDGE_OF_THREE);
-            }
+        while (end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high) {
+            end++;
+        }
+        if (end - i > 2) {
+            building->fault->nodes[1] = tag_of(building->from, sides[i].high);
+            refuse_vertex(building, sides[i].low, GM_TRIANGULATION_EDGE_OF_THREE);
+        }
+        for (size_t k = i; k < end; k++) {
+            const int place = sides[k].place;
+            const bool along = complex->triangle[place] == sides[k].low;
             complex->triangle_edge[place] = (int)edges;
             complex->triangle_sign[place] = along ? 1 : -1;
-            if (*seat < 0) {
-                *seat = place / 3;
-            } else {
-                /* two on one side; a third one of the same edge is reported first */
-                const bool third = end + 1 < count && sides[end + 1].low == sides[i].low &&
-                                   sides[end + 1].high == sides[i].high;
-                if (!third) {
-                    refuse_triangle(building, (size_t)(place / 3), GM_TRIANGULATION_OVERLAP);
-                }
+            if (pair[along ? 0 : 1] >= 0) {
+                refuse_triangle(building, (size_t)(place / 3), GM_TRIANGULATION_OVERLAP);
             }
+            pair[along ? 0 : 1] = place / 3;
         }
     }
     complex->edges = edges;
@@ -335,37 +347,29 @@ static void check_fans(struct building *building, const int *leaves)
 {
     const struct gm_complex *complex = building->complex;
     int *corners = gm_arena_take(building->arena, complex->vertices, sizeof *corners);
-    int *first = gm_arena_take(building->arena, complex->vertices, sizeof *first);
+    int *last = gm_arena_take(building->arena, complex->vertices, sizeof *last);
     for (size_t i = 0; i < 3 * complex->triangles; i++) {
         corners[complex->triangle[i]]++;
-        first[complex->triangle[i]] = (int)i;
+        last[complex->triangle[i]] = (int)(i / 3);
     }
     for (size_t v = 0; v < complex->vertices; v++) {
         /* from the triangle of the boundary edge that leaves v, if any, counter-clockwise */
-        int place = first[v];
+        const int *pair = complex->edge_triangle;
+        int t = last[v], met = 0;
         if (leaves[v] >= 0) {
-            const int *pair = complex->edge_triangle + 2 * leaves[v];
-            const int t = pair[0] >= 0 ? pair[0] : pair[1];
-            place = 3 * t;
-            while (complex->triangle[place] != (int)v) {
-                place++;
-            }
+            pair += 2 * leaves[v];
+            t = pair[0] >= 0 ? pair[0] : pair[1];
         }
-        const int begin = place;
-        int met = 0;
+        const int begin = t;
         do {
-            met++;
-            const int t = place / 3, k = place % 3, side = 3 * t + (k + 2) % 3;
-            const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[side];
-            const int next = pair[0] == t ? pair[1] : pair[0];
-            if (next < 0) {
-                break;
-            }
-            place = 3 * next;
+            int place = 3 * t;
             while (complex->triangle[place] != (int)v) {
                 place++;
             }
-        } while (place != begin && met < corners[v]);
+            pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * t + (place + 2) % 3];
+            t = pair[0] == t ? pair[1] : pair[0];
+            met++;
+        } while (t >= 0 && t != begin && met < corners[v]);
         if (met != corners[v]) {
             refuse_vertex(building, (int)v, GM_TRIANGULATION_PINCHED);
         }
@@ -403,11 +407,22 @@ static void make_boundary(struct building *building)
             const int e = leaves[at];
             leaves[at] = -1;
             complex->boundary_edge[count] = e;
+            complex->loop[count] = complex->loops - 1;
             complex->boundary_vertex[count++] = at;
             at = complex->edge[2 * e] == at ? complex->edge[2 * e + 1] : complex->edge[2 * e];
         }
         complex->loop_start[complex->loops] = count;
     }
+}
+
+/* Returns the dot product of both sides of corner k, and the side that faces it. */
+static double face(const double p[9], int k, double side[3])
+{
+    double a[3], b[3];
+    gm_subtract(p + (k + 1) % 3 * 3, p + 3 * k, a);
+    gm_subtract(p + (k + 2) % 3 * 3, p + 3 * k, b);
+    gm_subtract(b, a, side);
+    return gm_dot(a, b);
 }
 
 static void measure(struct gm_complex *complex)
@@ -418,17 +433,12 @@ static void measure(struct gm_complex *complex)
         gm_complex_corners_in_space(complex, t, p);
         bool obtuse = false;
         for (int k = 0; k < 3; k++) {
-            const int a = (k + 1) % 3, b = (k + 2) % 3;
-            const double ax = p[3 * a] - p[3 * k], ay = p[3 * a + 1] - p[3 * k + 1],
-                         az = p[3 * a + 2] - p[3 * k + 2];
-            const double bx = p[3 * b] - p[3 * k], by = p[3 * b + 1] - p[3 * k + 1],
-                         bz = p[3 * b + 2] - p[3 * k + 2];
-            const double dot = ax * bx + ay * by + az * bz, cross = 2 * complex->area[t];
-            const double x = bx - ax, y = by - ay, z = bz - az;
-            const int e = complex->triangle_edge[3 * t + (size_t)a];
+            double side[3];
+            const double dot = face(p, k, side), cross = 2 * complex->area[t];
+            const int e = complex->triangle_edge[3 * t + (size_t)(k + 1) % 3];
             complex->star1[e] += dot / cross / 2;
-            complex->length[e] = hypot(hypot(x, y), z);
-            share[k] = (x * x + y * y + z * z) * dot / cross;
+            complex->length[e] = gm_length(side);
+            share[k] = gm_dot(side, side) * dot / cross;
             sum += share[k];
             obtuse |= dot < 0;
             const double angle = atan2(cross, dot) * 180 / M_PI;
@@ -453,17 +463,13 @@ static void measure(struct gm_complex *complex)
 /* The angle of a triangle opposite to edge e, in degrees. */
 static double angle_facing(const struct gm_complex *complex, int triangle, int e)
 {
-    double p[9], dot = 0;
+    double p[9], side[3];
     gm_complex_corners_in_space(complex, (size_t)triangle, p);
     int a = 0;
     while (complex->triangle_edge[3 * triangle + a] != e) {
         a++;
     }
-    const int k = (a + 2) % 3, b = (a + 1) % 3;
-    for (int c = 0; c < 3; c++) {
-        dot += (p[3 * a + c] - p[3 * k + c]) * (p[3 * b + c] - p[3 * k + c]);
-    }
-    return fabs(atan2(2 * complex->area[triangle], dot)) * 180 / M_PI;
+    return fabs(atan2(2 * complex->area[triangle], face(p, (a + 2) % 3, side))) * 180 / M_PI;
 }
 
 /* Returns true if dual edges and cells are positive; if not, the fault names the worst one. */
@@ -523,25 +529,15 @@ static void take_star(struct building *building)
     }
 }
 
-size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge)
-{
-    size_t loop = 0, behind = complex->loops;
-    while (behind - loop > 1) {
-        const size_t middle = (loop + behind) / 2;
-        *(boundary_edge < complex->loop_start[middle] ? &behind : &loop) = middle;
-    }
-    return loop;
-}
-
 size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge)
 {
-    const size_t loop = gm_complex_loop(complex, boundary_edge);
+    const size_t loop = complex->loop[boundary_edge];
     return boundary_edge + 1 < complex->loop_start[loop + 1] ? boundary_edge + 1 : complex->loop_start[loop];
 }
 
 size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge)
 {
-    const size_t loop = gm_complex_loop(complex, boundary_edge);
+    const size_t loop = complex->loop[boundary_edge];
     return (boundary_edge > complex->loop_start[loop] ? boundary_edge : complex->loop_start[loop + 1]) - 1;
 }
 
@@ -572,6 +568,9 @@ static void allocate(struct gm_complex *complex, struct gm_arena *arena)
     complex->boundary_edge = gm_arena_take(arena, sides, sizeof *complex->boundary_edge);
     complex->boundary_vertex = gm_arena_take(arena, sides, sizeof *complex->boundary_vertex);
     complex->loop_start = gm_arena_take(arena, sides + 1, sizeof *complex->loop_start);
+    complex->loop = gm_arena_take(arena, sides, sizeof *complex->loop);
+    complex->triangle_piece = gm_arena_take(arena, t, sizeof *complex->triangle_piece);
+    complex->vertex_piece = gm_arena_take(arena, v, sizeof *complex->vertex_piece);
     complex->length = gm_arena_take(arena, sides, sizeof *complex->length);
     complex->area = gm_arena_take(arena, t, sizeof *complex->area);
     complex->weight = gm_arena_take(arena, sides, sizeof *complex->weight);
@@ -630,9 +629,9 @@ struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_tr
     return building.complex;
 }
 
-void gm_complex_close(struct gm_complex *complex)
+void gm_complex_close(void *complex)
 {
     if (complex) {
-        gm_arena_close(complex->arena);
+        gm_arena_close(((struct gm_complex *)complex)->arena);
     }
 }

@@ -84,14 +84,17 @@ struct gm_complex {
     int *boundary_vertex;  /* the vertex where each begins */
     size_t loops;          /* connected pieces of the boundary */
     size_t *loop_start;    /* loops + 1: where each begins in boundary_edge */
+    size_t *loop;          /* the loop of each boundary edge */
     size_t pieces, closed; /* connected pieces, and those without a boundary */
-    enum gm_star star;     /* star that is used */
-    double star_least;     /* the least entry of the circumcentric star1 */
-    size_t obtuse;         /* triangles with an angle above 90 degrees */
-    double *length;        /* length of each edge */
-    double *area;          /* area of each triangle */
-    double *weight;        /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
-    double *star0;         /* area of the dual cells */
+    /* The piece of each triangle and vertex, by the number of its first one. */
+    int *triangle_piece, *vertex_piece;
+    enum gm_star star; /* star that is used */
+    double star_least; /* the least entry of the circumcentric star1 */
+    size_t obtuse;     /* triangles with an angle above 90 degrees */
+    double *length;    /* length of each edge */
+    double *area;      /* area of each triangle */
+    double *weight;    /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
+    double *star0;     /* area of the dual cells */
     /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
        is circumcentric it is |dual edge| / |edge|. */
     double *star1;
@@ -119,12 +122,16 @@ struct gm_triangles {
 
 /* Builds the complex. Returns NULL with a fault if the mesh is not valid. */
 struct gm_complex *gm_complex_open(const struct gm_triangles *from, struct gm_triangulation_fault *fault);
-void gm_complex_close(struct gm_complex *complex);
+void gm_complex_close(void *complex); /* for arenas too */
 
+/* A vertex in space: z is 0 in the plane. */
+void gm_complex_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);
 /* The corners of a triangle, next to each other even on a torus: x0 y0 x1 y1 x2 y2. */
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6]);
 /* The same with z: x0 y0 z0 .. z2. */
 void gm_complex_corners_in_space(const struct gm_complex *complex, size_t triangle, double corners[9]);
+/* The normal of a triangle with these corners in space, as long as twice its area. */
+void gm_triangle_normal(const double corners[9], double normal[3]);
 
 /* The edge between two vertices, or -1. */
 int gm_complex_edge(const struct gm_complex *complex, int a, int b);
@@ -142,8 +149,6 @@ void gm_complex_middle(const struct gm_complex *complex, size_t edge, double mid
 /* The boundary edge after another one on its loop, and before it. */
 size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge);
 size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge);
-/* The loop of a boundary edge. */
-size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge);
 /* The area that a loop encloses: positive of the outer one, negative of holes. */
 double gm_complex_loop_area(const struct gm_complex *complex, size_t loop);
 

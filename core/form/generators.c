@@ -19,6 +19,7 @@
 
 #include "core/arena.h"
 #include "core/expression/residue.h"
+#include "core/linear/vectors.h"
 
 /* The points and corners that are laid. */
 struct laying {
@@ -28,15 +29,18 @@ struct laying {
     size_t vertices, count;
     const double *number; /* of the generator */
     long rows;            /* strips, rings or levels, or circles */
+    bool torus;           /* circles around a tube */
     const struct gm_rectangle *rectangle;
 };
 
 static void add_point(struct laying *laying, double x, double y, double z)
 {
-    double *p = laying->points + 3 * laying->vertices++;
+    double *p = laying->points + (laying->rectangle ? 2 : 3) * laying->vertices++;
     p[0] = x;
     p[1] = y;
-    p[2] = z;
+    if (!laying->rectangle) {
+        p[2] = z;
+    }
 }
 
 static void add_triangle(struct laying *laying, long a, long b, long c)
@@ -105,9 +109,7 @@ static double wall_distance(double h, double a)
 static void put_point(struct laying *laying, double along, double across)
 {
     const bool transposed = laying->rectangle->transposed;
-    double *p = laying->points + 2 * laying->vertices++;
-    p[0] = transposed ? across : along;
-    p[1] = transposed ? along : across;
+    add_point(laying, transposed ? across : along, transposed ? along : across, 0);
 }
 
 /* The first vertex of a row of the rectangle. */
@@ -257,23 +259,11 @@ static void jiggle(struct laying *laying, const struct gm_complex *regular)
     memcpy(laying->points, moved, 2 * n * sizeof *moved);
 }
 
-/* Joins `rings` circles of n vertices, odd ones turned by half an edge, to the next; the last to the first if
-   they close. */
-static void join_circles(struct laying *laying, long n, long rings, bool closed)
+/* Lays the circles of an annulus or a torus, odd ones turned by half an edge, and joins them to the next; of a torus
+   the last to the first. */
+static void lay_circles(struct laying *laying)
 {
-    for (long j = 0; j < rings - !closed; j++) {
-        const long here = j * n, above = (j + 1) % rings * n;
-        for (long i = 0; i < n; i++) {
-            const long next = (i + 1) % n, odd = j % 2;
-            add_triangle(laying, here + i, here + next, above + (odd ? next : i));
-            add_triangle(laying, above + next, above + i, here + (odd ? i : next));
-        }
-    }
-}
-
-/* Lays the circles of an annulus, or of a torus, which close. */
-static void lay_circles(struct laying *laying, bool torus)
-{
+    const bool torus = laying->torus;
     const double p = laying->number[0], q = laying->number[1];
     const long n = (long)laying->number[2], m = laying->rows, circles = m + !torus;
     reserve(laying, (size_t)(circles * n), (size_t)(2 * m * n));
@@ -287,17 +277,14 @@ static void lay_circles(struct laying *laying, bool torus)
             add_point(laying, r * cos(a), r * sin(a), torus ? q * sin(tube) : 0);
         }
     }
-    join_circles(laying, n, circles, torus);
-}
-
-static void lay_annulus(struct laying *laying)
-{
-    lay_circles(laying, false);
-}
-
-static void lay_torus(struct laying *laying)
-{
-    lay_circles(laying, true);
+    for (long j = 0; j < m; j++) {
+        const long here = j * n, above = (j + 1) % circles * n, odd = j % 2;
+        for (long i = 0; i < n; i++) {
+            const long next = (i + 1) % n;
+            add_triangle(laying, here + i, here + next, above + (odd ? next : i));
+            add_triangle(laying, above + next, above + i, here + (odd ? i : next));
+        }
+    }
 }
 
 static void lay_disc(struct laying *laying)
@@ -306,16 +293,12 @@ static void lay_disc(struct laying *laying)
     reserve(laying, (size_t)(1 + 3 * n * (n + 1)), (size_t)(6 * n * n));
     add_point(laying, 0, 0, 0);
     for (long k = 1; k <= n; k++) {
+        const long outer = 1 + 3 * k * (k - 1), inner = k > 1 ? 1 + 3 * (k - 1) * (k - 2) : 0,
+                   within = k > 1 ? 6 * (k - 1) : 1;
         for (long j = 0; j < 6 * k; j++) {
             const double r = laying->number[0] * (double)k / (double)n,
                          a = 2 * M_PI * (double)j / (double)(6 * k);
             add_point(laying, r * cos(a), r * sin(a), 0);
-        }
-    }
-    for (long k = 1; k <= n; k++) {
-        const long outer = 1 + 3 * k * (k - 1), inner = k > 1 ? 1 + 3 * (k - 1) * (k - 2) : 0,
-                   within = k > 1 ? 6 * (k - 1) : 1;
-        for (long j = 0; j < 6 * k; j++) {
             /* sector s, the i-th edge of the ring in it */
             const long s = j / k, i = j % k, next = outer + (j + 1) % (6 * k);
             add_triangle(laying, inner + (s * (k - 1) + i) % within, outer + j, next);
@@ -344,21 +327,9 @@ static void lay_strip(struct laying *laying)
     }
 }
 
-/* A side of a triangle that waits for its middle. */
-struct side {
-    int low, high, place;
-};
-
-static int compare_sides(const void *a, const void *b)
-{
-    const struct side *p = a, *q = b;
-    const int low = (p->low > q->low) - (p->low < q->low);
-    return low ? low : (p->high > q->high) - (p->high < q->high);
-}
-
 static void put_on_sphere(double *p, double radius)
 {
-    const double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    const double length = sqrt(gm_dot(p, p));
     for (int c = 0; c < 3; c++) {
         p[c] *= radius / length;
     }
@@ -367,35 +338,36 @@ static void put_on_sphere(double *p, double radius)
 /* Cuts every triangle in four. */
 static void refine(struct laying *laying, double radius)
 {
-    const size_t sides = 3 * laying->count, count = laying->count;
-    const double *points = laying->points;
-    const int *corners = laying->corners;
-    struct side *side = gm_arena_take(laying->arena, sides, sizeof *side);
-    int *middle = gm_arena_take(laying->arena, sides, sizeof *middle);
-    for (size_t i = 0; i < sides; i++) {
-        const int a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
-        side[i] = (struct side){a < b ? a : b, a < b ? b : a, (int)i};
-    }
-    qsort(side, sides, sizeof *side, compare_sides);
-    const size_t before = laying->vertices;
-    reserve(laying, before + sides / 2, 4 * count);
-    memcpy(laying->points, points, 3 * before * sizeof *points);
-    for (size_t i = 0; i < sides; i++) {
-        if (i == 0 || compare_sides(&side[i - 1], &side[i]) != 0) {
-            const double *p = points + 3 * side[i].low, *q = points + 3 * side[i].high;
-            add_point(laying, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
-            put_on_sphere(laying->points + 3 * (laying->vertices - 1), radius);
-        }
-        middle[side[i].place] = (int)laying->vertices - 1;
+    const struct laying coarse = *laying;
+    struct gm_triangulation_fault fault;
+    struct gm_complex *complex = gm_complex_open(&(struct gm_triangles){.points = coarse.points,
+                                                                        .in_space = true,
+                                                                        .vertices = coarse.vertices,
+                                                                        .corners = coarse.corners,
+                                                                        .count = coarse.count},
+                                                 &fault);
+    gm_arena_keep(laying->arena, complex, gm_complex_close);
+    reserve(laying, coarse.vertices + complex->edges, 4 * coarse.count);
+    memcpy(laying->points, coarse.points, 3 * coarse.vertices * sizeof *coarse.points);
+    for (size_t e = 0; e < complex->edges; e++) {
+        const double *p = coarse.points + 3 * complex->edge[2 * e],
+                     *q = coarse.points + 3 * complex->edge[2 * e + 1];
+        add_point(laying, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2);
+        put_on_sphere(laying->points + 3 * (laying->vertices - 1), radius);
     }
     laying->count = 0;
-    for (size_t t = 0; t < count; t++) {
-        const int *v = corners + 3 * t, *m = middle + 3 * t;
+    for (size_t t = 0; t < coarse.count; t++) {
+        const int *v = coarse.corners + 3 * t;
+        long m[3];
+        for (int k = 0; k < 3; k++) {
+            m[k] = (long)coarse.vertices + gm_complex_edge(complex, v[k], v[(k + 1) % 3]);
+        }
         add_triangle(laying, v[0], m[0], m[2]);
         add_triangle(laying, v[1], m[1], m[0]);
         add_triangle(laying, v[2], m[2], m[1]);
         add_triangle(laying, m[0], m[1], m[2]);
     }
+    gm_arena_drop(laying->arena, complex);
 }
 
 static void lay_sphere(struct laying *laying)
@@ -417,11 +389,11 @@ static void lay_sphere(struct laying *laying)
         for (int b = a + 1; b < 12; b++) {
             for (int c = b + 1; c < 12; c++) {
                 const int corner[4] = {a, b, c, a};
+                double side[3];
                 bool near = true;
                 for (int k = 0; k < 3; k++) {
-                    const double *p = laying->points + 3 * (size_t)corner[k],
-                                 *q = laying->points + 3 * (size_t)corner[k + 1];
-                    near &= hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]) < edge;
+                    gm_subtract(laying->points + 3 * corner[k], laying->points + 3 * corner[k + 1], side);
+                    near &= gm_length(side) < edge;
                 }
                 if (near) {
                     add_triangle(laying, a, b, c);
@@ -440,15 +412,20 @@ static const struct {
     const char *word, *numbers;
     size_t least, most; /* how many numbers */
     size_t lengths;     /* the first of them are lengths; the others are whole numbers */
+    long lowest, highest;
+    size_t rows; /* the place of the number of rows, which may be missing */
+    /* The fewest rows, which come in pairs if they are `even`, and the fewest vertices of one. */
+    long fewest, around;
+    bool even;
     void (*lay)(struct laying *laying);
 } generators[GENERATORS] = {
-    {"rectangle", "W H N [M [irregular]]", 3, 5, 2, NULL},
-    {"flat-torus", "W H N [M [irregular]]", 3, 5, 2, NULL},
-    {"disc", "R n", 2, 2, 1, lay_disc},
-    {"annulus", "R1 R2 N [m]", 3, 4, 2, lay_annulus},
-    {"sphere", "R level", 2, 2, 1, lay_sphere},
-    {"torus", "R r N [M]", 3, 4, 2, lay_torus},
-    {"strip", "L n", 2, 2, 1, lay_strip},
+    {"rectangle", "W H N [M [irregular]]", 3, 5, 2, 1, 4000, 3, 2, 1, true, lay_rectangle},
+    {"flat-torus", "W H N [M [irregular]]", 3, 5, 2, 1, 4000, 3, 4, 3, true, lay_flat_torus},
+    {"disc", "R n", 2, 2, 1, 1, 4000, 1, 0, 0, false, lay_disc},
+    {"annulus", "R1 R2 N [m]", 3, 4, 2, 1, 4000, 3, 1, 3, false, lay_circles},
+    {"sphere", "R level", 2, 2, 1, 0, 9, 1, 0, 0, false, lay_sphere},
+    {"torus", "R r N [M]", 3, 4, 2, 1, 4000, 3, 4, 3, true, lay_circles},
+    {"strip", "L n", 2, 2, 1, 1, 4000, 1, 0, 0, false, lay_strip},
 };
 
 static enum which which_of(const char *word)
@@ -460,22 +437,30 @@ static enum which which_of(const char *word)
     return (enum which)i;
 }
 
-/* The number of rows, if it is not given. */
 static long rows_of(enum which which, const double *number, size_t count)
 {
     const double n = count > 2 ? number[2] : 0;
-    if (count > 3) {
-        return (long)number[3];
+    if (count > generators[which].rows) {
+        return (long)number[generators[which].rows];
     }
     return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
            : which == ANNULUS ? lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2))
                               : 2 * lround(n * number[1] / (sqrt(3) * number[0]));
 }
 
+static struct gm_rectangle rectangle_of(enum which which, const double *number, size_t count)
+{
+    return (struct gm_rectangle){.width = number[0],
+                                 .height = number[1],
+                                 .edges = (long)number[2],
+                                 .strips = rows_of(which, number, count),
+                                 .torus = which == FLAT_TORUS,
+                                 .irregular = count > 4 ? number[4] : 0};
+}
+
 bool gm_generator_check(const char *word, const double *number, size_t count, size_t place,
                         struct gm_fault *fault)
 {
-    enum { MOST = 4000 };
     const enum which which = which_of(word);
     if (which == GENERATORS) {
         return gm_fail(fault, place,
@@ -486,25 +471,22 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
     if (count < generators[which].least || count > generators[which].most) {
         return gm_fail(fault, place, "a mesh %s has the numbers %s", word, generators[which].numbers);
     }
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && i < 4; i++) {
+        const long lowest = generators[which].lowest, highest = generators[which].highest;
         const bool whole = i >= generators[which].lengths;
-        if (i == 4 && !(number[i] >= 0 && number[i] < 0.5)) {
-            return gm_fail(fault, place,
-                           "mesh: %s: vertices are moved by %g of an edge: it has to be below 1/2", word,
-                           number[i]);
-        }
-        if (i == 4) {
-            break;
-        }
-        const double least = which == SPHERE && whole ? 0 : 1, most = which == SPHERE ? 9 : MOST;
         if (!whole && !(number[i] > 0 && isfinite(number[i]))) {
             return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
                            number[i]);
         }
-        if (whole && !(number[i] == floor(number[i]) && number[i] >= least && number[i] <= most)) {
-            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %g to %g", word, number[i],
-                           least, most);
+        if (whole &&
+            !(number[i] == floor(number[i]) && number[i] >= (double)lowest && number[i] <= (double)highest)) {
+            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
+                           number[i], lowest, highest);
         }
+    }
+    if (count > 4 && !(number[4] >= 0 && number[4] < 0.5)) {
+        return gm_fail(fault, place, "mesh: %s: vertices are moved by %g of an edge: it has to be below 1/2",
+                       word, number[4]);
     }
     const long rows = rows_of(which, number, count);
     if (which == ANNULUS && number[1] <= number[0]) {
@@ -515,22 +497,18 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         return gm_fail(fault, place, "mesh: torus: its radius %g has to be above that of its tube, %g",
                        number[0], number[1]);
     }
-    const bool even = which == RECTANGLE || which == FLAT_TORUS || which == TORUS;
-    const bool few = which != SPHERE && which != DISC && which != STRIP &&
-                     (rows < (which == ANNULUS     ? 1
-                              : which == RECTANGLE ? 2
-                                                   : 4) ||
-                      (which != RECTANGLE && number[2] < 3));
-    if ((even && rows % 2 != 0) || few) {
+    if ((generators[which].even && rows % 2 != 0) || rows < generators[which].fewest ||
+        (count > 2 && number[2] < (double)generators[which].around)) {
         return gm_fail(fault, place, "mesh: %s: %ld rows of %g are too few, or not an even number", word,
                        rows, number[2]);
     }
-    const struct gm_rectangle pattern = {
-        .width = number[0], .height = number[1], .edges = (long)number[count > 2 ? 2 : 1], .strips = rows};
-    return which != RECTANGLE || gm_rectangle_is_acute(&pattern) ||
+    if (which != RECTANGLE) {
+        return true;
+    }
+    const struct gm_rectangle pattern = rectangle_of(which, number, count);
+    return gm_rectangle_is_acute(&pattern) ||
            gm_fail(fault, place,
-                   "mesh: rectangle: %ld strips are not between half the width of an edge and all "
-                   "of it",
+                   "mesh: rectangle: %ld strips are not between half the width of an edge and all of it",
                    rows);
 }
 
@@ -542,11 +520,6 @@ struct making {
     struct gm_triangulation_fault *fault;
     struct gm_complex *complex;
 };
-
-static void close_complex(void *complex)
-{
-    gm_complex_close(complex);
-}
 
 static void make(struct gm_arena *arena, void *data)
 {
@@ -561,7 +534,7 @@ static void make(struct gm_arena *arena, void *data)
     from->count = laying->count;
     struct gm_complex *complex = gm_complex_open(from, making->fault);
     if (complex && laying->rectangle && laying->rectangle->irregular > 0) {
-        gm_arena_keep(arena, complex, close_complex);
+        gm_arena_keep(arena, complex, gm_complex_close);
         making->fault->kind = GM_TRIANGULATION_MEMORY;
         jiggle(laying, complex);
         gm_arena_drop(arena, complex);
@@ -570,16 +543,21 @@ static void make(struct gm_arena *arena, void *data)
     making->complex = complex;
 }
 
-struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_triangulation_fault *fault)
+static struct gm_complex *open_complex(struct making making)
 {
-    struct making making = {.laying.rectangle = r,
-                            .lay = r->torus ? lay_flat_torus : lay_rectangle,
-                            .from = {.period = {r->torus ? r->width : 0, r->torus ? r->height : 0},
-                                     .star = r->star ? r->star : GM_STAR_CIRCUMCENTRIC},
-                            .fault = fault};
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    *making.fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     gm_arena_run_once(make, &making);
     return making.complex;
+}
+
+struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_triangulation_fault *fault)
+{
+    return open_complex(
+        (struct making){.laying.rectangle = r,
+                        .lay = generators[r->torus ? FLAT_TORUS : RECTANGLE].lay,
+                        .from = {.period = {r->torus ? r->width : 0, r->torus ? r->height : 0},
+                                 .star = r->star ? r->star : GM_STAR_CIRCUMCENTRIC},
+                        .fault = fault});
 }
 
 struct gm_complex *gm_generator_open(const char *word, const double *number, size_t count, enum gm_star star,
@@ -587,24 +565,15 @@ struct gm_complex *gm_generator_open(const char *word, const double *number, siz
 {
     const enum which which = which_of(word);
     if (which <= FLAT_TORUS) {
-        return gm_rectangle_open(&(struct gm_rectangle){.width = number[0],
-                                                        .height = number[1],
-                                                        .edges = (long)number[2],
-                                                        .strips = rows_of(which, number, count),
-                                                        .torus = which == FLAT_TORUS,
-                                                        .irregular = count > 4 ? number[4] : 0,
-                                                        .star = star},
-                                 fault);
+        struct gm_rectangle rectangle = rectangle_of(which, number, count);
+        rectangle.star = star;
+        return gm_rectangle_open(&rectangle, fault);
     }
-    const bool single = which == DISC || which == SPHERE || which == STRIP;
-    struct making making = {
-        .laying = {.number = number, .rows = single ? (long)number[1] : rows_of(which, number, count)},
+    return open_complex((struct making){
+        .laying = {.number = number, .rows = rows_of(which, number, count), .torus = which == TORUS},
         .lay = generators[which].lay,
         .from = {.in_space = true, .star = star},
-        .fault = fault};
-    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
-    gm_arena_run_once(make, &making);
-    return making.complex;
+        .fault = fault});
 }
 
 const char *const *gm_generator_parts(const char *word)

@@ -5,6 +5,7 @@
 #include "core/form/gmsh.h"
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/linear/vectors.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -69,9 +70,9 @@ _Noreturn static void fail(struct reader *reader, enum gm_triangulation_fault_ki
     gm_arena_leave(reader->arena);
 }
 
-static void expect(struct reader *reader, bool good, const char *what)
+static void expect(struct reader *reader, bool there, const char *what)
 {
-    if (!good) {
+    if (!there) {
         fail(reader, GM_TRIANGULATION_SYNTAX, what);
     }
 }
@@ -527,16 +528,15 @@ static void read_elements(struct reader *reader)
 static void skip_section(struct reader *reader)
 {
     char wanted[44];
-    const int length = snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
-    while (reader->at < reader->end) {
-        if ((size_t)(reader->end - reader->at) >= (size_t)length &&
-            memcmp(reader->at, wanted, (size_t)length) == 0) {
-            reader->at += length;
-            return;
-        }
+    const size_t length = (size_t)snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
+    const char *end = memmem(reader->at, (size_t)(reader->end - reader->at), wanted, length);
+    while (reader->at < (end ? end : reader->end)) {
         reader->line += *reader->at++ == '\n';
     }
-    fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    if (!end) {
+        fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    reader->at += length;
 }
 
 /* Reads the whole text into the tables; nodes in the order of their tags. */
@@ -637,28 +637,22 @@ static void drop_repeated(struct reader *reader)
     reader->triangle_count = count;
 }
 
-/* The sum of the triangles' normals, each as long as twice its triangle is large. */
-static void add_normals(const struct reader *reader, double normal[3])
-{
-    for (size_t t = 0; t < reader->triangle_count; t++) {
-        const long *corner = reader->triangles[t].nodes;
-        const double *p = reader->nodes[corner[0]].at, *q = reader->nodes[corner[1]].at,
-                     *r = reader->nodes[corner[2]].at;
-        for (int k = 0; k < 3; k++) {
-            const int next = (k + 1) % 3, last = (k + 2) % 3;
-            normal[k] +=
-                (q[next] - p[next]) * (r[last] - p[last]) - (q[last] - p[last]) * (r[next] - p[next]);
-        }
-    }
-}
-
 /* Axes of the plane of the triangles: the first is the coordinate axis with the largest projection on it;
    seen so that triangles turn left. The plane of x and y if z is the same everywhere. */
 static void choose_axes(struct reader *reader)
 {
     double normal[3] = {0}, (*axes)[3] = reader->origin.axes;
-    add_normals(reader, normal);
-    const double size = hypot(hypot(normal[0], normal[1]), normal[2]);
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        double corners[9], one[3];
+        for (int k = 0; k < 9; k++) {
+            corners[k] = reader->nodes[reader->triangles[t].nodes[k / 3]].at[k % 3];
+        }
+        gm_triangle_normal(corners, one);
+        for (int k = 0; k < 3; k++) {
+            normal[k] += one[k];
+        }
+    }
+    const double size = gm_length(normal);
     int first = 0;
     for (int k = 0; k < 3; k++) {
         normal[k] /= size > 0 ? size : 1;
@@ -668,39 +662,34 @@ static void choose_axes(struct reader *reader)
     for (int k = 0; k < 3; k++) {
         axes[0][k] = ((k == first) - normal[first] * normal[k]) / rest;
     }
-    for (int k = 0; k < 3; k++) {
-        const int next = (k + 1) % 3, last = (k + 2) % 3;
-        axes[1][k] = normal[next] * axes[0][last] - normal[last] * axes[0][next];
-    }
+    gm_cross(normal, axes[0], axes[1]);
 }
 
 /* Takes the nodes of triangles into the plane where they lie: x and y are their places there. */
 static void lay_flat(struct reader *reader)
 {
-    double(*axes)[3] = reader->origin.axes, from[3] = {0}, low[3] = {0}, high[3] = {0}, extent = 0;
-    bool some = false;
-    for (size_t i = 0; i < reader->node_count; i++) {
+    double(*axes)[3] = reader->origin.axes, low[3] = {INFINITY, INFINITY, INFINITY},
+    high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0, from[3], at[3];
+    size_t first = 0;
+    for (size_t i = reader->node_count; i-- > 0;) {
         const struct node *node = &reader->nodes[i];
         for (int k = 0; k < 3 && node->vertex >= 0; k++) {
-            from[k] = some ? from[k] : node->at[k];
-            low[k] = some ? fmin(low[k], node->at[k]) : node->at[k];
-            high[k] = some ? fmax(high[k], node->at[k]) : node->at[k];
+            low[k] = fmin(low[k], node->at[k]);
+            high[k] = fmax(high[k], node->at[k]);
             extent = fmax(extent, high[k] - low[k]);
+            first = i;
         }
-        some |= node->vertex >= 0;
     }
     if (high[2] - low[2] <= 1e-9 * extent) {
         return;
     }
     choose_axes(reader);
+    memcpy(from, reader->nodes[first].at, sizeof from);
     for (size_t i = 0; i < reader->node_count; i++) {
         struct node *node = &reader->nodes[i];
-        const double at[3] = {node->at[0] - from[0], node->at[1] - from[1], node->at[2] - from[2]};
-        double place[2] = {0}, off = 0;
-        for (int k = 0; k < 3; k++) {
-            place[0] += axes[0][k] * at[k];
-            place[1] += axes[1][k] * at[k];
-        }
+        gm_subtract(node->at, from, at);
+        const double place[2] = {gm_dot(axes[0], at), gm_dot(axes[1], at)};
+        double off = 0;
         for (int k = 0; k < 3; k++) {
             off = fmax(off, fabs(at[k] - place[0] * axes[0][k] - place[1] * axes[1][k]));
         }
@@ -850,47 +839,41 @@ static void read_mesh(struct gm_arena *arena, void *data)
     reader->fault->kind = GM_TRIANGULATION_OK;
 }
 
-static bool read_text(struct reader *reader)
+static bool read_text(const char *text, size_t size, struct reader reader)
 {
-    *reader->mesh = (struct gm_triangulation){.arena = gm_arena_open()};
-    *reader->fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
-    const bool good = gm_arena_run(reader->mesh->arena, read_mesh, reader);
-    if (!good) {
-        gm_triangulation_close(reader->mesh);
+    struct gm_triangulation *mesh = reader.mesh;
+    reader.at = text;
+    reader.end = text + size;
+    reader.line = 1;
+    reader.section = "";
+    *mesh = (struct gm_triangulation){.arena = gm_arena_open()};
+    *reader.fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
+    if (!gm_arena_run(mesh->arena, read_mesh, &reader)) {
+        gm_triangulation_close(mesh);
+        return false;
     }
-    return good;
+    return true;
 }
 
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault)
 {
-    return read_text(&(struct reader){.at = text,
-                                      .end = text + size,
-                                      .line = 1,
-                                      .fault = fault,
-                                      .section = "",
-                                      .star = star,
-                                      .mesh = mesh});
+    return read_text(text, size, (struct reader){.star = star, .mesh = mesh, .fault = fault});
 }
 
 bool gm_triangulation_read_in_space(const char *text, size_t size, enum gm_star star,
                                     struct gm_triangulation *mesh, struct gm_triangulation_fault *fault)
 {
-    return read_text(&(struct reader){.at = text,
-                                      .end = text + size,
-                                      .line = 1,
-                                      .fault = fault,
-                                      .section = "",
-                                      .star = star,
-                                      .in_space = true,
-                                      .mesh = mesh});
+    return read_text(text, size,
+                     (struct reader){.star = star, .in_space = true, .mesh = mesh, .fault = fault});
 }
 
-void gm_triangulation_close(struct gm_triangulation *mesh)
+void gm_triangulation_close(void *mesh)
 {
-    gm_complex_close(mesh->complex);
-    gm_arena_close(mesh->arena);
-    *mesh = (struct gm_triangulation){0};
+    struct gm_triangulation *self = mesh;
+    gm_complex_close(self->complex);
+    gm_arena_close(self->arena);
+    *self = (struct gm_triangulation){0};
 }
 
 int gm_triangulation_first(const struct gm_triangulation *mesh, size_t edge)

@@ -39,7 +39,7 @@ const char *gm_triangulation_explain(const char *name, const struct gm_triangula
    longer positive. */
 bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
                             struct gm_triangulation_fault *fault);
-void gm_triangulation_close(struct gm_triangulation *mesh);
+void gm_triangulation_close(void *mesh); /* for arenas too */
 
 /* The physical tag of a group of lines, by its name or its tag; 0 if it is missing. */
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);

@@ -21,21 +21,19 @@ struct gm_hodge {
 };
 
 /* Marks a vertex of each piece, and a triangle of each closed one. */
-static void pin(struct gm_hodge *hodge, struct gm_arena *arena)
+static void pin(struct gm_hodge *hodge)
 {
     const struct gm_complex *complex = hodge->space->complex;
-    int *piece = gm_arena_take(arena, complex->vertices + complex->triangles, sizeof *piece);
-    for (size_t side = 0; side < 2; side++) {
-        const size_t count = side ? complex->triangles : complex->vertices;
-        bool *pinned = hodge->pinned + (side ? complex->vertices : 0);
-        gm_form_pieces(complex, side == 1, piece);
-        for (size_t i = 0; i < count; i++) {
-            pinned[i] = piece[i] == (int)i;
-        }
-        for (size_t b = 0; b < complex->boundary && side; b++) {
-            const int *pair = complex->edge_triangle + 2 * complex->boundary_edge[b];
-            pinned[piece[pair[0] >= 0 ? pair[0] : pair[1]]] = false;
-        }
+    bool *of_triangle = hodge->pinned + complex->vertices;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        hodge->pinned[v] = complex->vertex_piece[v] == (int)v;
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        of_triangle[t] = complex->triangle_piece[t] == (int)t;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int *pair = complex->edge_triangle + 2 * complex->boundary_edge[b];
+        of_triangle[complex->triangle_piece[pair[0] >= 0 ? pair[0] : pair[1]]] = false;
     }
 }
 
@@ -62,25 +60,20 @@ static void make_saddle(struct gm_hodge *hodge, struct gm_arena *arena)
     const struct gm_form_space *space = hodge->space;
     const size_t edges = space->complex->edges, triangles = space->complex->triangles;
     const bool *pinned = hodge->pinned + space->complex->vertices;
-    const struct gm_matrix *parts[3] = {&space->matrix[GM_MATRIX_STAR1], &space->matrix[GM_MATRIX_D1],
-                                        &space->matrix[GM_MATRIX_D1]};
-    struct gm_matrix_entry *all =
-        gm_arena_take(arena, (size_t)parts[0]->start[edges] + 7 * triangles, sizeof *all);
-    size_t count = 0;
-    for (int k = 0; k < 3; k++) {
-        for (size_t i = 0; i < parts[k]->rows; i++) {
-            for (int l = parts[k]->start[i]; l < parts[k]->start[i + 1]; l++) {
-                const int row = (int)(i + (k ? edges : 0)), column = parts[k]->column[l];
-                const double value = k && pinned[i] ? 0 : parts[k]->value[l];
-                all[count++] = k < 2 ? (struct gm_matrix_entry){row, column, value}
-                                     : (struct gm_matrix_entry){column, row, -value};
-            }
-        }
-    }
+    const struct gm_matrix *star = &space->matrix[GM_MATRIX_STAR1];
+    struct gm_matrix d = gm_matrix_sum(arena, 1, &space->matrix[GM_MATRIX_D1], 0, NULL);
+    double *moves = gm_arena_take(arena, triangles, sizeof *moves);
+    struct gm_matrix_entries all = gm_matrix_entries(arena, gm_matrix_count(star) + 7 * triangles);
     for (size_t t = 0; t < triangles; t++) {
-        all[count++] = (struct gm_matrix_entry){(int)(edges + t), (int)(edges + t), pinned[t]};
+        moves[t] = pinned[t] ? 0 : 1;
+        gm_matrix_put(&all, edges + t, edges + t, pinned[t]);
     }
-    hodge->saddle = gm_matrix_of(arena, edges + triangles, edges + triangles, all, count);
+    gm_matrix_scale(&d, moves);
+    const struct gm_matrix back = gm_matrix_transposed(arena, &d, -1);
+    gm_matrix_put_block(&all, star, 0, 0, 1);
+    gm_matrix_put_block(&all, &d, edges, 0, 1);
+    gm_matrix_put_block(&all, &back, 0, edges, 1);
+    hodge->saddle = gm_matrix_of(&all, edges + triangles, edges + triangles);
     hodge->lu =
         gm_lu_open(hodge->saddle.rows, hodge->saddle.start, hodge->saddle.column, hodge->saddle.value);
     gm_arena_need(arena, hodge->lu);
@@ -95,7 +88,7 @@ struct gm_hodge *gm_hodge_open(struct gm_arena *arena, const struct gm_form_spac
     hodge->pinned = gm_arena_take(arena, complex->vertices + complex->triangles, sizeof *hodge->pinned);
     hodge->right = gm_arena_take(arena, 2 * (complex->edges + complex->triangles), sizeof *hodge->right);
     hodge->found = hodge->right + complex->edges + complex->triangles;
-    pin(hodge, arena);
+    pin(hodge);
     make_potential(hodge, arena);
     make_saddle(hodge, arena);
     return hodge;

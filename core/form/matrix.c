@@ -15,7 +15,7 @@ static struct gm_matrix empty(struct gm_arena *arena, size_t rows, size_t column
 
 struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_matrix *a, double factor)
 {
-    struct gm_matrix to = empty(arena, a->columns, a->rows, (size_t)a->start[a->rows]);
+    struct gm_matrix to = empty(arena, a->columns, a->rows, gm_matrix_count(a));
     int *next = to.start;
     for (int k = 0; k < a->start[a->rows]; k++) {
         to.start[a->column[k] + 1]++;
@@ -94,20 +94,41 @@ static int compare(const void *a, const void *b)
     return row ? row : (p->column > q->column) - (p->column < q->column);
 }
 
-struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
-                              struct gm_matrix_entry *entries, size_t count)
+struct gm_matrix_entries gm_matrix_entries(struct gm_arena *arena, size_t most)
 {
-    struct gm_matrix_rows made = gm_matrix_begin(arena, rows, columns, count);
-    qsort(entries, count, sizeof *entries, compare);
-    for (size_t i = 0; i < count; i++) {
-        while (made.row < (size_t)entries[i].row) {
+    struct gm_matrix_entry *list = gm_arena_keep(arena, malloc((most + 1) * sizeof *list), free);
+    return (struct gm_matrix_entries){arena, list, 0};
+}
+
+void gm_matrix_put(struct gm_matrix_entries *entries, size_t row, size_t column, double value)
+{
+    entries->list[entries->count++] = (struct gm_matrix_entry){(int)row, (int)column, value};
+}
+
+void gm_matrix_put_block(struct gm_matrix_entries *entries, const struct gm_matrix *block, size_t row,
+                         size_t column, double factor)
+{
+    for (size_t i = 0; i < block->rows; i++) {
+        for (int k = block->start[i]; k < block->start[i + 1]; k++) {
+            gm_matrix_put(entries, row + i, column + (size_t)block->column[k], factor * block->value[k]);
+        }
+    }
+}
+
+struct gm_matrix gm_matrix_of(struct gm_matrix_entries *entries, size_t rows, size_t columns)
+{
+    struct gm_matrix_rows made = gm_matrix_begin(entries->arena, rows, columns, entries->count);
+    qsort(entries->list, entries->count, sizeof *entries->list, compare);
+    for (size_t i = 0; i < entries->count; i++) {
+        while (made.row < (size_t)entries->list[i].row) {
             gm_matrix_end_row(&made, false);
         }
-        gm_matrix_add(&made, entries[i].column, entries[i].value);
+        gm_matrix_add(&made, entries->list[i].column, entries->list[i].value);
     }
     while (made.row < rows) {
         gm_matrix_end_row(&made, false);
     }
+    gm_arena_drop(entries->arena, entries->list);
     return gm_matrix_end(&made);
 }
 
@@ -134,7 +155,7 @@ struct gm_matrix gm_matrix_product(struct gm_arena *arena, const struct gm_matri
 struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm_matrix *a, double q,
                                const struct gm_matrix *b)
 {
-    const size_t most = (size_t)a->start[a->rows] + (b ? (size_t)b->start[b->rows] : 0);
+    const size_t most = gm_matrix_count(a) + (b ? gm_matrix_count(b) : 0);
     struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->columns, most);
     for (size_t i = 0; i < a->rows; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {

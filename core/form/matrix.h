@@ -12,16 +12,29 @@ struct gm_matrix {
     double *value;
 };
 
-/* One entry; entries at the same place are added. */
-struct gm_matrix_entry {
-    int row, column;
-    double value;
-};
+/* The number of entries; 0 of no matrix. */
+static inline size_t gm_matrix_count(const struct gm_matrix *a)
+{
+    return a->start ? (size_t)a->start[a->rows] : 0;
+}
 
-/* Makes a matrix of `count` entries in any order, which it sorts. The arena owns it; in a body of the arena, as
-   all below. */
-struct gm_matrix gm_matrix_of(struct gm_arena *arena, size_t rows, size_t columns,
-                              struct gm_matrix_entry *entries, size_t count);
+/* The entries of a matrix that is being made, in any order; those at the same place are added. */
+struct gm_matrix_entries {
+    struct gm_arena *arena;
+    struct gm_matrix_entry {
+        int row, column;
+        double value;
+    } * list;
+    size_t count;
+};
+/* Begins at most `most` entries. The arena owns the matrix; in a body of the arena, as all below. */
+struct gm_matrix_entries gm_matrix_entries(struct gm_arena *arena, size_t most);
+void gm_matrix_put(struct gm_matrix_entries *entries, size_t row, size_t column, double value);
+/* Puts a whole matrix, times a factor, with its first entry in that row and column. */
+void gm_matrix_put_block(struct gm_matrix_entries *entries, const struct gm_matrix *block, size_t row,
+                         size_t column, double factor);
+/* Makes the matrix, and frees its entries. */
+struct gm_matrix gm_matrix_of(struct gm_matrix_entries *entries, size_t rows, size_t columns);
 
 /* A matrix while it is made row by row. */
 struct gm_matrix_rows {

@@ -43,7 +43,9 @@ struct compiling {
     gm_node_id now; /* the node that is compiled */
 };
 
-static const struct gm_form_type any_number = {GM_FORM_NUMBER, false};
+static const struct gm_form_type any_number = {GM_FORM_NUMBER, false}, primal_0 = {0, false},
+                                 primal_1 = {1, false}, primal_2 = {2, false}, dual_0 = {0, true},
+                                 dual_1 = {1, true};
 
 const char *gm_form_type_text(struct gm_form_type type)
 {
@@ -98,6 +100,14 @@ __attribute__((format(printf, 2, 3))) _Noreturn static void refuse(struct compil
     const uint32_t place = compiling->system->graph.places[compiling->now];
     gm_fail(compiling->fault, place == GM_NO_PLACE ? compiling->fault->offset : place, "%s", sentence);
     gm_arena_leave(compiling->arena);
+}
+
+/* Leaves with a fault if a rule about a part does not hold. */
+static void require(struct compiling *compiling, bool holds, const char *rule, struct part part)
+{
+    if (!holds) {
+        refuse(compiling, "%s, and this is %s", rule, gm_form_type_text(part.type));
+    }
 }
 
 /* Adds a step. */
@@ -160,9 +170,10 @@ static struct part decided(struct compiling *compiling, struct part part)
     if (!is_formula(part)) {
         return part;
     }
-    const int degree = part.type.degree == GM_FORM_COVECTOR ? 1 : 0;
     return sampled(compiling, part,
-                   part.type.degree == GM_FORM_NUMBER ? any_number : (struct gm_form_type){degree, false});
+                   part.type.degree == GM_FORM_NUMBER     ? any_number
+                   : part.type.degree == GM_FORM_COVECTOR ? primal_1
+                                                          : primal_0);
 }
 
 /* The part as a form of that type; false if it is another one. A number is a 0-form. */
@@ -184,6 +195,16 @@ static bool fit(struct compiling *compiling, struct part *part, struct gm_form_t
 static unsigned needs_of(const struct compiling *compiling, struct part part)
 {
     return compiling->program->steps[part.step].needs;
+}
+
+/* Adds a step on one part. */
+static struct part made_of(struct compiling *compiling, enum gm_form_step_kind kind, size_t number,
+                           struct part a, struct gm_form_type type)
+{
+    return made(
+        compiling,
+        (struct gm_form_step){
+            .kind = kind, .type = type, .needs = needs_of(compiling, a), .a = a.step, .number = number});
 }
 
 /* An operation on entries, with the type of the form if the other part is a number. */
@@ -217,11 +238,7 @@ static struct part operate(struct compiling *compiling, enum gm_operation operat
 static struct part times(struct compiling *compiling, enum gm_form_matrix matrix, struct part a,
                          struct gm_form_type type)
 {
-    return made(compiling, (struct gm_form_step){.kind = GM_STEP_MATRIX,
-                                                 .type = type,
-                                                 .needs = needs_of(compiling, a),
-                                                 .a = a.step,
-                                                 .number = matrix});
+    return made_of(compiling, GM_STEP_MATRIX, matrix, a, type);
 }
 
 static struct part zero_of(struct compiling *compiling, struct gm_form_type type)
@@ -240,14 +257,17 @@ static struct part negative(struct compiling *compiling, struct part a)
 
 /* ---- operators ---- */
 
+/* A part as a form: a formula without a place is a 0-form here. */
+static struct part form_of(struct compiling *compiling, struct part part)
+{
+    return is_formula(part) && part.type.degree == GM_FORM_NUMBER ? sampled(compiling, part, primal_0)
+                                                                  : decided(compiling, part);
+}
+
 static struct part star(struct compiling *compiling, struct part a)
 {
-    a = is_formula(a) && a.type.degree == GM_FORM_NUMBER
-            ? sampled(compiling, a, (struct gm_form_type){0, false})
-            : decided(compiling, a);
-    if (a.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "star is of a form, and this is a number");
-    }
+    a = form_of(compiling, a);
+    require(compiling, a.type.degree != GM_FORM_NUMBER, "star is of a form", a);
     const struct gm_form_type type = {2 - a.type.degree, !a.type.dual};
     /* star star is 1, or -1 of a 1-form: nothing is computed */
     const struct gm_form_step *step = &compiling->program->steps[a.step];
@@ -286,18 +306,14 @@ static struct part d(struct compiling *compiling, struct part a)
 static struct part delta(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
-    if (a.type.degree < 1) {
-        refuse(compiling, "delta is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree >= 1, "delta is of a 1-form or a 2-form", a);
     return negative(compiling, star(compiling, d(compiling, star(compiling, a))));
 }
 
 static struct part laplace(struct compiling *compiling, struct part a)
 {
     a = decided(compiling, a);
-    if (a.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "laplace is of a form, and this is a number");
-    }
+    require(compiling, a.type.degree != GM_FORM_NUMBER, "laplace is of a form", a);
     if (a.type.degree == 0 && !a.type.dual) {
         return times(compiling, GM_MATRIX_LAPLACE, a, a.type);
     }
@@ -314,14 +330,8 @@ static struct part laplace(struct compiling *compiling, struct part a)
 
 static struct part wedge(struct compiling *compiling, struct part a, struct part b)
 {
-    if (a.type.degree == GM_FORM_PLACE || (is_formula(a) && a.type.degree == GM_FORM_NUMBER)) {
-        a = sampled(compiling, a, (struct gm_form_type){0, false});
-    }
-    if (b.type.degree == GM_FORM_PLACE || (is_formula(b) && b.type.degree == GM_FORM_NUMBER)) {
-        b = sampled(compiling, b, (struct gm_form_type){0, false});
-    }
-    a = decided(compiling, a);
-    b = decided(compiling, b);
+    a = form_of(compiling, a);
+    b = form_of(compiling, b);
     const int j = a.type.degree, k = b.type.degree;
     if (j < 0 || k < 0 || a.type.dual || b.type.dual || j + k > 2) {
         refuse(compiling, "wedge is of primal forms of degrees up to 2 together, and these are %s and %s",
@@ -332,7 +342,7 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
             refuse(compiling, "the wedge product of an unknown 1-form is not assembled");
         }
         return made(compiling, (struct gm_form_step){.kind = GM_STEP_WEDGE,
-                                                     .type = {2, false},
+                                                     .type = primal_2,
                                                      .needs = needs_of(compiling, a) | needs_of(compiling, b),
                                                      .a = a.step,
                                                      .b = b.step});
@@ -348,10 +358,8 @@ static struct part wedge(struct compiling *compiling, struct part a, struct part
 /* The velocity's flux; refuses what is not a velocity. */
 static struct part flux_of(struct compiling *compiling, struct part u)
 {
-    if (!fit(compiling, &u, (struct gm_form_type){1, true})) {
-        refuse(compiling, "the velocity of interior and lie is a dual 1-form, and this is %s",
-               gm_form_type_text(u.type));
-    }
+    const bool fits = fit(compiling, &u, dual_1);
+    require(compiling, fits, "the velocity of interior and lie is a dual 1-form", u);
     return star(compiling, u);
 }
 
@@ -362,14 +370,13 @@ static struct part speed_along(struct compiling *compiling, struct part flux, st
     if (!a.type.dual) {
         return star(compiling, wedge(compiling, a, flux));
     }
-    const struct gm_form_type type = {0, true};
     const struct part turned = star(compiling, a);
     struct part sum = {0};
     for (int c = 0; c < 3; c++) {
         const enum gm_form_matrix matrix = (enum gm_form_matrix)(GM_MATRIX_CENTRE_X + c);
         const struct part product =
-            operate(compiling, GM_OPERATION_MULTIPLY, times(compiling, matrix, flux, type),
-                    times(compiling, matrix, turned, type));
+            operate(compiling, GM_OPERATION_MULTIPLY, times(compiling, matrix, flux, dual_0),
+                    times(compiling, matrix, turned, dual_0));
         sum = c == 0 ? product : operate(compiling, GM_OPERATION_ADD, sum, product);
     }
     return sum;
@@ -382,9 +389,7 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
     if (a.type.degree == 1) {
         return speed_along(compiling, flux, a);
     }
-    if (a.type.degree != 2) {
-        refuse(compiling, "interior is of a 1-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree == 2, "interior is of a 1-form or a 2-form", a);
     const bool dual = a.type.dual;
     const struct part density = star(compiling, a);
     const struct gm_form_type type = {1, dual};
@@ -402,15 +407,12 @@ static struct part interior(struct compiling *compiling, struct part u, struct p
 static struct part lie(struct compiling *compiling, struct part u, struct part c)
 {
     c = decided(compiling, c);
-    if (c.type.degree != 2) {
-        refuse(compiling, "lie is of a 2-form here, and this is %s", gm_form_type_text(c.type));
-    }
+    require(compiling, c.type.degree == 2, "lie is of a 2-form here", c);
     const struct part inside = d(compiling, interior(compiling, u, c));
     if (!c.type.dual) {
         return inside;
     }
-    const struct gm_form_type edges = {1, false};
-    const struct part out = times(compiling, GM_MATRIX_OUT, flux_of(compiling, u), edges),
+    const struct part out = times(compiling, GM_MATRIX_OUT, flux_of(compiling, u), primal_1),
                       twice = operate(compiling, GM_OPERATION_ADD, out,
                                       operate(compiling, GM_OPERATION_ABS, out, out)),
                       through = times(compiling, GM_MATRIX_HALVES, twice, c.type);
@@ -431,20 +433,13 @@ static void refuse_nonlocal(struct compiling *compiling, struct part a)
 static struct part reduced(struct compiling *compiling, enum gm_form_step_kind kind, struct part a)
 {
     refuse_nonlocal(compiling, a);
-    return made(compiling,
-                (struct gm_form_step){
-                    .kind = kind, .type = any_number, .needs = needs_of(compiling, a), .a = a.step});
+    return made_of(compiling, kind, 0, a, any_number);
 }
 
 static struct part integral(struct compiling *compiling, struct part a)
 {
-    if (is_formula(a) && a.type.degree != GM_FORM_COVECTOR) {
-        a = sampled(compiling, a, (struct gm_form_type){0, false});
-    }
-    a = decided(compiling, a);
-    if (a.type.degree == 1 || a.type.degree < 0) {
-        refuse(compiling, "integral is of a 0-form or a 2-form, and this is %s", gm_form_type_text(a.type));
-    }
+    a = form_of(compiling, a);
+    require(compiling, a.type.degree == 0 || a.type.degree == 2, "integral is of a 0-form or a 2-form", a);
     return reduced(compiling, GM_STEP_SUM, a.type.degree == 0 ? star(compiling, a) : a);
 }
 
@@ -455,25 +450,17 @@ static struct part around(struct compiling *compiling, gm_node_id part, struct p
     if (node->operation != GM_CONSTANT) {
         refuse(compiling, "integral(PART, a) begins with a part of the boundary");
     }
-    if (!fit(compiling, &a, (struct gm_form_type){1, false})) {
-        refuse(compiling, "the integral along a part of the boundary is of a 1-form, and this is %s",
-               gm_form_type_text(a.type));
-    }
+    const bool fits = fit(compiling, &a, primal_1);
+    require(compiling, fits, "the integral along a part of the boundary is of a 1-form", a);
     refuse_nonlocal(compiling, a);
-    return made(compiling, (struct gm_form_step){.kind = GM_STEP_AROUND,
-                                                 .type = any_number,
-                                                 .needs = needs_of(compiling, a),
-                                                 .a = a.step,
-                                                 .number = (size_t)node->value});
+    return made_of(compiling, GM_STEP_AROUND, (size_t)node->value, a, any_number);
 }
 
 /* at(a, x, y, z) */
 static struct part at(struct compiling *compiling, const struct gm_form_call *call)
 {
     const struct part a = decided(compiling, compiling->known[call->operands[0]].part);
-    if (a.type.degree != 0) {
-        refuse(compiling, "at is of a 0-form, and this is %s", gm_form_type_text(a.type));
-    }
+    require(compiling, a.type.degree == 0, "at is of a 0-form", a);
     refuse_nonlocal(compiling, a);
     struct gm_form_step step = {.kind = GM_STEP_AT,
                                 .type = any_number,
@@ -482,10 +469,7 @@ static struct part at(struct compiling *compiling, const struct gm_form_call *ca
                                 .components = call->count - 1};
     for (size_t i = 0; i < step.components; i++) {
         const struct part place = compiling->known[call->operands[i + 1]].part;
-        if (place.type.degree != GM_FORM_NUMBER) {
-            refuse(compiling, "the coordinates of at are numbers, and this is %s",
-                   gm_form_type_text(place.type));
-        }
+        require(compiling, place.type.degree == GM_FORM_NUMBER, "the coordinates of at are numbers", place);
         const struct part number = decided(compiling, place);
         step.needs |= needs_of(compiling, number);
         step.nodes[i] = (gm_node_id)number.step;
@@ -496,21 +480,16 @@ static struct part at(struct compiling *compiling, const struct gm_form_call *ca
 /* Parts of a 1-form by Hodge. */
 static struct part part_of(struct compiling *compiling, enum gm_form_operator operator, struct part a)
 {
-    const struct gm_form_type type = {1, false};
-    if (!fit(compiling, &a, type)) {
-        refuse(compiling, "exact, coexact and harmonic are of a 1-form, and this is %s",
-               gm_form_type_text(a.type));
-    }
+    const bool fits = fit(compiling, &a, primal_1);
+    require(compiling, fits, "exact, coexact and harmonic are of a 1-form", a);
     refuse_nonlocal(compiling, a);
-    struct gm_form_step step = {
-        .kind = GM_STEP_EXACT, .type = type, .needs = needs_of(compiling, a), .a = a.step};
-    const struct part exact = operator== GM_FORM_COEXACT ? a : made(compiling, step);
-    step.kind = GM_STEP_COEXACT;
-    const struct part coexact = operator== GM_FORM_EXACT ? a : made(compiling, step);
-    return operator== GM_FORM_EXACT   ? exact :
-           operator== GM_FORM_COEXACT ? coexact
-                                      : operate(compiling, GM_OPERATION_SUBTRACT,
-                                                operate(compiling, GM_OPERATION_SUBTRACT, a, exact), coexact);
+    if (operator!= GM_FORM_HARMONIC) {
+        return made_of(compiling, operator== GM_FORM_EXACT ? GM_STEP_EXACT : GM_STEP_COEXACT, 0, a, primal_1);
+    }
+    const struct part exact = made_of(compiling, GM_STEP_EXACT, 0, a, primal_1),
+                      coexact = made_of(compiling, GM_STEP_COEXACT, 0, a, primal_1);
+    return operate(compiling, GM_OPERATION_SUBTRACT, operate(compiling, GM_OPERATION_SUBTRACT, a, exact),
+                   coexact);
 }
 
 static struct part inner(struct compiling *compiling, struct part a, struct part b)
@@ -525,9 +504,7 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
         refuse(compiling, "inner is of two forms of one type, and these are %s and %s",
                gm_form_type_text(a.type), gm_form_type_text(b.type));
     }
-    if (b.type.degree == GM_FORM_NUMBER) {
-        refuse(compiling, "inner is of two forms, and this is a number");
-    }
+    require(compiling, b.type.degree != GM_FORM_NUMBER, "inner is of two forms", b);
     struct part other = star(compiling, b);
     other.type = a.type;
     if (a.type.degree == 1 && a.type.dual) {
@@ -552,13 +529,9 @@ static struct part closed(struct compiling *compiling, gm_node_id let, struct pa
             compiling->known[item->nodes[0]].of_forms) {
             refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
         }
-        const struct part along = sampled(compiling, formula, (struct gm_form_type){1, false});
-        const struct part closing = made(compiling, (struct gm_form_step){.kind = GM_STEP_CLOSING,
-                                                                          .type = derivative.type,
-                                                                          .needs = needs_of(compiling, along),
-                                                                          .a = along.step,
-                                                                          .number = i});
-        derivative = operate(compiling, GM_OPERATION_ADD, derivative, closing);
+        const struct part along = sampled(compiling, formula, primal_1);
+        derivative = operate(compiling, GM_OPERATION_ADD, derivative,
+                             made_of(compiling, GM_STEP_CLOSING, i, along, derivative.type));
     }
     return derivative;
 }
@@ -601,10 +574,7 @@ static struct part called(struct compiling *compiling, const struct gm_form_call
         return inner(compiling, a, b);
     default: {
         const struct part c = decided(compiling, a);
-        if (c.type.degree > 0) {
-            refuse(compiling, "max and min of one form are of a 0-form, and this is %s",
-                   gm_form_type_text(c.type));
-        }
+        require(compiling, c.type.degree <= 0, "max and min of one form are of a 0-form", c);
         return reduced(compiling, call->operator== GM_FORM_LARGEST ? GM_STEP_LARGEST : GM_STEP_LEAST, c);
     }
     }
@@ -717,10 +687,7 @@ static void survey(struct compiling *compiling)
             }
             continue;
         }
-        known[node->a].marked = true;
-        if (gm_operation_rows[node->operation].arity == 2) {
-            known[node->b].marked = true;
-        }
+        known[node->a].marked = known[gm_second_operand(node)].marked = true;
     }
     for (size_t i = 0; i < nodes; i++) {
         const struct gm_node *node = &system->graph.nodes[i];
@@ -735,8 +702,7 @@ static void survey(struct compiling *compiling)
             here->of_time = number == system->n;
             continue;
         }
-        const struct known *a = &known[node->a],
-                           *b = &known[gm_operation_rows[node->operation].arity == 2 ? node->b : node->a];
+        const struct known *a = &known[node->a], *b = &known[gm_second_operand(node)];
         here->of_forms = a->of_forms || b->of_forms;
         here->of_place = a->of_place || b->of_place;
         here->of_time = a->of_time || b->of_time;

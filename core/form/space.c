@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/linear/cholesky.h"
+#include "core/linear/vectors.h"
 
 size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type)
 {
@@ -30,87 +31,18 @@ long gm_form_betti(const struct gm_complex *complex, int degree)
     return degree == 0 ? pieces : degree == 2 ? closed : pieces + closed - euler;
 }
 
-void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece)
-{
-    const size_t count = triangles ? complex->triangles : complex->vertices;
-    bool changed = true;
-    for (size_t i = 0; i < count; i++) {
-        piece[i] = (int)i;
-    }
-    while (changed) { /* the least number of a piece spreads */
-        changed = false;
-        for (size_t e = 0; e < complex->edges; e++) {
-            const int *pair = (triangles ? complex->edge_triangle : complex->edge) + 2 * e;
-            if (pair[0] < 0 || pair[1] < 0) {
-                continue;
-            }
-            const int least = piece[pair[0]] < piece[pair[1]] ? piece[pair[0]] : piece[pair[1]];
-            changed |= piece[pair[0]] != least || piece[pair[1]] != least;
-            piece[pair[0]] = piece[pair[1]] = least;
-        }
-    }
-}
-
-void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3])
-{
-    for (size_t c = 0; c < 3; c++) {
-        point[c] = c < complex->coordinates ? complex->point[complex->coordinates * vertex + c] : 0;
-    }
-}
-
-/* The entries of a matrix that is being made. */
-struct entries {
-    struct gm_matrix_entry *list;
-    size_t count;
-};
-
-static struct entries entries_for(struct gm_arena *arena, size_t most)
-{
-    struct entries entries = {gm_arena_keep(arena, malloc((most + 1) * sizeof *entries.list), free), 0};
-    gm_arena_need(arena, entries.list);
-    return entries;
-}
-
-static void add(struct entries *entries, size_t row, size_t column, double value)
-{
-    entries->list[entries->count++] = (struct gm_matrix_entry){(int)row, (int)column, value};
-}
-
-/* Makes the matrix, and frees its entries. */
-static struct gm_matrix made_of(struct gm_arena *arena, struct entries *entries, size_t rows, size_t columns)
-{
-    struct gm_matrix matrix = gm_matrix_of(arena, rows, columns, entries->list, entries->count);
-    gm_arena_drop(arena, entries->list);
-    return matrix;
-}
-
-static struct gm_matrix made(struct gm_form_space *space, struct entries *entries, size_t rows,
-                             size_t columns)
-{
-    return made_of(space->arena, entries, rows, columns);
-}
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The gradients of barycentric coordinates: e_a turned by 90 degrees over 2 area, e_a opposite to corner a. */
 static void gradients(const struct gm_complex *complex, size_t t, double g[3][3])
 {
     double p[9], n[3];
     gm_complex_corners_in_space(complex, t, p);
-    for (int c = 0; c < 3; c++) {
-        const int next = (c + 1) % 3, last = (c + 2) % 3;
-        n[c] = (p[3 + next] - p[next]) * (p[6 + last] - p[last]) -
-               (p[3 + last] - p[last]) * (p[6 + next] - p[next]);
-    }
+    gm_triangle_normal(p, n);
     for (int a = 0; a < 3; a++) {
-        const double *from = p + (a + 1) % 3 * 3, *to = p + (a + 2) % 3 * 3;
+        double side[3];
+        gm_subtract(p + (a + 2) % 3 * 3, p + (a + 1) % 3 * 3, side);
+        gm_cross(n, side, g[a]);
         for (int c = 0; c < 3; c++) {
-            const int next = (c + 1) % 3, last = (c + 2) % 3;
-            g[a][c] = (n[next] * (to[last] - from[last]) - n[last] * (to[next] - from[next])) /
-                      (4 * complex->area[t] * complex->area[t]);
+            g[a][c] /= 4 * complex->area[t] * complex->area[t];
         }
     }
 }
@@ -118,7 +50,7 @@ static void gradients(const struct gm_complex *complex, size_t t, double g[3][3]
 static struct gm_matrix mass_of(struct gm_form_space *space)
 {
     const struct gm_complex *complex = space->complex;
-    struct entries entries = entries_for(space->arena, 9 * complex->triangles);
+    struct gm_matrix_entries entries = gm_matrix_entries(space->arena, 9 * complex->triangles);
     for (size_t t = 0; t < complex->triangles; t++) {
         double g[3][3];
         gradients(complex, t, g);
@@ -128,92 +60,60 @@ static struct gm_matrix mass_of(struct gm_form_space *space)
                 const double sign = complex->triangle_sign[3 * t + a] * complex->triangle_sign[3 * t + b];
                 const double unit = complex->area[t] / 12;
                 const double value =
-                    unit * ((1 + (i == k)) * dot(g[j], g[l]) - (1 + (i == l)) * dot(g[j], g[k]) -
-                            (1 + (j == k)) * dot(g[i], g[l]) + (1 + (j == l)) * dot(g[i], g[k]));
-                add(&entries, (size_t)complex->triangle_edge[3 * t + a],
-                    (size_t)complex->triangle_edge[3 * t + b], sign * value);
+                    unit * ((1 + (i == k)) * gm_dot(g[j], g[l]) - (1 + (i == l)) * gm_dot(g[j], g[k]) -
+                            (1 + (j == k)) * gm_dot(g[i], g[l]) + (1 + (j == l)) * gm_dot(g[i], g[k]));
+                gm_matrix_put(&entries, (size_t)complex->triangle_edge[3 * t + a],
+                              (size_t)complex->triangle_edge[3 * t + b], sign * value);
             }
         }
     }
-    return made(space, &entries, complex->edges, complex->edges);
+    return gm_matrix_of(&entries, complex->edges, complex->edges);
 }
 
-/* The piece of a dual edge from a triangle's dual vertex w to the middle m of its edge number `side`: the
-   integral of Whitney's form of i -> j is h_i l_j - h_j l_i, h = (w + m)/2, l = m - w; negative on the left. */
-static struct gm_matrix transfer_of(struct gm_form_space *space)
+/* Whitney's forms along dual edges, by the piece of each in a triangle, from its dual vertex w to the middle m of
+   its edge number `side`: the integral of the form of i -> j is h_i l_j - h_j l_i, h = (w + m)/2, l = m - w;
+   negative on the left. With GM_INTERIOR_WHITNEY the mean of the forms of both triangles, each of which is
+   continued beyond its own to the other's dual vertex. */
+static struct gm_matrix transfer_of(const struct gm_form_space *space, struct gm_arena *arena)
 {
     const struct gm_complex *complex = space->complex;
-    struct entries entries = entries_for(space->arena, 9 * complex->triangles);
-    for (size_t t = 0; t < complex->triangles; t++) {
-        const double *w = complex->weight + 3 * t;
-        const signed char *sign = complex->triangle_sign + 3 * t;
-        for (size_t side = 0; side < 3; side++) {
-            double h[3], l[3];
-            for (size_t c = 0; c < 3; c++) {
-                const double m = c == (side + 2) % 3 ? 0 : 0.5;
-                h[c] = (w[c] + m) / 2;
-                l[c] = m - w[c];
-            }
-            for (size_t a = 0; a < 3; a++) {
-                const size_t i = a, j = (a + 1) % 3;
-                add(&entries, (size_t)complex->triangle_edge[3 * t + side],
-                    (size_t)complex->triangle_edge[3 * t + a],
-                    -sign[side] * sign[a] * (h[i] * l[j] - h[j] * l[i]));
-            }
-        }
-    }
-    return made(space, &entries, complex->edges, complex->edges);
-}
-
-/* The mean of the Whitney forms of both triangles along a dual edge, each of them continued beyond its triangle. */
-static struct gm_matrix averaged_transfer_of(const struct gm_form_space *space, struct gm_arena *arena)
-{
-    const struct gm_complex *complex = space->complex;
-    struct entries entries = entries_for(arena, 18 * complex->triangles);
+    struct gm_matrix_entries entries = gm_matrix_entries(arena, 18 * complex->triangles);
     for (size_t t = 0; t < complex->triangles; t++) {
         double g[3][3];
         gradients(complex, t, g);
         for (size_t side = 0; side < 3; side++) {
             const size_t e = (size_t)complex->triangle_edge[3 * t + side];
             const int *pair = complex->edge_triangle + 2 * e, other = pair[0] == (int)t ? pair[1] : pair[0];
+            const bool averaged = space->interior == GM_INTERIOR_WHITNEY && other >= 0;
             double p[9];
             gm_complex_corners_in_space(complex, other >= 0 ? (size_t)other : t, p);
-            for (int half = 0; half < (other >= 0 ? 2 : 1);
-                 half++) { /* from here to the middle, and beyond */
+            for (int half = 0; half < (averaged ? 2 : 1); half++) {
                 double from[3], to[3];
                 for (size_t c = 0; c < 3; c++) {
                     const double m = c == (side + 2) % 3 ? 0 : 0.5;
                     from[c] = half ? m : complex->weight[3 * t + c];
                     to[c] = m;
                 }
-                if (half) {
-                    size_t edge = 0;
-                    while ((size_t)complex->triangle_edge[3 * other + (int)edge] != e) {
-                        edge++;
-                    }
-                    for (size_t c = 0; c < 3; c++) {
-                        for (int k = 0; k < 3; k++) {
-                            const double middle = (p[3 * edge + k] + p[(edge + 1) % 3 * 3 + k]) / 2;
-                            double centre = 0;
-                            for (int corner = 0; corner < 3; corner++) {
-                                centre += complex->weight[3 * other + corner] * p[3 * corner + k];
-                            }
-                            to[c] += g[c][k] * (centre - middle);
-                        }
-                    }
+                size_t edge = 0;
+                while (half && (size_t)complex->triangle_edge[3 * other + (int)edge] != e) {
+                    edge++;
                 }
-                for (size_t a = 0; a < 3; a++) {
-                    const size_t i = a, j = (a + 1) % 3;
+                for (size_t k = 0; k < 9 && half; k++) {
+                    const double middle = (p[3 * edge + k % 3] + p[(edge + 1) % 3 * 3 + k % 3]) / 2;
+                    to[k / 3] += g[k / 3][k % 3] * (space->dual_vertex[3 * (size_t)other + k % 3] - middle);
+                }
+                for (size_t i = 0; i < 3; i++) {
+                    const size_t j = (i + 1) % 3;
                     const double along =
                         (from[i] + to[i]) / 2 * (to[j] - from[j]) - (from[j] + to[j]) / 2 * (to[i] - from[i]);
-                    add(&entries, e, (size_t)complex->triangle_edge[3 * t + a],
-                        -complex->triangle_sign[3 * t + side] * complex->triangle_sign[3 * t + a] * along *
-                            (other >= 0 ? 0.5 : 1));
+                    gm_matrix_put(&entries, e, (size_t)complex->triangle_edge[3 * t + i],
+                                  -complex->triangle_sign[3 * t + side] * complex->triangle_sign[3 * t + i] *
+                                      along * (averaged ? 0.5 : 1));
                 }
             }
         }
     }
-    return made_of(arena, &entries, complex->edges, complex->edges);
+    return gm_matrix_of(&entries, complex->edges, complex->edges);
 }
 
 /* The components of Whitney's forms at centres of mass, (g_j - g_i)/3 of an edge i -> j. */
@@ -221,16 +121,16 @@ static void make_centres(struct gm_form_space *space, struct gm_arena *arena)
 {
     const struct gm_complex *complex = space->complex;
     for (int c = 0; c < 3; c++) {
-        struct entries entries = entries_for(arena, 3 * complex->triangles);
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, 3 * complex->triangles);
         for (size_t t = 0; t < complex->triangles; t++) {
             double g[3][3];
             gradients(complex, t, g);
             for (size_t a = 0; a < 3; a++) {
-                add(&entries, t, (size_t)complex->triangle_edge[3 * t + a],
-                    complex->triangle_sign[3 * t + a] * (g[(a + 1) % 3][c] - g[a][c]) / 3);
+                gm_matrix_put(&entries, t, (size_t)complex->triangle_edge[3 * t + a],
+                              complex->triangle_sign[3 * t + a] * (g[(a + 1) % 3][c] - g[a][c]) / 3);
             }
         }
-        space->matrix[GM_MATRIX_CENTRE_X + c] = made_of(arena, &entries, complex->triangles, complex->edges);
+        space->matrix[GM_MATRIX_CENTRE_X + c] = gm_matrix_of(&entries, complex->triangles, complex->edges);
     }
 }
 
@@ -238,90 +138,74 @@ void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enu
 {
     const struct gm_complex *complex = space->complex;
     const bool upwind = space->interior == GM_INTERIOR_UPWIND;
-    if (number == GM_MATRIX_TRANSFER && space->interior == GM_INTERIOR_WHITNEY && !space->averaged) {
-        space->averaged = true;
-        space->matrix[number] = averaged_transfer_of(space, arena);
-    }
     if (space->matrix[number].start) {
+        return;
+    }
+    if (number == GM_MATRIX_TRANSFER) {
+        space->matrix[number] = transfer_of(space, arena);
         return;
     }
     if (number >= GM_MATRIX_CENTRE_X) {
         make_centres(space, arena);
         return;
     }
-    struct entries entries = entries_for(arena, 2 * complex->edges);
-    for (size_t e = 0; e < complex->edges; e++) {
-        const int *pair = complex->edge_triangle + 2 * e, *ends = complex->edge + 2 * e;
-        const bool inside = pair[0] >= 0 && pair[1] >= 0;
-        for (size_t k = 0; k < 2; k++) {
-            if (number == GM_MATRIX_JUMP1 && upwind) {
-                add(&entries, e, (size_t)ends[k], k ? 0.5 : -0.5);
-            } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
-                add(&entries, e, (size_t)pair[k], k ? 0.5 : -0.5);
-            } else if (number == GM_MATRIX_HALVES && !inside) {
-                add(&entries, (size_t)ends[k], e, 0.25);
-            } else if (number == GM_MATRIX_OUT && !inside && k == 0) {
-                add(&entries, e, e, pair[0] >= 0 ? 1 : -1);
-            }
+    struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
+    for (size_t k = 0; k < 2 * complex->edges; k++) {
+        const size_t e = k / 2, end = (size_t)complex->edge[k];
+        const int side = complex->edge_triangle[k];
+        const bool inside = side >= 0 && complex->edge_triangle[k ^ 1] >= 0;
+        if (number == GM_MATRIX_JUMP1 && upwind) {
+            gm_matrix_put(&entries, e, end, k % 2 ? 0.5 : -0.5);
+        } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
+            gm_matrix_put(&entries, e, (size_t)side, k % 2 ? 0.5 : -0.5);
+        } else if (number == GM_MATRIX_HALVES && !inside) {
+            gm_matrix_put(&entries, end, e, 0.25);
+        } else if (number == GM_MATRIX_OUT && !inside && side >= 0) {
+            gm_matrix_put(&entries, e, e, k % 2 ? -1 : 1);
         }
     }
     const size_t cells = number == GM_MATRIX_HALVES ? complex->vertices : complex->edges,
                  columns = number == GM_MATRIX_JUMP1   ? complex->vertices
                            : number == GM_MATRIX_JUMP2 ? complex->triangles
                                                        : complex->edges;
-    space->matrix[number] = made_of(arena, &entries, cells, columns);
+    space->matrix[number] = gm_matrix_of(&entries, cells, columns);
 }
 
 static void make_derivatives(struct gm_form_space *space)
 {
     const struct gm_complex *complex = space->complex;
     struct gm_matrix *matrix = space->matrix;
-    struct entries d0 = entries_for(space->arena, 2 * complex->edges),
-                   d1 = entries_for(space->arena, 3 * complex->triangles),
-                   ends = entries_for(space->arena, 2 * complex->edges),
-                   corners = entries_for(space->arena, 3 * complex->triangles),
-                   sides = entries_for(space->arena, 2 * complex->edges);
-    for (size_t e = 0; e < complex->edges; e++) {
-        const int *pair = complex->edge_triangle + 2 * e;
-        for (size_t k = 0; k < 2; k++) {
-            add(&d0, e, (size_t)complex->edge[2 * e + k], k ? 1 : -1);
-            add(&ends, e, (size_t)complex->edge[2 * e + k], 0.5);
-            if (pair[k] >= 0) {
-                add(&sides, e, (size_t)pair[k], pair[1 - k] >= 0 ? 0.5 : 1);
-            }
+    const size_t vertices = complex->vertices, edges = complex->edges, triangles = complex->triangles;
+    struct gm_matrix_entries d0 = gm_matrix_entries(space->arena, 2 * edges),
+                             d1 = gm_matrix_entries(space->arena, 3 * triangles),
+                             ends = gm_matrix_entries(space->arena, 2 * edges),
+                             corners = gm_matrix_entries(space->arena, 3 * triangles),
+                             sides = gm_matrix_entries(space->arena, 2 * edges);
+    for (size_t k = 0; k < 2 * edges; k++) {
+        const int at = complex->edge_triangle[k], other = complex->edge_triangle[k ^ 1];
+        gm_matrix_put(&d0, k / 2, (size_t)complex->edge[k], k % 2 ? 1 : -1);
+        gm_matrix_put(&ends, k / 2, (size_t)complex->edge[k], 0.5);
+        if (at >= 0) {
+            gm_matrix_put(&sides, k / 2, (size_t)at, other >= 0 ? 0.5 : 1);
         }
     }
-    for (size_t k = 0; k < 3 * complex->triangles; k++) {
-        add(&d1, k / 3, (size_t)complex->triangle_edge[k], complex->triangle_sign[k]);
-        add(&corners, k / 3, (size_t)complex->triangle[k], 1.0 / 3);
+    for (size_t k = 0; k < 3 * triangles; k++) {
+        gm_matrix_put(&d1, k / 3, (size_t)complex->triangle_edge[k], complex->triangle_sign[k]);
+        gm_matrix_put(&corners, k / 3, (size_t)complex->triangle[k], 1.0 / 3);
     }
-    matrix[GM_MATRIX_D0] = made(space, &d0, complex->edges, complex->vertices);
-    matrix[GM_MATRIX_D1] = made(space, &d1, complex->triangles, complex->edges);
-    matrix[GM_MATRIX_MEAN1] = made(space, &ends, complex->edges, complex->vertices);
-    matrix[GM_MATRIX_MEAN2] = made(space, &corners, complex->triangles, complex->vertices);
-    matrix[GM_MATRIX_ACROSS] = made(space, &sides, complex->edges, complex->triangles);
+    matrix[GM_MATRIX_D0] = gm_matrix_of(&d0, edges, vertices);
+    matrix[GM_MATRIX_D1] = gm_matrix_of(&d1, triangles, edges);
+    matrix[GM_MATRIX_MEAN1] = gm_matrix_of(&ends, edges, vertices);
+    matrix[GM_MATRIX_MEAN2] = gm_matrix_of(&corners, triangles, vertices);
+    matrix[GM_MATRIX_ACROSS] = gm_matrix_of(&sides, edges, triangles);
     matrix[GM_MATRIX_DUAL_D0] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D1], 1);
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }
 
-static void close_factor(void *factor)
-{
-    gm_cholesky_close(factor);
-}
-
 struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a)
 {
-    struct gm_matrix_rows rows = gm_matrix_begin(arena, a->rows, a->rows, (size_t)a->start[a->rows]);
-    for (size_t i = 0; i < a->rows; i++) {
-        for (int k = a->start[i]; k < a->start[i + 1] && a->column[k] <= (int)i; k++) {
-            gm_matrix_add(&rows, a->column[k], a->value[k]);
-        }
-        gm_matrix_end_row(&rows, false);
-    }
-    const struct gm_matrix half = gm_matrix_end(&rows);
-    struct gm_cholesky *factor =
-        gm_cholesky_open(half.rows, half.start, half.column, half.value, GM_CHOLESKY_EXACT);
-    return factor ? gm_arena_keep(arena, factor, close_factor) : NULL;
+    struct gm_cholesky *factor = gm_cholesky_open(a->rows, a->start, a->column, a->value, GM_CHOLESKY_EXACT);
+    return factor ? gm_arena_keep(arena, factor, gm_cholesky_close) : NULL;
 }
 
 static void make_stars(struct gm_form_space *space)
@@ -334,13 +218,9 @@ static void make_stars(struct gm_form_space *space)
     matrix[GM_MATRIX_STAR2] = gm_matrix_diagonal(arena, complex->area, complex->triangles, -1, 1);
     matrix[GM_MATRIX_DUAL_STAR0] = gm_matrix_diagonal(arena, complex->area, complex->triangles, 1, 1);
     struct gm_matrix diagonal = gm_matrix_diagonal(arena, complex->star1, complex->edges, 1, 1);
-    const struct gm_matrix flux = gm_matrix_product(arena, &diagonal, &matrix[GM_MATRIX_D0]);
-    matrix[GM_MATRIX_LAPLACE] = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_D1], &flux);
-    double *cells = gm_arena_take(arena, complex->vertices, sizeof *cells);
-    for (size_t v = 0; v < complex->vertices; v++) {
-        cells[v] = 1 / complex->star0[v];
-    }
-    gm_matrix_scale(&matrix[GM_MATRIX_LAPLACE], cells);
+    const struct gm_matrix flux = gm_matrix_product(arena, &diagonal, &matrix[GM_MATRIX_D0]),
+                           back = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_D1], &flux);
+    matrix[GM_MATRIX_LAPLACE] = gm_matrix_product(arena, &matrix[GM_MATRIX_DUAL_STAR2], &back);
     if (complex->star == GM_STAR_CIRCUMCENTRIC) {
         matrix[GM_MATRIX_STAR1] = diagonal;
         matrix[GM_MATRIX_DUAL_STAR1] = gm_matrix_diagonal(arena, complex->star1, complex->edges, -1, -1);
@@ -350,7 +230,6 @@ static void make_stars(struct gm_form_space *space)
         space->mass = gm_matrix_factor(arena, &space->inner);
         gm_arena_need(arena, space->mass);
     }
-    matrix[GM_MATRIX_TRANSFER] = transfer_of(space);
 }
 
 /* The mass matrix without the held edges, space->held. */
@@ -377,15 +256,10 @@ bool gm_form_space_hold(struct gm_form_space *space, const bool *held)
     return !space->mass || gm_arena_run(space->arena, hold, space);
 }
 
-static void close_complex(void *complex)
-{
-    gm_complex_close(complex);
-}
-
 static void make(struct gm_arena *arena, void *data)
 {
     struct gm_form_space *space = data;
-    gm_arena_keep(arena, space->complex, close_complex);
+    gm_arena_keep(arena, space->complex, gm_complex_close);
     make_derivatives(space);
     make_stars(space);
     space->dual_vertex = gm_arena_take(arena, 3 * space->complex->triangles, sizeof(double));
@@ -413,10 +287,11 @@ bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex)
     return true;
 }
 
-void gm_form_space_close(struct gm_form_space *space)
+void gm_form_space_close(void *space)
 {
-    gm_arena_close(space->arena);
-    space->arena = NULL;
+    struct gm_form_space *self = space;
+    gm_arena_close(self->arena);
+    self->arena = NULL;
 }
 
 /* ---- integrals ---- */
@@ -435,15 +310,16 @@ static const double radon[3][3] = {
     {0.79742698535308732, 0.10128650732345634, 0.12593918054482715},
 };
 
-static struct gm_form_points room_for(struct gm_arena *arena, size_t numbers, size_t each, bool vectors)
+static struct gm_form_points *room_for(struct gm_arena *arena, size_t numbers, size_t each, bool vectors)
 {
     const size_t count = numbers * each;
-    struct gm_form_points points = {.count = count, .each = each};
-    points.point = gm_arena_take(arena, 4 * count, sizeof(double));
+    struct gm_form_points *points = gm_arena_take(arena, 1, sizeof *points);
+    *points = (struct gm_form_points){
+        .count = count, .each = each, .point = gm_arena_take(arena, 4 * count, sizeof(double))};
     if (vectors) {
-        points.vector = gm_arena_take(arena, 3 * count, sizeof(double));
+        points->vector = gm_arena_take(arena, 3 * count, sizeof(double));
     } else {
-        points.weight = gm_arena_take(arena, count, sizeof(double));
+        points->weight = gm_arena_take(arena, count, sizeof(double));
     }
     return points;
 }
@@ -467,63 +343,51 @@ static void put_piece(const struct gm_form_points *points, size_t at, const doub
     }
 }
 
-/* The corners of edge number `side` of a triangle, from low to high, and its middle. */
-static void edge_of(const struct gm_complex *complex, size_t t, size_t side, double low[3], double high[3],
-                    double middle[3])
-{
-    double p[9];
-    gm_complex_corners_in_space(complex, t, p);
-    const bool along = complex->triangle_sign[3 * t + side] > 0;
-    for (size_t c = 0; c < 3; c++) {
-        const double a = p[3 * side + c], b = p[(side + 1) % 3 * 3 + c];
-        low[c] = along ? a : b;
-        high[c] = along ? b : a;
-        middle[c] = (a + b) / 2;
-    }
-}
-
-static struct gm_form_points points_of_lines(const struct gm_form_space *space, struct gm_arena *arena,
-                                             bool dual)
+static struct gm_form_points *points_of_lines(const struct gm_form_space *space, struct gm_arena *arena,
+                                              bool dual)
 {
     const struct gm_complex *complex = space->complex;
-    const struct gm_form_points points = room_for(arena, complex->edges, dual ? 10 : 5, true);
+    struct gm_form_points *points = room_for(arena, complex->edges, dual ? 10 : 5, true);
     for (size_t k = 0; k < 3 * complex->triangles; k++) {
-        double low[3], high[3], middle[3];
+        double p[9], middle[3];
+        gm_complex_corners_in_space(complex, k / 3, p);
+        const double *from = p + 3 * (k % 3), *to = p + 3 * ((k + 1) % 3);
+        for (size_t c = 0; c < 3; c++) {
+            middle[c] = (from[c] + to[c]) / 2;
+        }
         const size_t e = (size_t)complex->triangle_edge[k];
-        edge_of(complex, k / 3, k % 3, low, high, middle);
+        /* the triangle is on the left of the edge, which runs from its low to its high vertex */
+        const bool left = complex->triangle_sign[k] > 0;
         const double *centre = space->dual_vertex + 3 * (k / 3);
         const int *pair = complex->edge_triangle + 2 * e;
         if (dual && (pair[0] < 0 || pair[1] < 0)) { /* half of a dual edge: the other one has no length */
-            put_piece(&points, pair[0] < 0 ? 10 * e : 10 * e + 5, middle, middle);
+            put_piece(points, pair[0] < 0 ? 10 * e : 10 * e + 5, middle, middle);
         }
         if (!dual) {
-            put_piece(&points, 5 * e, low, high);
-        } else if (complex->triangle_sign[k] > 0) { /* on the left: the dual edge ends here */
-            put_piece(&points, 10 * e, middle, centre);
+            put_piece(points, 5 * e, left ? from : to, left ? to : from);
+        } else if (left) { /* the dual edge ends here */
+            put_piece(points, 10 * e, middle, centre);
         } else {
-            put_piece(&points, 10 * e + 5, centre, middle);
+            put_piece(points, 10 * e + 5, centre, middle);
         }
     }
     return points;
 }
 
-struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struct gm_arena *arena,
-                                        struct gm_form_type type)
+static struct gm_form_points *points_of_cells(const struct gm_form_space *space, struct gm_arena *arena,
+                                              struct gm_form_type type)
 {
     const struct gm_complex *complex = space->complex;
-    if (type.degree == 1) {
-        return points_of_lines(space, arena, type.dual);
-    }
     const bool vertices = (type.degree == 0) != type.dual;
     const size_t numbers = vertices ? complex->vertices : complex->triangles,
                  each = type.degree == 2 && !type.dual ? 7 : 1;
-    const struct gm_form_points points = room_for(arena, numbers, each, false);
+    struct gm_form_points *points = room_for(arena, numbers, each, false);
     for (size_t i = 0; i < numbers && each == 1; i++) {
         double p[3];
         if (vertices) {
-            gm_form_vertex(complex, i, p);
+            gm_complex_vertex(complex, i, p);
         }
-        put(&points, i, vertices ? p : space->dual_vertex + 3 * i, type.degree == 2 ? complex->star0[i] : 1);
+        put(points, i, vertices ? p : space->dual_vertex + 3 * i, type.degree == 2 ? complex->star0[i] : 1);
     }
     for (size_t t = 0; t < numbers && each == 7; t++) {
         double p[9];
@@ -537,8 +401,19 @@ struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struc
                     at[c] += p[3 * corner + c] * (corner == (i + 2) % 3 ? rule[0] : rule[1]);
                 }
             }
-            put(&points, 7 * t + i, at, rule[2] * complex->area[t]);
+            put(points, 7 * t + i, at, rule[2] * complex->area[t]);
         }
     }
     return points;
+}
+
+const struct gm_form_points *gm_form_points_of(struct gm_form_space *space, struct gm_arena *arena,
+                                               struct gm_form_type type)
+{
+    struct gm_form_points **points = &space->points[type.dual][type.degree];
+    if (!*points) {
+        *points =
+            type.degree == 1 ? points_of_lines(space, arena, type.dual) : points_of_cells(space, arena, type);
+    }
+    return *points;
 }

@@ -30,11 +30,11 @@ enum gm_form_matrix {
     GM_MATRIX_DUAL_STAR1, /* -1/STAR1 if that is diagonal; else it is solved with */
     GM_MATRIX_DUAL_STAR2,
     GM_MATRIX_LAPLACE,  /* of 0-forms, -D0' STAR1 D0 / STAR0: the same for all stars */
-    GM_MATRIX_TRANSFER, /* Whitney's form of a primal 1-form along dual edges */
     GM_MATRIX_MEAN1,    /* vertices to edges: the mean of both ends */
     GM_MATRIX_MEAN2,    /* vertices to triangles */
     GM_MATRIX_ACROSS,   /* triangles to edges: the mean of both sides */
-    GM_MATRIX_JUMP1,    /* made by gm_form_space_need, as are all from here on: half of head - tail */
+    GM_MATRIX_TRANSFER, /* made by gm_form_space_need, as are all from here on: a 1-form along dual edges */
+    GM_MATRIX_JUMP1,    /* half of head - tail */
     GM_MATRIX_JUMP2,    /* triangles to edges: half of right - left. Both are 0 unless products are upwind */
     GM_MATRIX_OUT,      /* edges to edges: what flows out through edges of the boundary */
     GM_MATRIX_HALVES,   /* edges to dual cells: a quarter of edges of the boundary; 0 elsewhere */
@@ -69,7 +69,6 @@ struct gm_form_space {
     struct gm_matrix inner;              /* STAR1 among the edges that are not held, and 1 on the others */
     const bool *held;                    /* each edge; NULL: none is held */
     enum gm_interior interior;           /* set by the caller before matrices are made for it */
-    bool averaged;                       /* TRANSFER is that of GM_INTERIOR_WHITNEY */
     double *dual_vertex;                 /* 3 a triangle */
     struct gm_form_points *points[2][3]; /* of dual and primal forms; NULL: not needed yet */
 };
@@ -80,7 +79,7 @@ struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_mat
 
 /* Takes the complex; false when out of memory, and nothing to close. */
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
-void gm_form_space_close(struct gm_form_space *space);
+void gm_form_space_close(void *space); /* for arenas too */
 
 /* Makes a matrix, unless it is there, in a body of an arena that the space does not outlive. */
 void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enum gm_form_matrix number);
@@ -94,15 +93,9 @@ size_t gm_form_size(const struct gm_complex *complex, struct gm_form_type type);
 /* The Betti numbers: pieces, loops that bound nothing, closed pieces. */
 long gm_form_betti(const struct gm_complex *complex, int degree);
 
-/* Labels the vertices, or the triangles, by the first one of their piece. */
-void gm_form_pieces(const struct gm_complex *complex, bool triangles, int *piece);
-
-/* A point on the mesh. */
-void gm_form_vertex(const struct gm_complex *complex, size_t vertex, double point[3]);
-
 /* Called in a body of the arena, which outlives the space's use of them. 0-forms and dual 2-forms take their value in one point, primal 2-forms
    in seven (degree 5), 1-forms in five of each straight piece. */
-struct gm_form_points gm_form_points_of(const struct gm_form_space *space, struct gm_arena *arena,
-                                        struct gm_form_type type);
+const struct gm_form_points *gm_form_points_of(struct gm_form_space *space, struct gm_arena *arena,
+                                               struct gm_form_type type);
 
 #endif

@@ -13,18 +13,6 @@ static size_t size_of(const struct gm_form_values *values, size_t step)
     return gm_form_size(values->space->complex, values->program->steps[step].type);
 }
 
-static const struct gm_form_points *points_of(struct gm_form_space *space, struct gm_arena *arena,
-                                              struct gm_form_type type)
-{
-    struct gm_form_points **points = &space->points[type.dual][type.degree];
-    if (!*points) {
-        struct gm_form_points *made = gm_arena_take(arena, 1, sizeof *made);
-        *made = gm_form_points_of(space, arena, type);
-        *points = made;
-    }
-    return *points;
-}
-
 void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
                          const struct gm_form_program *program, struct gm_form_space *space,
                          const struct gm_user_system *system, const double *variables)
@@ -36,7 +24,6 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
     values->slot = gm_arena_take(arena, program->count + 1, sizeof *values->slot);
     values->tapes = gm_arena_take(arena, program->count + 1, sizeof *values->tapes);
     values->sampled = gm_arena_take(arena, program->count + 1, sizeof *values->sampled);
-    values->solved = gm_arena_take(arena, space->complex->edges, sizeof *values->solved);
     for (size_t i = 0; i < program->count; i++) {
         const struct gm_form_step *step = &program->steps[i];
         if (step->kind != GM_STEP_FORM) {
@@ -49,7 +36,8 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
             values->hodge = gm_hodge_open(arena, space);
         }
         if (step->kind == GM_STEP_SAMPLE) {
-            const size_t count = step->type.degree < 0 ? 1 : points_of(space, arena, step->type)->count;
+            const size_t count =
+                step->type.degree < 0 ? 1 : gm_form_points_of(space, arena, step->type)->count;
             values->sampled[i] = gm_arena_take(arena, 3 * count, sizeof(double));
             gm_tape_keep(arena, &values->tapes[i],
                          gm_tape_open(&values->tapes[i], &system->graph, step->nodes, step->components,
@@ -352,33 +340,18 @@ static struct gm_matrix inverse(const struct gm_form_values *values, struct gm_a
     return gm_matrix_sum(arena, 1, &whole, 1, &right);
 }
 
-/* Adds the rows of a part to entries that the arena keeps. */
-static void place(struct gm_arena *arena, struct gm_matrix_entry **all, size_t *count,
-                  const struct gm_matrix *part, size_t first)
-{
-    const size_t more = (size_t)part->start[part->rows];
-    *all = gm_arena_resize(arena, *all, *count + more + 1, sizeof **all);
-    for (size_t i = 0; i < part->rows; i++) {
-        for (int k = part->start[i]; k < part->start[i + 1]; k++) {
-            (*all)[(*count)++] = (struct gm_matrix_entry){(int)(first + i), part->column[k], part->value[k]};
-        }
-    }
-}
-
 struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, struct gm_arena *arena,
                                        const struct gm_form_layout *layout)
 {
     const struct gm_form_program *program = values->program;
-    struct gm_matrix *parts = gm_arena_take(arena, program->count + 1, sizeof *parts);
-    struct gm_matrix_entry *all = NULL;
-    size_t count = 0, columns = layout->count, inner = columns;
+    struct gm_matrix *parts = gm_arena_take(arena, program->count + 1, sizeof *parts),
+                     *solved = gm_arena_take(arena, program->count + 1, sizeof *solved);
+    size_t columns = layout->count, inner = columns;
     for (size_t i = 0; i < program->count; i++) {
         const bool inverse_of = is_inverse(values, &program->steps[i]);
         columns += inverse_of && (program->steps[i].needs & layout->needs) ? size_of(values, i) : 0;
     }
-    const struct gm_matrix ones = unit(arena, columns, columns, 0),
-                           diagonal = gm_matrix_sum(arena, 0, &ones, 0, NULL);
-    place(arena, &all, &count, &diagonal, 0);
+    size_t most = columns;
     for (size_t i = 0; i < program->count; i++) {
         const struct gm_form_step *step = &program->steps[i];
         const size_t n = size_of(values, i);
@@ -389,25 +362,29 @@ struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, stru
             parts[i] = unit(arena, n, columns, layout->offset[step->number]);
         } else if (step->kind == GM_STEP_OPERATE) {
             parts[i] = derivative(values, arena, i, parts);
+        } else if (step->kind == GM_STEP_MATRIX && parts[step->a].start && is_inverse(values, step)) {
+            parts[i] = unit(arena, n, columns, inner);
+            solved[i] = inverse(values, arena, &parts[step->a], &parts[i]);
+            inner += n;
         } else if (step->kind == GM_STEP_MATRIX && parts[step->a].start) {
-            const bool solved = is_inverse(values, step);
-            parts[i] = solved
-                           ? unit(arena, n, columns, inner)
-                           : gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
-            if (solved) {
-                const struct gm_matrix rows = inverse(values, arena, &parts[step->a], &parts[i]);
-                place(arena, &all, &count, &rows, inner);
-                inner += n;
-            }
+            parts[i] = gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
         }
+        most += gm_matrix_count(&solved[i]);
     }
     for (size_t k = 0; k < program->root_count; k++) {
-        const struct gm_matrix *part = &parts[program->roots[k]];
-        if (part->start) {
-            place(arena, &all, &count, part, layout->offset[layout->forms[k]]);
-        }
+        most += gm_matrix_count(&parts[program->roots[k]]);
     }
-    return gm_matrix_of(arena, columns, columns, all, count);
+    struct gm_matrix_entries all = gm_matrix_entries(arena, most);
+    for (size_t i = 0; i < columns; i++) {
+        gm_matrix_put(&all, i, i, 0);
+    }
+    for (size_t i = 0, row = layout->count; i < program->count; row += solved[i++].rows) {
+        gm_matrix_put_block(&all, &solved[i], row, 0, 1);
+    }
+    for (size_t k = 0; k < program->root_count; k++) {
+        gm_matrix_put_block(&all, &parts[program->roots[k]], layout->offset[layout->forms[k]], 0, 1);
+    }
+    return gm_matrix_of(&all, columns, columns);
 }
 
 double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,

@@ -13,7 +13,6 @@ struct gm_form_values {
     double **slot;                    /* the value of each step */
     struct gm_tape *tapes;            /* for each step that samples */
     double **sampled;                 /* scratch of each of these */
-    double *solved;                   /* scratch: a number for each edge */
     const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
     const struct gm_matrix *around;   /* for each part in integral(PART, a): edges to a number */
     struct gm_hodge *hodge;           /* NULL: no step needs it */

@@ -339,8 +339,9 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     return cholesky;
 }
 
-void gm_cholesky_close(struct gm_cholesky *cholesky)
+void gm_cholesky_close(void *factor)
 {
+    struct gm_cholesky *cholesky = factor;
     if (!cholesky) {
         return;
     }
@@ -363,7 +364,6 @@ void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
 }
 
 struct gm_lu {
-    size_t n;
     const int *start, *column;
     const double *value;
     double control[UMFPACK_CONTROL];
@@ -377,7 +377,7 @@ struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const do
     if (!lu) {
         return NULL;
     }
-    *lu = (struct gm_lu){.n = n, .start = start, .column = column, .value = value};
+    *lu = (struct gm_lu){.start = start, .column = column, .value = value};
     suite.umfpack_di_defaults(lu->control);
     /* nested dissection (METIS) takes longer than minimum degree, but gives faster solves from about this
        size on */

@@ -18,11 +18,11 @@ const char *gm_cholesky_missing(void);
    loses little, in 16-bit integers. */
 enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 
-/* Factors a matrix: row i has the columns column[k] <= i, start[i] <= k < start[i + 1]. NULL when out of
-   memory or not positive definite. */
+/* Factors a matrix: row i has the columns column[k], start[i] <= k < start[i + 1], of which those above i are
+   ignored. NULL when out of memory or not positive definite. */
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision);
-void gm_cholesky_close(struct gm_cholesky *cholesky);
+void gm_cholesky_close(void *cholesky); /* for arenas too */
 /* b, x: n; may be the same */
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
 

@@ -14,39 +14,14 @@ enum { SIZE = GM_COMPLEX_LARGEST * GM_COMPLEX_LARGEST, TERMS = 20 };
 
 static const double factorials[GM_PHI_MOST] = {1, 1, 2, 6};
 
+#define ENTRY double complex
+#define MAGNITUDE cabs
+#define ELIMINATE eliminate_columns
+#include "core/linear/eliminate.loop.h"
+
 bool gm_complex_eliminate(size_t n, double complex *a, double complex *r)
 {
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++) {
-            pivot = cabs(a[i * n + k]) > cabs(a[pivot * n + k]) ? i : pivot;
-        }
-        if (!(cabs(a[pivot * n + k]) > 0)) {
-            return false;
-        }
-        for (size_t j = k; j < n && pivot != k; j++) {
-            const double complex swap = a[k * n + j];
-            a[k * n + j] = a[pivot * n + j];
-            a[pivot * n + j] = swap;
-        }
-        const double complex swap = r[k];
-        r[k] = r[pivot];
-        r[pivot] = swap;
-        for (size_t i = k + 1; i < n; i++) {
-            const double complex factor = a[i * n + k] / a[k * n + k];
-            for (size_t j = k + 1; j < n; j++) {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            r[i] -= factor * r[k];
-        }
-    }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++) {
-            r[k] -= a[k * n + j] * r[j];
-        }
-        r[k] /= a[k * n + k];
-    }
-    return true;
+    return eliminate_columns(n, a, 1, r);
 }
 
 void gm_complex_multiply(size_t n, const double complex *a, const double complex *x, double complex *y)

@@ -36,12 +36,8 @@ static bool solve(void *data)
         work->real[i] = GSL_REAL(gsl_vector_complex_get(values, i));
         work->imaginary[i] = GSL_IMAG(gsl_vector_complex_get(values, i));
     }
-    if (workspace) {
-        gsl_eigen_nonsymm_free(workspace);
-    }
-    if (values) {
-        gsl_vector_complex_free(values);
-    }
+    gsl_eigen_nonsymm_free(workspace);
+    gsl_vector_complex_free(values);
     return good;
 }
 

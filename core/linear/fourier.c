@@ -95,17 +95,14 @@ struct gm_fourier *gm_fourier_open(size_t count)
     return fourier;
 }
 
-void gm_fourier_close(struct gm_fourier *fourier)
+void gm_fourier_close(void *transform)
 {
+    struct gm_fourier *fourier = transform;
     if (!fourier) {
         return;
     }
-    if (fourier->table) {
-        gsl_fft_complex_wavetable_free(fourier->table);
-    }
-    if (fourier->space) {
-        gsl_fft_complex_workspace_free(fourier->space);
-    }
+    gsl_fft_complex_wavetable_free(fourier->table);
+    gsl_fft_complex_workspace_free(fourier->space);
     free(fourier->chirp);
     free(fourier);
 }

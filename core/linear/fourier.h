@@ -10,7 +10,7 @@ struct gm_fourier;
 
 /* Returns NULL when out of memory. */
 struct gm_fourier *gm_fourier_open(size_t count);
-void gm_fourier_close(struct gm_fourier *fourier);
+void gm_fourier_close(void *fourier); /* for arenas too */
 
 /* Replace x by sum_j x_j exp(-2 pi i j k / count), and by the inverse, with the factor 1 / count. */
 void gm_fourier_forward(struct gm_fourier *fourier, double _Complex *x);

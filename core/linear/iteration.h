@@ -12,57 +12,10 @@
 #include "core/linear/settled.h"
 #include "core/problem.h"
 
-/* Solves a x = r for `columns` right sides, a an n * n matrix by rows, by Gaussian elimination with
-   partial pivoting. Each x overwrites its r; a becomes the upper triangle of the elimination. Returns
-   false if a is singular. */
-static inline __attribute__((always_inline)) bool gm_eliminate_columns(size_t n, double *restrict a,
-                                                                       size_t columns, double *restrict r)
-{
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        double largest = fabs(a[k * n + k]);
-        for (size_t i = k + 1; i < n; i++) {
-            const double entry = fabs(a[i * n + k]);
-            pivot = entry > largest ? i : pivot;
-            largest = entry > largest ? entry : largest;
-        }
-        if (!(largest > 0)) {
-            return false;
-        }
-        if (pivot != k) {
-            for (size_t j = k; j < n; j++) {
-                const double swap = a[k * n + j];
-                a[k * n + j] = a[pivot * n + j];
-                a[pivot * n + j] = swap;
-            }
-            for (size_t c = 0; c < columns; c++) {
-                const double swap = r[c * n + k];
-                r[c * n + k] = r[c * n + pivot];
-                r[c * n + pivot] = swap;
-            }
-        }
-        for (size_t i = k + 1; i < n; i++) {
-            double *restrict row = a + i * n;
-            const double *top = a + k * n, factor = row[k] / top[k];
-            for (size_t j = k + 1; j < n; j++) {
-                row[j] -= factor * top[j];
-            }
-            for (size_t c = 0; c < columns; c++) {
-                r[c * n + i] -= factor * r[c * n + k];
-            }
-        }
-    }
-    for (size_t c = 0; c < columns; c++) {
-        for (size_t k = n; k-- > 0;) {
-            double sum = r[c * n + k];
-            for (size_t j = k + 1; j < n; j++) {
-                sum -= a[k * n + j] * r[c * n + j];
-            }
-            r[c * n + k] = sum / a[k * n + k];
-        }
-    }
-    return true;
-}
+#define ENTRY double
+#define MAGNITUDE fabs
+#define ELIMINATE gm_eliminate_columns
+#include "core/linear/eliminate.loop.h"
 
 /* Solves a x = r for one right side. */
 static inline bool gm_eliminate(size_t n, double *a, double *r)

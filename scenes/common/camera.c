@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/linear/vectors.h"
+
 /* The box is shown with this factor of room for names. */
 static const double around = 1.1;
 
@@ -18,11 +20,6 @@ bool gm_camera_has(const char *key)
         }
     }
     return false;
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 void gm_space_turn(struct gm_space *space, const struct gm_camera *camera, double t)
@@ -58,9 +55,9 @@ void gm_space_fit(struct gm_space *space, const struct gm_camera *camera, double
 
 double gm_space_place(const struct gm_space *space, const double point[3], double place[2])
 {
-    place[0] = dot(space->right, point);
-    place[1] = dot(space->up, point);
-    return dot(space->towards, point);
+    place[0] = gm_dot(space->right, point);
+    place[1] = gm_dot(space->up, point);
+    return gm_dot(space->towards, point);
 }
 
 double gm_space_nearness(const struct gm_space *space, double depth)
@@ -79,8 +76,8 @@ bool gm_space_hides(const struct gm_space *space, const double point[3], const s
             p[k] = point[k] / space->surfaces[i].axes[k];
             d[k] = space->towards[k] / space->surfaces[i].axes[k];
         }
-        const double ahead = -dot(p, d), beyond = dot(p, p) - 1;
-        const bool meets = ahead > 0 && ahead * ahead > dot(d, d) * beyond;
+        const double ahead = -gm_dot(p, d), beyond = gm_dot(p, p) - 1;
+        const bool meets = ahead > 0 && ahead * ahead > gm_dot(d, d) * beyond;
         const bool within = on && on != &space->surfaces[i] && beyond < -1e-9;
         if (meets || within) {
             return true;

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/linear/vectors.h"
+
 /* Numbers of classes of depth and age of a line, of pieces of a segment, of pieces of a circle. */
 enum { DEPTHS = 6, AGES = 16, PIECES = 32, CIRCLE = 96 };
 
@@ -148,16 +150,12 @@ static void draw_outline(struct gm_picture *picture, struct gm_panel *panel, con
         d[k] = space->towards[k] / surface->axes[k];
         across[k] = space->right[k] * surface->axes[k]; /* right.towards = 0 */
     }
-    const double d_size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double size = sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+    const double d_size = sqrt(gm_dot(d, d)), size = sqrt(gm_dot(across, across));
     for (size_t k = 0; k < 3; k++) {
         d[k] /= d_size;
         across[k] /= size;
     }
-    for (size_t k = 0; k < 3; k++) {
-        const size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        along[k] = d[i] * across[j] - d[j] * across[i];
-    }
+    gm_cross(d, across, along);
     for (size_t i = 0; i <= CIRCLE; i++) {
         const double c = cos(2 * M_PI * (double)i / CIRCLE), s = sin(2 * M_PI * (double)i / CIRCLE);
         for (size_t k = 0; k < 3; k++) {
@@ -201,9 +199,8 @@ static void draw_meeting(struct gm_picture *picture, struct gm_panel *panel, con
         f[k] = 1 / (one->axes[k] * one->axes[k]);
         g[k] = 1 / (other->axes[k] * other->axes[k]);
     }
+    gm_cross(f, g, q);
     for (size_t k = 0; k < 3; k++) {
-        const size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        q[k] = f[i] * g[j] - f[j] * g[i];
         main = fabs(q[k]) > fabs(q[main]) ? k : main;
     }
     if (!(fabs(q[main]) > 1e-9 * f[0] * g[0])) {

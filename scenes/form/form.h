@@ -42,6 +42,8 @@ void gm_form_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
 /* The triangles of a mesh as they are seen, on a panel: of a surface in space those that face the eye, the farthest
    first; of a flat torus with images where they reach over a side. */
 struct gm_form_sheet {
+    struct gm_picture *picture;
+    struct gm_panel *panel;
     const struct gm_complex *complex;
     bool flat;             /* in the plane */
     struct gm_space sight; /* the box of the mesh, and of a surface in space the directions */
@@ -56,30 +58,16 @@ struct gm_form_sheet {
 bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
                         const struct gm_camera *camera, double t, struct gm_form_sheet *sheet);
 /* Draws edges; with `outline` those with a triangle of the sheet on one side alone. */
-void gm_form_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                       struct gm_style style, bool outline);
+void gm_form_draw_grid(const struct gm_form_sheet *sheet, struct gm_style style, bool outline);
 /* Draws dual edges, and dots at dual vertices. */
-void gm_form_draw_dual(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                       struct gm_style style);
+void gm_form_draw_dual(const struct gm_form_sheet *sheet, struct gm_style style);
 /* The place of the dual vertex of triangle i of the sheet. */
 void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double place[2]);
 
 /* Draws the numbers of a form with orientations on a small mesh; the names of simplices; or one simplex of
    each kind with its dual. */
-void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
-                          const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form);
-void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel,
-                        const struct gm_form_sheet *sheet);
-void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel,
-                        const struct gm_form_sheet *sheet);
-
-/* The normal of a triangle, p the corners in space, as long as twice its area. */
-static inline void gm_form_normal(const double p[9], double normal[3])
-{
-    for (size_t c = 0; c < 3; c++) {
-        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
-        normal[c] = (p[3 + a] - p[a]) * (p[6 + b] - p[b]) - (p[6 + a] - p[a]) * (p[3 + b] - p[b]);
-    }
-}
+void gm_form_draw_numbers(const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form);
+void gm_form_draw_names(const struct gm_form_sheet *sheet);
+void gm_form_draw_duals(const struct gm_form_sheet *sheet);
 
 #endif

@@ -10,21 +10,33 @@
 static const struct gm_style primal = {GM_LANE, 1, 1.6, GM_SOLID}, dual = {GM_INITIAL, 1, 1.6, GM_SOLID},
                              faint = {GM_SECONDARY, 0.55, 1, GM_SOLID};
 
+static void draw_line(const struct gm_form_sheet *sheet, struct gm_style style, const double *points,
+                      size_t count, bool closed)
+{
+    gm_mark_line(sheet->picture, sheet->panel, style, points, count, closed);
+}
+
 /* Draws the head of an arrow, with its middle at a place. */
-static void draw_head(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                      const double at[2], double dx, double dy)
+static void draw_head(const struct gm_form_sheet *sheet, struct gm_style style, const double at[2], double dx,
+                      double dy)
 {
     const double tip[2] = {at[0] + dx / 2, at[1] + dy / 2}, back[2] = {at[0] - dx / 2, at[1] - dy / 2};
     const double head[6] = {back[0] - dy / 2, back[1] + dx / 2, tip[0],
                             tip[1],           back[0] + dy / 2, back[1] - dx / 2};
     style.width *= 1.4;
-    gm_mark_line(picture, panel, style, head, 3, false);
+    draw_line(sheet, style, head, 3, false);
 }
 
-static void draw_text(struct gm_picture *picture, struct gm_panel *panel, enum gm_role role, double x,
-                      double y, const char *text)
+static void draw_dot(const struct gm_form_sheet *sheet, enum gm_role role, double width, const double at[2])
 {
-    gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, x, y,
+    gm_mark_points(sheet->picture, sheet->panel, (struct gm_style){.role = role, .alpha = 1, .width = width},
+                   at, 1);
+}
+
+static void draw_text(const struct gm_form_sheet *sheet, enum gm_role role, double x, double y,
+                      const char *text)
+{
+    gm_mark_text(sheet->picture, sheet->panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, x, y,
                  GM_ANCHOR_CENTRE, text);
 }
 
@@ -49,68 +61,69 @@ struct kind {
     double size;        /* of arrows */
 };
 
-/* The number on corner or edge k of a triangle of the sheet, or on the triangle. */
-static void draw_one(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                     const struct kind *kind, size_t i, size_t k)
+/* The place of a corner, of the middle of the edge after it, or of the middle of its triangle. */
+static void find_place(const struct gm_form_sheet *sheet, size_t dimension, size_t corner, double at[2])
 {
-    const struct gm_complex *complex = sheet->complex;
-    const size_t t = sheet->triangle[i];
-    const double *p = sheet->places + 6 * i, *from = p + 2 * k, *to = p + 2 * ((k + 1) % 3);
-    const double middle[2] = {(p[0] + p[2] + p[4]) / 3, (p[1] + p[3] + p[5]) / 3};
+    const double *p = sheet->places + 6 * (corner / 3), *from = p + 2 * (corner % 3),
+                 *to = p + 2 * ((corner + 1) % 3);
+    for (size_t c = 0; c < 2; c++) {
+        at[c] = dimension == 0   ? from[c]
+                : dimension == 1 ? (from[c] + to[c]) / 2
+                                 : (p[c] + p[2 + c] + p[4 + c]) / 3;
+    }
+}
+
+/* Draws the simplex of this number, on corner or edge k of a triangle of the sheet, or that triangle. */
+static void draw_one(const struct gm_form_sheet *sheet, const struct kind *kind, size_t corner, size_t number)
+{
+    const double *p = sheet->places + 6 * (corner / 3), *from = p + 2 * (corner % 3),
+                 *to = p + 2 * ((corner + 1) % 3);
     const enum gm_role role = kind->dual ? dual.role : GM_INK;
-    double at[2] = {from[0], from[1]};
-    if (kind->dimension == 0) {
-        const size_t v = (size_t)complex->triangle[3 * t + k];
-        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, at, 1);
-        draw_text(picture, panel, role, at[0], at[1] + 0.7 * kind->size,
-                  text_of(picture, kind->form, 'v', v));
+    const char *text = text_of(sheet->picture, kind->form, "vef"[kind->dimension], number);
+    double at[2];
+    find_place(sheet, kind->dimension, corner, at);
+    if (kind->dimension == 2 && kind->dual) {
+        gm_form_dual_place(sheet, corner / 3, at);
+    }
+    if (kind->dimension == 0 || (kind->dimension == 2 && kind->dual)) {
+        draw_dot(sheet, role, 7, at);
+        draw_text(sheet, role, at[0], at[1] + 0.7 * kind->size, text);
     } else if (kind->dimension == 1) {
-        const size_t e = (size_t)complex->triangle_edge[3 * t + k];
-        const double sign = complex->triangle_sign[3 * t + k], x = to[0] - from[0], y = to[1] - from[1];
+        const double sign = sheet->complex->triangle_sign[3 * sheet->triangle[corner / 3] + corner % 3];
+        const double x = to[0] - from[0], y = to[1] - from[1];
         const double scale = kind->size / 3 / fmax(hypot(x, y), 1e-300), ahead = sign * 0.28;
-        at[0] += x / 2;
-        at[1] += y / 2;
         const double head[2] = {at[0] + (kind->dual ? 0 : ahead * x), at[1] + (kind->dual ? 0 : ahead * y)};
-        draw_head(picture, panel, kind->dual ? dual : primal, head, scale * sign * (kind->dual ? -y : x),
+        draw_head(sheet, kind->dual ? dual : primal, head, scale * sign * (kind->dual ? -y : x),
                   scale * sign * (kind->dual ? x : y));
         /* the text interrupts its edge, or is beside its dual edge */
         const double aside = kind->dual ? 0.2 : 0;
-        draw_text(picture, panel, kind->dual ? dual.role : primal.role, at[0] + aside * x, at[1] + aside * y,
-                  text_of(picture, kind->form, 'e', e));
+        draw_text(sheet, kind->dual ? dual.role : primal.role, at[0] + aside * x, at[1] + aside * y, text);
     } else {
         enum { ARC = 25 };
-        double circle[2 * ARC], dot[2];
-        gm_form_dual_place(sheet, i, dot);
-        memcpy(at, kind->dual ? dot : middle, sizeof at);
+        const struct gm_style style = {GM_LANE + 2, 1, 1.6, GM_SOLID};
         const double area = (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
         const double round = 0.62 * sqrt(fabs(area) / 12), sense = area > 0 ? 1 : -1;
-        for (size_t n = 0; n < ARC && !kind->dual; n++) {
+        double circle[2 * ARC];
+        for (size_t n = 0; n < ARC; n++) {
             const double a = sense * (0.6 + 5 * (double)n / (ARC - 1));
             circle[2 * n] = at[0] + round * cos(a);
             circle[2 * n + 1] = at[1] + round * sin(a);
         }
-        if (kind->dual) {
-            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, at, 1);
-            at[1] += 0.7 * kind->size;
-        } else {
-            const struct gm_style style = {GM_LANE + 2, 1, 1.6, GM_SOLID};
-            const double *end = circle + 2 * (ARC - 1), a = sense * 5.6, head = kind->size / 4;
-            gm_mark_line(picture, panel, style, circle, ARC, false);
-            draw_head(picture, panel, style, end, -sense * head * sin(a), sense * head * cos(a));
-        }
-        draw_text(picture, panel, kind->dual ? role : GM_LANE + 2, at[0], at[1],
-                  text_of(picture, kind->form, 'f', t));
+        const double *end = circle + 2 * (ARC - 1), a = sense * 5.6, length = sense * kind->size / 4;
+        draw_line(sheet, style, circle, ARC, false);
+        draw_head(sheet, style, end, -length * sin(a), length * cos(a));
+        draw_text(sheet, style.role, at[0], at[1], text);
     }
 }
 
 /* Draws each simplex of a kind once. */
-static void draw_kind(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                      struct kind kind)
+static void draw_kind(const struct gm_form_sheet *sheet, struct kind kind)
 {
     const struct gm_complex *complex = sheet->complex;
     const size_t count = complex->vertices + complex->edges + complex->triangles;
+    const struct gm_panel *panel = sheet->panel;
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
-    bool *drawn = gm_picture_memory(picture, count * sizeof *drawn);
+    bool *drawn = gm_picture_memory(sheet->picture, count * sizeof *drawn);
     if (!drawn) {
         return;
     }
@@ -123,7 +136,7 @@ static void draw_kind(struct gm_picture *picture, struct gm_panel *panel, const 
                                                     : t;
         if (!sheet->hidden[i / 3] && !drawn[number]) {
             drawn[number] = true;
-            draw_one(picture, panel, sheet, &kind, i / 3, k);
+            draw_one(sheet, &kind, i, number);
         }
     }
 }
@@ -141,48 +154,35 @@ static void widen(struct gm_panel *panel)
     panel->axes = false;
 }
 
-void gm_form_draw_numbers(struct gm_picture *picture, struct gm_panel *panel,
-                          const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form)
+void gm_form_draw_numbers(const struct gm_form_sheet *sheet, struct gm_form_type type, const double *form)
 {
     const size_t dimension = (size_t)(type.dual ? 2 - type.degree : type.degree);
-    widen(panel);
-    gm_form_draw_grid(picture, panel, sheet, type.degree == 1 && !type.dual ? primal : faint, false);
+    widen(sheet->panel);
+    gm_form_draw_grid(sheet, type.degree == 1 && !type.dual ? primal : faint, false);
     if (type.dual) {
         struct gm_style style = dual;
         style.alpha = 0.7;
-        gm_form_draw_dual(picture, panel, sheet, style);
+        gm_form_draw_dual(sheet, style);
     }
-    draw_kind(picture, panel, sheet, (struct kind){dimension, type.dual, form, 0});
+    draw_kind(sheet, (struct kind){dimension, type.dual, form, 0});
 }
 
-void gm_form_draw_names(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet)
+void gm_form_draw_names(const struct gm_form_sheet *sheet)
 {
-    widen(panel);
-    gm_form_draw_grid(picture, panel, sheet, primal, false);
+    widen(sheet->panel);
+    gm_form_draw_grid(sheet, primal, false);
     for (size_t k = 3; k-- > 0;) {
-        draw_kind(picture, panel, sheet, (struct kind){k, false, NULL, 0});
+        draw_kind(sheet, (struct kind){k, false, NULL, 0});
     }
 }
 
 /* ---- one of each kind with its dual ---- */
 
-/* The place of a corner, of the middle of the edge after it, or of the middle of its triangle. */
-static void find_place(const struct gm_form_sheet *sheet, size_t dimension, size_t corner, double at[2])
-{
-    const double *p = sheet->places + 6 * (corner / 3), *from = p + 2 * (corner % 3),
-                 *to = p + 2 * ((corner + 1) % 3);
-    for (size_t c = 0; c < 2; c++) {
-        at[c] = dimension == 0   ? from[c]
-                : dimension == 1 ? (from[c] + to[c]) / 2
-                                 : (p[c] + p[2 + c] + p[4 + c]) / 3;
-    }
-}
-
 /* The inner simplex that is nearest to parts of the panel's width and height. */
-static size_t nearest_of(const struct gm_panel *panel, const struct gm_form_sheet *sheet, size_t dimension,
-                         double across, double up)
+static size_t nearest_of(const struct gm_form_sheet *sheet, size_t dimension, double across, double up)
 {
     const struct gm_complex *complex = sheet->complex;
+    const struct gm_panel *panel = sheet->panel;
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
     double nearest = INFINITY;
     size_t chosen = 0;
@@ -200,20 +200,17 @@ static size_t nearest_of(const struct gm_panel *panel, const struct gm_form_shee
     return chosen;
 }
 
-void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet)
+void gm_form_draw_duals(const struct gm_form_sheet *sheet)
 {
     const struct gm_complex *complex = sheet->complex;
     const struct gm_style bold[2] = {{primal.role, 1, 3.6, GM_SOLID}, {dual.role, 1, 3.6, GM_SOLID}},
                           pale[2] = {{.role = primal.role, .alpha = 0.25, .width = 1},
-                                     {.role = dual.role, .alpha = 0.22, .width = 1}},
-                          dot[2] = {{.role = primal.role, .alpha = 1, .width = 11},
-                                    {.role = dual.role, .alpha = 1, .width = 11}};
-    widen(panel);
-    gm_form_draw_grid(picture, panel, sheet, (struct gm_style){primal.role, 0.55, 1.2, GM_SOLID}, false);
-    gm_form_draw_dual(picture, panel, sheet, (struct gm_style){dual.role, 0.45, 1.1, GM_SOLID});
-    const size_t vertex = nearest_of(panel, sheet, 0, 0.22, 0.5),
-                 edge = nearest_of(panel, sheet, 1, 0.5, 0.6),
-                 whole = nearest_of(panel, sheet, 2, 0.76, 0.44);
+                                     {.role = dual.role, .alpha = 0.22, .width = 1}};
+    widen(sheet->panel);
+    gm_form_draw_grid(sheet, (struct gm_style){primal.role, 0.55, 1.2, GM_SOLID}, false);
+    gm_form_draw_dual(sheet, (struct gm_style){dual.role, 0.45, 1.1, GM_SOLID});
+    const size_t vertex = nearest_of(sheet, 0, 0.22, 0.5), edge = nearest_of(sheet, 1, 0.5, 0.6),
+                 whole = nearest_of(sheet, 2, 0.76, 0.44);
     const int *corner = complex->triangle, v = corner[3 * sheet->triangle[vertex / 3] + vertex % 3],
               e = complex->triangle_edge[3 * sheet->triangle[edge / 3] + edge % 3];
     for (size_t i = 0; i < 3 * sheet->count; i++) {
@@ -224,21 +221,21 @@ void gm_form_draw_duals(struct gm_picture *picture, struct gm_panel *panel, cons
         find_place(sheet, 1, before, kite + 4);
         find_place(sheet, 0, i, kite + 6);
         if (corner[3 * t + i % 3] == v) {
-            gm_mark_polygon(picture, panel, pale[1], kite, 4);
-            gm_mark_line(picture, panel, bold[1], kite, 3, false);
+            gm_mark_polygon(sheet->picture, sheet->panel, pale[1], kite, 4);
+            draw_line(sheet, bold[1], kite, 3, false);
         }
         if (complex->triangle_edge[3 * t + i % 3] == e) {
-            gm_mark_line(picture, panel, bold[1], kite, 2, false);
+            draw_line(sheet, bold[1], kite, 2, false);
         }
     }
     const double *p = sheet->places + 6 * (edge / 3), *from = p + 2 * (edge % 3),
                  *to = p + 2 * ((edge + 1) % 3), side[4] = {from[0], from[1], to[0], to[1]};
     double centre[2];
     gm_form_dual_place(sheet, whole / 3, centre);
-    gm_mark_line(picture, panel, bold[0], side, 2, false);
-    gm_mark_polygon(picture, panel, pale[0], sheet->places + 6 * (whole / 3), 3);
-    gm_mark_line(picture, panel, bold[0], sheet->places + 6 * (whole / 3), 3, true);
-    gm_mark_points(picture, panel, dot[1], centre, 1);
+    draw_line(sheet, bold[0], side, 2, false);
+    gm_mark_polygon(sheet->picture, sheet->panel, pale[0], sheet->places + 6 * (whole / 3), 3);
+    draw_line(sheet, bold[0], sheet->places + 6 * (whole / 3), 3, true);
+    draw_dot(sheet, dual.role, 11, centre);
     find_place(sheet, 0, vertex, centre);
-    gm_mark_points(picture, panel, dot[0], centre, 1);
+    draw_dot(sheet, primal.role, 11, centre);
 }

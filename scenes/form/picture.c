@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/linear/cholesky.h"
+#include "core/linear/vectors.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/field/field.h"
@@ -58,7 +59,7 @@ static void find_vector(const struct gm_complex *complex, size_t t, const double
 {
     double p[9], n[3], w[3] = {0, 0, 0};
     gm_complex_corners_in_space(complex, t, p);
-    gm_form_normal(p, n);
+    gm_triangle_normal(p, n);
     const double twice = 2 * complex->area[t];
     for (size_t k = 0; k < 3; k++) {
         const double value =
@@ -68,9 +69,9 @@ static void find_vector(const struct gm_complex *complex, size_t t, const double
             w[c] += value * (p[3 * k + c] + p[3 * ((k + 1) % 3) + c] - 2 * p[3 * ((k + 2) % 3) + c]);
         }
     }
+    gm_cross(n, w, v);
     for (size_t c = 0; c < 3; c++) {
-        const size_t a = (c + 1) % 3, b = (c + 2) % 3;
-        v[c] = turned ? -w[c] : (n[a] * w[b] - n[b] * w[a]) / twice;
+        v[c] = turned ? -w[c] : v[c] / twice;
     }
 }
 
@@ -133,15 +134,15 @@ static bool paint(struct gm_picture *picture, const struct gm_view *view, struct
 /* ---- marks over the colours ---- */
 
 /* Draws arrows, not more than fit: in each cell of a grid that of the triangle nearest to its middle. */
-static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                        const double *vectors, double largest)
+static void draw_arrows(const struct gm_form_sheet *sheet, const double *vectors, double largest)
 {
     enum { ACROSS = 26 };
+    const struct gm_panel *panel = sheet->panel;
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
     const double cell = fmax(fmax(width, height) / ACROSS, 0.8 * sheet->complex->mean_edge);
     const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
-    double *nearest = gm_picture_memory(picture, columns * rows * sizeof *nearest);
-    double *lines = gm_picture_memory(picture, 14 * columns * rows * sizeof *lines);
+    double *nearest = gm_picture_memory(sheet->picture, columns * rows * sizeof *nearest);
+    double *lines = gm_picture_memory(sheet->picture, 14 * columns * rows * sizeof *lines);
     if (!nearest || !lines) {
         return;
     }
@@ -172,20 +173,20 @@ static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, cons
     for (size_t i = 0; i < 14 * columns * rows; i++) {
         lines[i] = isfinite(nearest[i / 14]) ? lines[i] : NAN;
     }
-    gm_mark_line(picture, panel, (struct gm_style){GM_OVER, 0.95, 1.3, GM_SOLID}, lines, 7 * columns * rows,
-                 false);
+    gm_mark_line(sheet->picture, sheet->panel, (struct gm_style){GM_OVER, 0.95, 1.3, GM_SOLID}, lines,
+                 7 * columns * rows, false);
 }
 
 /* Draws level lines of what is linear between vertices. */
-static void draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                        const double *values, const double range[2], struct gm_style style)
+static void draw_levels(const struct gm_form_sheet *sheet, const double *values, const double range[2],
+                        struct gm_style style)
 {
     const struct gm_complex *complex = sheet->complex;
     const bool joined = !(complex->period[0] > 0); /* across the sides of a torus there is a jump of place */
     const size_t count = joined ? complex->vertices : 3 * sheet->count;
-    double *points = gm_picture_memory(picture, 2 * count * sizeof *points), levels[LEVELS];
-    double *heights = gm_picture_memory(picture, count * sizeof *heights);
-    int *triangles = gm_picture_memory(picture, 3 * sheet->count * sizeof *triangles);
+    double *points = gm_picture_memory(sheet->picture, 2 * count * sizeof *points), levels[LEVELS];
+    double *heights = gm_picture_memory(sheet->picture, count * sizeof *heights);
+    int *triangles = gm_picture_memory(sheet->picture, 3 * sheet->count * sizeof *triangles);
     size_t kept = 0;
     if (!points || !heights || !triangles) {
         return;
@@ -202,23 +203,24 @@ static void draw_levels(struct gm_picture *picture, struct gm_panel *panel, cons
     for (size_t i = 0; i < LEVELS; i++) {
         levels[i] = range[0] + ((double)i + 0.5) / LEVELS * (range[1] - range[0]);
     }
-    gm_mark_level_lines(picture, panel, style, points, heights, count, triangles, kept / 3, levels, LEVELS);
+    gm_mark_level_lines(sheet->picture, sheet->panel, style, points, heights, count, triangles, kept / 3,
+                        levels, LEVELS);
 }
 
 /* Draws the colours of a form. */
-static void draw_colours(struct gm_picture *picture, struct gm_panel *panel,
-                         const struct gm_form_sheet *sheet, const double *corners, const double range[2])
+static void draw_colours(const struct gm_form_sheet *sheet, const double *corners, const double range[2])
 {
     const size_t count = sheet->count;
-    double *values = gm_picture_memory(picture, 3 * count * sizeof *values);
-    int *triangles = gm_picture_memory(picture, 3 * count * sizeof *triangles);
+    double *values = gm_picture_memory(sheet->picture, 3 * count * sizeof *values);
+    int *triangles = gm_picture_memory(sheet->picture, 3 * count * sizeof *triangles);
     for (size_t i = 0; i < 3 * count && values && triangles; i++) {
         values[i] = corners[3 * sheet->triangle[i / 3] + i % 3];
         triangles[i] = (int)i;
     }
     if (values && triangles) {
-        gm_mark_mesh(picture, panel, range[0] < 0 && range[1] > 0 ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
-                     range[0], range[1], sheet->places, values, 3 * count, triangles, count)
+        gm_mark_mesh(sheet->picture, sheet->panel,
+                     range[0] < 0 && range[1] > 0 ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, range[0], range[1],
+                     sheet->places, values, 3 * count, triangles, count)
             ->light = sheet->light;
     }
 }
@@ -241,7 +243,7 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
                                 &sheet)) {
             return;
         }
-        gm_form_draw_numbers(picture, panel, &sheet, type, form);
+        gm_form_draw_numbers(&sheet, type, form);
         if (!alone) {
             return;
         }
@@ -279,24 +281,24 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         return;
     }
     if (gm_form_shows_names(self) && !fine) {
-        (self->dual ? gm_form_draw_duals : gm_form_draw_names)(picture, panel, &sheet);
+        (self->dual ? gm_form_draw_duals : gm_form_draw_names)(&sheet);
         return;
     }
     const bool over = !(range[0] < 0 && range[1] > 0);
     const struct gm_style style = {over ? GM_OVER : GM_INK, 0.5, 1.1, GM_SOLID};
-    draw_colours(picture, panel, &sheet, painted.value, range);
-    gm_form_draw_grid(picture, panel, &sheet, (struct gm_style){GM_SECONDARY, 0.8, 1, GM_SOLID}, true);
+    draw_colours(&sheet, painted.value, range);
+    gm_form_draw_grid(&sheet, (struct gm_style){GM_SECONDARY, 0.8, 1, GM_SOLID}, true);
     if (self->mesh_grid) {
-        gm_form_draw_grid(picture, panel, &sheet, (struct gm_style){style.role, 0.3, 0.8, GM_SOLID}, false);
+        gm_form_draw_grid(&sheet, (struct gm_style){style.role, 0.3, 0.8, GM_SOLID}, false);
     }
     if (self->dual) {
-        gm_form_draw_dual(picture, panel, &sheet, (struct gm_style){GM_INITIAL, 0.9, 1.2, GM_SOLID});
+        gm_form_draw_dual(&sheet, (struct gm_style){GM_INITIAL, 0.9, 1.2, GM_SOLID});
     }
     if (self->streamlines && (painted.type.degree == 0) != painted.type.dual) {
-        draw_levels(picture, panel, &sheet, painted.value, range, style);
+        draw_levels(&sheet, painted.value, range, style);
     }
     if (painted.vector) {
-        draw_arrows(picture, panel, &sheet, painted.vector, range[1]);
+        draw_arrows(&sheet, painted.vector, range[1]);
     }
     const char *name = gm_form_scene_of(self)->shows[shown_number(self)];
     panel->colour_bar = true;
@@ -316,14 +318,14 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
         view.state = i % 2 ? view.state : view.start;
         view.t = i % 2 ? view.t : view.t0;
         const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
-        const bool good = paint(picture, &view, &painted);
-        for (size_t k = 0; k < corners && good; k++) { /* NaN fails both */
+        if (!paint(picture, &view, &painted)) {
+            continue;
+        }
+        for (size_t k = 0; k < corners; k++) { /* NaN fails both */
             range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
             range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];
         }
-        if (good && painted.vector) {
-            range[0] = 0;
-        }
+        range[0] = painted.vector ? 0 : range[0];
     }
     const double most = fmax(fabs(range[0]), fabs(range[1]));
     if (range[1] - range[0] <= 1e-12 * most || !isfinite(most)) { /* a constant */

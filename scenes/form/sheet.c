@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/linear/vectors.h"
 #include "scenes/form/form.h"
 
 /* Sorts triangles by classes of depth, the farthest first; one class is 1/16384 of the whole depth. */
@@ -40,7 +41,7 @@ static void find_normals(const struct gm_complex *complex, double *normals)
     for (size_t t = 0; t < complex->triangles; t++) {
         double p[9], n[3];
         gm_complex_corners_in_space(complex, t, p);
-        gm_form_normal(p, n);
+        gm_triangle_normal(p, n);
         for (size_t k = 0; k < 9; k++) {
             normals[3 * (size_t)complex->triangle[3 * t + k / 3] + k % 3] += n[k % 3];
         }
@@ -49,21 +50,22 @@ static void find_normals(const struct gm_complex *complex, double *normals)
 
 static double light_on(const struct gm_space *sight, const double normal[3], bool front)
 {
-    double along = 0, length = 0;
+    double along = 0;
     for (size_t c = 0; c < 3; c++) {
         along += normal[c] * (0.75 * sight->towards[c] + 0.5 * sight->up[c] - 0.43 * sight->right[c]);
-        length += normal[c] * normal[c];
     }
+    const double length = gm_dot(normal, normal);
     const double cosine = length > 0 ? fmin(1, fmax(-1, along / sqrt(length))) : 0;
     return front ? 0.45 + 0.275 * (1 + cosine) : 0.8 * (0.45 + 0.275 * (1 - cosine));
 }
 
 /* Finds which triangles are before all others at their middles, up to the depth of their own slope. */
-static void find_hidden(struct gm_picture *picture, const struct gm_panel *panel, struct gm_form_sheet *sheet)
+static void find_hidden(const struct gm_form_sheet *sheet)
 {
     enum { CELLS = 256 };
-    double *nearest = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *nearest);
-    double *depth = gm_picture_memory(picture, 3 * sheet->count * sizeof *depth), place[2];
+    const struct gm_panel *panel = sheet->panel;
+    double *nearest = gm_picture_memory(sheet->picture, (size_t)CELLS * CELLS * sizeof *nearest);
+    double *depth = gm_picture_memory(sheet->picture, 3 * sheet->count * sizeof *depth), place[2];
     const double scale[2] = {CELLS / (panel->x.high - panel->x.low), CELLS / (panel->y.high - panel->y.low)};
     const double origin[2] = {panel->x.low, panel->y.low};
     if (!nearest || !depth) {
@@ -128,10 +130,11 @@ static void add_flat(struct gm_form_sheet *sheet, size_t triangle)
     }
 }
 
-static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, const struct gm_camera *camera,
-                           struct gm_form_sheet *sheet)
+static void place_in_space(struct gm_form_sheet *sheet, const struct gm_camera *camera)
 {
     const struct gm_complex *complex = sheet->complex;
+    struct gm_picture *picture = sheet->picture;
+    struct gm_panel *panel = sheet->panel;
     const struct gm_space *sight = &sheet->sight;
     double *depths = gm_picture_memory(picture, complex->triangles * sizeof *depths);
     size_t *order = gm_picture_memory(picture, complex->triangles * sizeof *order);
@@ -146,7 +149,7 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
         centre[c] = (sight->low[c] + sight->high[c]) / 2;
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        gm_form_vertex(complex, v, p);
+        gm_complex_vertex(complex, v, p);
         const double away = hypot(p[0] - centre[0], p[1] - centre[1]);
         across = fmax(across, away);
         along = fmax(along, fabs(sight->towards[2]) * away + fabs(sight->up[2] * (p[2] - centre[2])));
@@ -183,7 +186,7 @@ static void place_in_space(struct gm_picture *picture, struct gm_panel *panel, c
         }
     }
     sheet->count = count;
-    find_hidden(picture, panel, sheet);
+    find_hidden(sheet);
 }
 
 bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
@@ -191,6 +194,8 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
 {
     const size_t most = (complex->period[0] > 0 ? 4 : 1) * complex->triangles;
     *sheet = (struct gm_form_sheet){
+        .picture = picture,
+        .panel = panel,
         .complex = complex,
         .sight = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}},
         .triangle = gm_picture_memory(picture, most * sizeof *sheet->triangle),
@@ -204,7 +209,7 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
     struct gm_space *sight = &sheet->sight;
     for (size_t v = 0; v < complex->vertices; v++) {
         double p[3];
-        gm_form_vertex(complex, v, p);
+        gm_complex_vertex(complex, v, p);
         for (size_t c = 0; c < 3; c++) {
             gm_range_add(&sight->low[c], &sight->high[c], p[c]);
         }
@@ -213,7 +218,7 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
     sheet->flat = sight->low[2] == 0 && sight->high[2] == 0;
     if (!sheet->flat) {
         gm_space_turn(sight, camera, t);
-        place_in_space(picture, panel, camera, sheet);
+        place_in_space(sheet, camera);
         return sheet->light != NULL;
     }
     for (size_t c = 0; c < 2 && complex->period[0] > 0; c++) {
@@ -231,12 +236,11 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
 
 /* ---- lines on the sheet ---- */
 
-void gm_form_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                       struct gm_style style, bool outline)
+void gm_form_draw_grid(const struct gm_form_sheet *sheet, struct gm_style style, bool outline)
 {
     const struct gm_complex *complex = sheet->complex;
-    double *lines = gm_picture_memory(picture, 18 * sheet->count * sizeof *lines);
-    unsigned char *sides = gm_picture_memory(picture, complex->edges);
+    double *lines = gm_picture_memory(sheet->picture, 18 * sheet->count * sizeof *lines);
+    unsigned char *sides = gm_picture_memory(sheet->picture, complex->edges);
     size_t count = 0;
     if (!lines || !sides) {
         return;
@@ -256,7 +260,7 @@ void gm_form_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const
             count += 3;
         }
     }
-    gm_mark_line(picture, panel, style, lines, count, false);
+    gm_mark_line(sheet->picture, sheet->panel, style, lines, count, false);
 }
 
 void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double place[2])
@@ -267,11 +271,10 @@ void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double plac
     }
 }
 
-void gm_form_draw_dual(struct gm_picture *picture, struct gm_panel *panel, const struct gm_form_sheet *sheet,
-                       struct gm_style style)
+void gm_form_draw_dual(const struct gm_form_sheet *sheet, struct gm_style style)
 {
-    double *lines = gm_picture_memory(picture, 18 * sheet->count * sizeof *lines);
-    double *dots = gm_picture_memory(picture, 2 * sheet->count * sizeof *dots);
+    double *lines = gm_picture_memory(sheet->picture, 18 * sheet->count * sizeof *lines);
+    double *dots = gm_picture_memory(sheet->picture, 2 * sheet->count * sizeof *dots);
     size_t count = 0, met = 0;
     if (!lines || !dots) {
         return;
@@ -288,7 +291,7 @@ void gm_form_draw_dual(struct gm_picture *picture, struct gm_panel *panel, const
         }
         met += !sheet->hidden[i];
     }
-    gm_mark_line(picture, panel, style, lines, count, false);
+    gm_mark_line(sheet->picture, sheet->panel, style, lines, count, false);
     style.width *= 2.6;
-    gm_mark_points(picture, panel, style, dots, met);
+    gm_mark_points(sheet->picture, sheet->panel, style, dots, met);
 }

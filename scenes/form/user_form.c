@@ -91,21 +91,20 @@ static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm
     of_file->observables[of_file->observable_count++] = row;
 }
 
-/* Adds the error of a form; the first one is also the solution's. */
-static void add_error(struct gm_form_scene *scene, size_t form, bool first)
+/* Adds an observable of a form, whose key and title have its name. */
+static void add_of_form(struct gm_form_scene *scene, struct gm_form_subject subject)
 {
+    static const struct {
+        const char *key, *before, *after;
+    } rows[] = {[GM_FORM_ERROR] = {"error", "error of ", ""},
+                [GM_FORM_CONTRADICTION] = {"defect", "what the equation of ", " cannot meet"},
+                [GM_FORM_REMAINDER] = {"residual", "residual of the equation of ", ""}};
     struct gm_arena *arena = scene->of_file.arena;
-    const char *name = scene->of_file.system.variables[form].name;
-    const struct gm_form_subject subject = {GM_FORM_ERROR, form};
-    if (first) {
-        add(scene,
-            (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", observe, "error of the solution"),
-            subject);
-    }
-    add(scene,
-        (struct gm_observable)GM_LOG_OBSERVABLE(gm_arena_print(arena, "%s_error", name), observe,
-                                                gm_arena_print(arena, "error of %s", name)),
-        subject);
+    const char *name = scene->of_file.system.variables[subject.index].name;
+    const char *key = gm_arena_print(arena, "%s_%s", name, rows[subject.what].key),
+               *title =
+                   gm_arena_print(arena, "%s%s%s", rows[subject.what].before, name, rows[subject.what].after);
+    add(scene, (struct gm_observable)GM_LOG_OBSERVABLE(key, observe, title), subject);
 }
 
 static void make_observables(struct gm_form_scene *scene)
@@ -116,10 +115,17 @@ static void make_observables(struct gm_form_scene *scene)
     bool first = true;
     gm_system_take_observables(of_file, GM_MOST_FORM_OBSERVABLES);
     for (size_t i = 0; i < system->n; i++) {
-        if (system->forms[i].exact != GM_NO_NODE) {
-            add_error(scene, i, first);
-            first = false;
+        const struct gm_form_subject error = {GM_FORM_ERROR, i};
+        if (system->forms[i].exact == GM_NO_NODE) {
+            continue;
         }
+        if (first) { /* its error is also that of the solution */
+            add(scene,
+                (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", observe, "error of the solution"),
+                error);
+        }
+        add_of_form(scene, error);
+        first = false;
     }
     for (size_t i = 0; i < scene->model.observed_count; i++) {
         const struct gm_system_item *item = &system->items[scene->model.observed_item[i]];
@@ -136,23 +142,13 @@ static void make_observables(struct gm_form_scene *scene)
         add(scene, row, (struct gm_form_subject){GM_FORM_OBSERVED, i});
     }
     for (size_t i = 0; i < system->n; i++) {
-        const char *name = system->variables[i].name;
         if (system->forms[i].unknown && system->forms[i].degree == 0) {
-            add(scene,
-                (struct gm_observable)GM_LOG_OBSERVABLE(
-                    gm_arena_print(arena, "%s_defect", name), observe,
-                    gm_arena_print(arena, "what the equation of %s cannot meet", name)),
-                (struct gm_form_subject){GM_FORM_CONTRADICTION, i});
+            add_of_form(scene, (struct gm_form_subject){GM_FORM_CONTRADICTION, i});
         }
     }
     for (size_t i = 0; i < system->n; i++) {
-        const char *name = system->variables[i].name;
         if (system->forms[i].unknown) {
-            add(scene,
-                (struct gm_observable)GM_LOG_OBSERVABLE(
-                    gm_arena_print(arena, "%s_residual", name), observe,
-                    gm_arena_print(arena, "residual of the equation of %s", name)),
-                (struct gm_form_subject){GM_FORM_REMAINDER, i});
+            add_of_form(scene, (struct gm_form_subject){GM_FORM_REMAINDER, i});
         }
     }
     for (size_t i = 0; i < FACTS; i++) {

@@ -88,6 +88,7 @@ static void two_triangles(void **unused)
     assert_int_equal(space.complex->star, GM_STAR_CIRCUMCENTRIC);
     assert_int_equal(space.complex->pieces, 1);
     assert_int_equal(space.complex->closed, 0);
+    gm_form_space_need(&space, space.arena, GM_MATRIX_TRANSFER);
     for (int e = 0; e < 5; e++) {
         near(entry(&space.matrix[GM_MATRIX_STAR1], e, e), star1[e], 1e-15);
         for (int t = 0; t < 2; t++) {
@@ -286,11 +287,11 @@ static void integrals(void **unused)
     struct gm_form_space space = generated("disc", (const double[]){1, 4}, 2, GM_STAR_AUTO);
     const struct gm_complex *complex = space.complex;
     const struct gm_form_points faces =
-                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){2, false}),
+                                    *gm_form_points_of(&space, space.arena, (struct gm_form_type){2, false}),
                                 edges =
-                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){1, false}),
+                                    *gm_form_points_of(&space, space.arena, (struct gm_form_type){1, false}),
                                 duals =
-                                    gm_form_points_of(&space, space.arena, (struct gm_form_type){1, true});
+                                    *gm_form_points_of(&space, space.arena, (struct gm_form_type){1, true});
     double area = 0, fifth = 0;
     for (size_t i = 0; i < faces.count; i++) {
         const double x = faces.point[i], y = faces.point[faces.count + i];

@@ -365,11 +365,10 @@ static void find_constants(struct own *own, size_t form)
         }
         free_of = fabs(sum) <= 1e-10 * size;
     }
-    if (free_of) {
-        gm_form_pieces(own->space.complex, type.dual, own->piece + first);
-        for (size_t i = 0; i < n; i++) {
-            own->piece[first + i] += (int)first; /* the number that is pinned */
-        }
+    const struct gm_complex *complex = own->space.complex;
+    const int *piece = type.dual ? complex->triangle_piece : complex->vertex_piece;
+    for (size_t i = 0; i < n && free_of; i++) {
+        own->piece[first + i] = (int)first + piece[i]; /* the number that is pinned */
     }
 }
 
@@ -712,28 +711,24 @@ static void factor_stages(struct gm_arena *arena, void *data)
     struct stage_factor *factor = factoring->factor;
     const struct gm_matrix *rows = &own->rows;
     const size_t n = own->n, each = rows->rows, count = factor->count;
-    size_t entries = 0;
-    struct gm_matrix_entry *all = gm_arena_keep(
-        arena, malloc((count * count * (size_t)rows->start[each] + count * n) * sizeof *all), free);
-    gm_arena_need(arena, all);
+    struct gm_matrix_entries all =
+        gm_matrix_entries(arena, count * count * gm_matrix_count(rows) + count * n);
     for (size_t i = 0; i < count; i++) {
         for (size_t r = 0; r < each; r++) {
             const double *scaled = factor->scaled[r >= n / 2] + i * GM_TABLEAU_STAGES;
-            const int row = (int)(i * each + r);
+            const size_t row = i * each + r;
             if (r < n) {
-                all[entries++] = (struct gm_matrix_entry){row, row, 1};
+                gm_matrix_put(&all, row, row, 1);
             }
             for (size_t j = r < n ? 0 : i; j < (r < n ? count : i + 1); j++) {
                 const double by = r < n ? -scaled[j] : 1;
                 for (int k = rows->start[r]; k < rows->start[r + 1] && by != 0; k++) {
-                    all[entries++] =
-                        (struct gm_matrix_entry){row, (int)(j * each) + rows->column[k], by * rows->value[k]};
+                    gm_matrix_put(&all, row, j * each + (size_t)rows->column[k], by * rows->value[k]);
                 }
             }
         }
     }
-    factor->matrix = gm_matrix_of(arena, count * each, count * each, all, entries);
-    gm_arena_drop(arena, all);
+    factor->matrix = gm_matrix_of(&all, count * each, count * each);
     factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
     gm_arena_need(arena, factor->lu);
     gm_arena_keep(arena, factor->lu, gm_lu_close);
@@ -825,8 +820,8 @@ static void mark_part(const struct own *own, const char *line, const char *part,
     for (size_t b = 0; b < complex->boundary; b++) {
         double p[3], q[3], middle[3];
         const size_t e = (size_t)complex->boundary_edge[b];
-        gm_form_vertex(complex, (size_t)complex->edge[2 * e], p);
-        gm_form_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * e], p);
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
         for (int c = 0; c < 3; c++) {
             middle[c] = (p[c] + q[c]) / 2;
         }
@@ -845,21 +840,20 @@ static void make_closings(struct own *own)
     own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
          *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
-    struct gm_matrix_entry *entries = gm_arena_take(arena, 2 * complex->edges, sizeof *entries);
     for (size_t i = system->item_count; i-- > 0;) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
             continue;
         }
-        size_t count = 0;
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
         mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
-                entries[count++] = (struct gm_matrix_entry){complex->edge[2 * e + k], (int)e, 0.5};
+                gm_matrix_put(&entries, (size_t)complex->edge[2 * e + k], e, 0.5);
             }
             taken[e] |= edges[e];
         }
-        own->closings[i] = gm_matrix_of(arena, complex->vertices, complex->edges, entries, count);
+        own->closings[i] = gm_matrix_of(&entries, complex->vertices, complex->edges);
     }
 }
 
@@ -870,16 +864,16 @@ static void make_around(struct own *own)
     const struct gm_complex *complex = own->space.complex;
     struct gm_arena *arena = own->arena;
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges);
-    struct gm_matrix_entry *entries = gm_arena_take(arena, complex->edges, sizeof *entries);
     own->around = gm_arena_take(arena, system->boundary_count + 1, sizeof *own->around);
     for (size_t i = 0; i < system->boundary_count; i++) {
-        size_t count = 0;
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, complex->edges);
         mark_part(own, "observe", system->boundaries[i], edges);
         for (size_t e = 0; e < complex->edges; e++) {
-            entries[count] = (struct gm_matrix_entry){0, (int)e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1};
-            count += edges[e];
+            if (edges[e]) {
+                gm_matrix_put(&entries, 0, e, complex->edge_triangle[2 * e] >= 0 ? 1 : -1);
+            }
         }
-        own->around[i] = gm_matrix_of(arena, 1, complex->edges, entries, count);
+        own->around[i] = gm_matrix_of(&entries, 1, complex->edges);
     }
 }
 
@@ -952,16 +946,6 @@ static void hold(struct own *own, const double *variables)
     gm_arena_need(own->arena, gm_form_space_hold(&own->space, own_edges));
 }
 
-static void close_space(void *space)
-{
-    gm_form_space_close(space);
-}
-
-static void close_file(void *file)
-{
-    gm_triangulation_close(file);
-}
-
 static void close_turn(void *turn)
 {
     pthread_mutex_destroy(turn);
@@ -1026,9 +1010,9 @@ static void make(struct gm_arena *arena, void *data)
     own->file = opening->file;
     own->file.complex = NULL; /* the space takes it */
     opening->file = (struct gm_triangulation){0};
-    gm_arena_keep(arena, &own->file, close_file);
+    gm_arena_keep(arena, &own->file, gm_triangulation_close);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
-    gm_arena_keep(arena, &own->space, close_space);
+    gm_arena_keep(arena, &own->space, gm_form_space_close);
     own->space.interior = opening->interior;
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);

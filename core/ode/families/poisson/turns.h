@@ -7,16 +7,9 @@
 
 #include <math.h>
 
+#include "core/linear/vectors.h"
 #include "core/ode/ode.h"
 #include "core/scheme.h"
-
-static inline void gm_cross(const double *a, const double *b, double *c)
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        c[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
 
 /* y := exp(factor a) y, the rotation by that vector, by Rodrigues' formula */
 static inline void gm_turn(double factor, const double *a, double *y)
