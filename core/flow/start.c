@@ -68,37 +68,28 @@ static void complete_start(const struct gm_flow *flow, double *y)
     }
 }
 
-bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y)
-{
-    const size_t n = flow->complex->vertices;
-    memcpy(y, flow->psi, n * sizeof *y);
-    if (!gm_arena_run_once(solve, &(struct poisson){flow, NULL, y})) {
-        return false;
-    }
-    memset(y + GM_FLOW_OMEGA * n, 0, n * sizeof *y);
-    gm_flow_vorticity(flow, y, y + GM_FLOW_OMEGA * n);
-    complete_start(flow, y);
-    return true;
-}
-
-bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y)
+bool gm_flow_start(const struct gm_flow *flow, const double *omega, double *y)
 {
     const struct gm_complex *complex = flow->complex;
     const size_t n = complex->vertices;
     double *mine = y + GM_FLOW_OMEGA * n, *right = y + GM_FLOW_THETA * n;
     double sum = 0;
-    for (size_t v = 0; v < n; v++) {
+    for (size_t v = 0; omega && v < n; v++) {
         sum += complex->star0[v] * omega[v];
     }
-    for (size_t v = 0; v < n; v++) {
+    for (size_t v = 0; omega && v < n; v++) {
         mine[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0
                   : complex->boundary == 0        ? omega[v] - sum / complex->total_area
                                                   : omega[v];
         right[v] = complex->star0[v] * mine[v];
     }
     memcpy(y, flow->psi, n * sizeof *y);
-    if (!gm_arena_run_once(solve, &(struct poisson){flow, right, y})) {
+    if (!gm_arena_run_once(solve, &(struct poisson){flow, omega ? right : NULL, y})) {
         return false;
+    }
+    if (!omega) {
+        memset(mine, 0, n * sizeof *y);
+        gm_flow_vorticity(flow, y, mine);
     }
     complete_start(flow, y);
     return true;

@@ -318,9 +318,10 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
                   double *y, char *sentence)
 {
     (void)scheme;
+    const struct gm_flow *flow = gm_flow_of(problem);
     const struct gm_fault fault = {.sentence =
                                        "the boundary does not determine the stream function at the start"};
-    const bool good = gm_flow_start(gm_flow_of(problem), y);
+    const bool good = gm_flow_start(flow, flow->vorticity, y);
     if (!good) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, sentence);
     }

@@ -66,7 +66,7 @@ static void close_flow(const struct gm_flow *flow)
 static struct gm_flow *open_torus(const char *viscosity, double *start)
 {
     struct gm_flow *flow = open_flow(torus_text, viscosity);
-    if (flow && !gm_flow_start(flow, start)) {
+    if (flow && !gm_flow_start(flow, flow->vorticity, start)) {
         close_flow(flow);
         return NULL;
     }
@@ -80,7 +80,7 @@ static int rates(double t, const double *omega, double *rate, void *data)
     const struct gm_flow *flow = data;
     const struct gm_complex *complex = flow->complex;
     double start[STATE], centre[2 * MOST];
-    if (!gm_flow_start_vorticity(flow, omega, start)) {
+    if (!gm_flow_start(flow, omega, start)) {
         return GSL_ENOMEM;
     }
     const double *psi = gm_flow_block(flow, start, GM_FLOW_PSI);
@@ -183,8 +183,9 @@ static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *
         for (size_t v = 0; constant && v < n; v++) {
             flow->theta[v] = 1;
         }
-        struct gm_run *run =
-            gm_flow_start(flow, start) ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start) : NULL;
+        struct gm_run *run = gm_flow_start(flow, flow->vorticity, start)
+                                 ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start)
+                                 : NULL;
         for (int i = 0; run && i < STEPS && gm_run_advance(run, 1) == GM_OK; i++) {
             const double *y = gm_run_state(run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
             gm_certificate_note(certificate, GM_DIVERGENCE_FREE,
