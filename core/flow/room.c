@@ -753,7 +753,6 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
                              .buoyancy = NAN,
                              .reference_temperature = NAN,
                              .outlet = GM_VERTEX_SOFT};
-    *fault = (struct gm_fault){0};
     const unsigned long refusals = gm_memory_refusals();
     struct gm_user_system *system = &room->system;
     gm_formula_open(&system->graph);
@@ -959,11 +958,10 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
 static const struct gm_system_item *find_side(const struct gm_room *room, const char *name)
 {
     const struct gm_system_item *side;
-    for (size_t i = 0; (side = gm_system_item_of(&room->system, GM_WORD_SIDE, i)); i++) {
-        if (strcmp(side->name, name) == 0) {
-            break;
-        }
-    }
+    size_t i = 0;
+    do {
+        side = gm_system_item_of(&room->system, GM_WORD_SIDE, i++);
+    } while (side && strcmp(side->name, name) != 0);
     return side;
 }
 
@@ -1041,11 +1039,9 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
                 met = true;
             }
         }
-        if (!met) {
-            gm_system_refuse(&room->system, line->place,
-                             "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
-                             line->name, line->name);
-        }
+        gm_system_refuse_if(&room->system, !met, line->place,
+                            "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
+                            line->name, line->name);
     }
 }
 
