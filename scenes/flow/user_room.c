@@ -13,6 +13,7 @@
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
+#include "scenes/common/written.h"
 #include "scenes/flow/look.h"
 
 /* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
@@ -627,27 +628,18 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
     }
 }
 
-/* Continues a checksum (FNV-1a) with more bytes. */
-static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
-{
-    for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
-        sum = (sum ^ *at) * UINT32_C(16777619);
-    }
-    return sum;
-}
-
 /* Returns the room's name with a checksum of its text and mesh, which distinguishes rooms of one name. */
 static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
     uint32_t sum =
-        checksum(UINT32_C(2166136261), user_room->room.system.source, user_room->room.system.length);
+        gm_written_sum(GM_SUM_OF_NOTHING, user_room->room.system.source, user_room->room.system.length);
     if (complex) {
-        sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
-        sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
+        sum = gm_written_sum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
+        sum = gm_written_sum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
         for (size_t e = 0; e < complex->edges; e++) {
             const int group = gm_triangulation_first(mesh, e);
-            sum = checksum(sum, &group, sizeof group);
+            sum = gm_written_sum(sum, &group, sizeof group);
         }
     }
     return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
