@@ -285,14 +285,18 @@ static void typed_densities_are_derived(void **unused)
         "field: u\nV: u^2/2\nparameter: k = 0.25\nlet: half = sin(x)/2\nstart: u = exp(-x^2), u_t = 0\n", 6,
         7, 1);
     static const struct gm_density_numbers of_all = {GM_OF_ALL, GM_SINE_GORDON, 1.3, 1, 1};
-    struct gm_mesh_names names = {.wave = &typed.wave, .alpha = 1.3, .steepest = 1, .bend = 1};
+    char sentence[GM_FAULT_SENTENCE];
+    struct gm_mesh_names names = {.wave = &typed.wave,
+                                  .alpha = 1.3,
+                                  .steepest = 1,
+                                  .bend = 1,
+                                  .sentence = sentence,
+                                  .size = sizeof sentence};
     double *values = gm_equations_start(&typed.system, NULL);
     names.values = values;
     struct gm_user_density density;
-    char sentence[GM_FAULT_SENTENCE];
     assert_true(gm_user_density_open(&density, &names,
-                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)",
-                                     sentence, sizeof sentence));
+                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)"));
     densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
     gm_tape_close(&density.tape);
     gm_tape_close(&density.itself);

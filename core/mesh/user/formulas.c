@@ -19,15 +19,13 @@ struct reading {
     struct gm_formula graph;
     gm_node_id
         *of_system; /* the system's variables: inputs, constants, and NaN for what the line does not hold */
-    char *sentence;
-    size_t size;
 };
 
 static bool open_reading(struct reading *reading, const size_t *inputs, size_t count)
 {
     const struct gm_user_system *system = reading->names->wave->system;
     gm_formula_open(&reading->graph);
-    reading->sentence[0] = '\0';
+    reading->names->sentence[0] = '\0';
     reading->of_system = malloc(system->variable_count * sizeof *reading->of_system);
     for (size_t i = 0; reading->of_system && i < system->variable_count; i++) {
         const bool fixed = i >= system->parameters && i < system->velocities;
@@ -124,7 +122,7 @@ static bool refuse(const struct reading *reading, const char *text, size_t offse
 {
     size_t line, column;
     gm_text_place(text, offset, &line, &column);
-    snprintf(reading->sentence, reading->size, "%s: %s, at column %zu of %s",
+    snprintf(reading->names->sentence, reading->names->size, "%s: %s, at column %zu of %s",
              gm_system_words[reading->word].word, about, column, text);
     return false;
 }
@@ -219,12 +217,11 @@ static bool derive_density(struct reading *reading, const char *text, struct gm_
 }
 
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
-                          const char *text, char *sentence, size_t size)
+                          const char *text)
 {
     static const char *const words[] = {"u_x", "u", "x", NULL};
     const size_t x = names->wave->system->velocities, inputs[] = {x + 1, 0, x};
-    struct reading reading = {
-        .names = names, .word = GM_WORD_DENSITY, .inputs = words, .sentence = sentence, .size = size};
+    struct reading reading = {.names = names, .word = GM_WORD_DENSITY, .inputs = words};
     *density = (struct gm_user_density){.density.values = values};
     for (size_t i = 0; gm_user_densities[i]; i++) {
         text = strcmp(gm_user_densities[i], text) == 0 ? formulas[i] : text;
@@ -271,14 +268,12 @@ static bool derive_map(struct reading *reading, const char *text, struct gm_user
     return open_tape(reading, &map->tape, nodes, GM_COUNT(nodes), OF_MAP);
 }
 
-bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
-                      char *sentence, size_t size)
+bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text)
 {
     const struct gm_user_system *system = names->wave->system;
     const size_t inputs[OF_MAP] = {[LABEL] = system->velocities, [TIME] = system->n};
     static const char *const words[] = {"x", "t", NULL};
-    struct reading reading = {
-        .names = names, .word = GM_WORD_MESH, .inputs = words, .sentence = sentence, .size = size};
+    struct reading reading = {.names = names, .word = GM_WORD_MESH, .inputs = words};
     *map = (struct gm_user_map){.map.places = places};
     const bool good = open_reading(&reading, inputs, OF_MAP) && derive_map(&reading, text, map);
     close_reading(&reading);
@@ -334,24 +329,20 @@ static bool derive_cell(struct reading *reading, const char *text, struct gm_use
            open_tape(reading, &cell->by_second, second[0], (size_t)INPUTS * INPUTS, INPUTS);
 }
 
-bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
-                       char *sentence, size_t size)
+bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text)
 {
     static const char *const words[] = {"d", "d_t", "m_t", "u_x", NULL};
-    struct reading reading = {
-        .names = names, .word = GM_WORD_CELL, .inputs = words, .sentence = sentence, .size = size};
+    struct reading reading = {.names = names, .word = GM_WORD_CELL, .inputs = words};
     *cell = (struct gm_user_cell){.cell = {cell_first, cell_second}};
     const bool good = open_reading(&reading, NULL, 0) && derive_cell(&reading, text, cell);
     close_reading(&reading);
     return good;
 }
 
-bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
-                          char *sentence, size_t size)
+bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text)
 {
     static const char *const words[] = {"s", "d", "v0", "v1", NULL};
-    struct reading reading = {
-        .names = names, .word = GM_WORD_BETWEEN, .inputs = words, .sentence = sentence, .size = size};
+    struct reading reading = {.names = names, .word = GM_WORD_BETWEEN, .inputs = words};
     gm_node_id node;
     const bool good = open_reading(&reading, NULL, 0) && read_formula(&reading, text, &node) &&
                       open_tape(&reading, between, &node, 1, GM_BETWEEN_INPUTS);
@@ -360,18 +351,16 @@ bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *n
 }
 
 bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
-                         size_t *count, char *sentence, size_t size)
+                         size_t *count)
 {
     static const char *const words[] = {NULL};
-    struct reading reading = {
-        .names = names, .word = GM_WORD_NODES, .inputs = words, .sentence = sentence, .size = size};
+    struct reading reading = {.names = names, .word = GM_WORD_NODES, .inputs = words};
     struct gm_span rest = {0, strlen(text)}, piece;
     struct gm_tape tape = {0};
     bool good = open_reading(&reading, NULL, 0);
     for (*count = 0; good && *count < most && gm_span_take(text, &rest, ",", &piece); ++*count) {
         gm_node_id node;
-        good =
-            read_span(&reading, text, piece, &node) && gm_tape_open(&tape, &reading.graph, &node, 1, 0, NULL);
+        good = read_span(&reading, text, piece, &node) && open_tape(&reading, &tape, &node, 1, 0);
         if (good) {
             gm_tape_values(&tape, NULL, &places[*count], 1);
         }

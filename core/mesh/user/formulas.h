@@ -9,11 +9,13 @@
 #include "core/tape.h"
 
 /* Meanings of names in formulas: the system, values of its variables, of which the parameters are used, and of alpha,
-   steepest and bend. */
+   steepest and bend; and where a sentence is written if a formula is refused. */
 struct gm_mesh_names {
     const struct gm_user_wave *wave;
     const double *values;
     double alpha, steepest, bend;
+    char *sentence;
+    size_t size;
 };
 
 /* A density as a formula. */
@@ -31,8 +33,7 @@ struct gm_user_map {
     struct gm_tape tape;    /* of x and t: the place and its rate */
 };
 /* Opens the mesh of a text X = F; false as gm_user_density_open. */
-bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
-                      char *sentence, size_t size);
+bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text);
 /* False with a sentence if it moves an end of the mesh at time t, or does not grow with x. */
 bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
                        size_t size);
@@ -43,21 +44,19 @@ struct gm_user_cell {
     struct gm_tape by_first, by_second; /* of d, d_t, m_t, u_x */
 };
 /* Opens the cells of a text; false as gm_user_density_open. */
-bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
-                       char *sentence, size_t size);
+bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text);
 
 /* The velocity between two nodes as a formula. */
 enum { GM_BETWEEN_INPUTS = 4 }; /* s from 0 to 1, the distance d of the nodes, their velocities v0 and v1 */
-bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
-                          char *sentence, size_t size);
+bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text);
 
 /* Places of nodes, formulas of parameters separated by commas: writes at most `most` of them, and their number. */
 bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
-                         size_t *count, char *sentence, size_t size);
+                         size_t *count);
 
 /* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. The caller closes both tapes
    in both cases. */
 bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
-                          const char *text, char *sentence, size_t size);
+                          const char *text);
 
 #endif

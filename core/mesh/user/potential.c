@@ -213,22 +213,19 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
 static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
 {
     const struct gm_mesh_names *names = &self->names;
-    enum { SIZE = sizeof self->refused };
     size_t count = 0;
     if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
-        const bool read =
-            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, self->refused, SIZE);
         self->mesh.listed = self->listed;
-        self->mesh.points = read ? count : self->mesh.points;
-        if (!read) {
+        if (!gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count)) {
             return self->refused[0];
         }
+        self->mesh.points = count;
     }
-    return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
+    return (gm_user_density_open(&self->density, names, chosen->density) &&
             (!chosen->between || !chosen->between[0] ||
-             gm_user_between_open(&self->between, names, chosen->between, self->refused, SIZE)) &&
-            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
-            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
+             gm_user_between_open(&self->between, names, chosen->between)) &&
+            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map)) &&
+            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell))) ||
            self->refused[0];
 }
 
@@ -284,7 +281,8 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
-    self->names = (struct gm_mesh_names){.wave = wave, .values = values};
+    self->names = (struct gm_mesh_names){
+        .wave = wave, .values = values, .sentence = self->refused, .size = sizeof self->refused};
     const bool good = weigh(self, chosen, values) && open_equation(self, chosen);
     problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
     return good;
@@ -345,14 +343,12 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, char *sentence, size_t
         for (size_t i = 0; i < some; i++) {
             const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
                          drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
-            if (!isfinite(drift)) {
-                snprintf(sentence, size, "X_t at the start is not finite where x = %.6g",
-                         gm_grid1_node(&grid, from + i));
-                return false;
-            }
-            if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
-                         !isfinite(u)       ? ""
+            const bool moves = isfinite(drift);
+            if (!moves || !isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g",
+                         moves ? name : "X",
+                         !moves             ? "_t"
+                         : !isfinite(u)     ? ""
                          : !isfinite(slope) ? "_x"
                                             : "_t",
                          gm_grid1_node(&grid, from + i));
