@@ -109,7 +109,7 @@ static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_prof
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state)
 {
-    const size_t points = mesh->points, place = gm_mesh_place(mesh), rate = gm_mesh_rate(mesh);
+    const size_t points = mesh->points, place = gm_mesh_place(mesh), rate = (mesh->alone ? 1 : 3) * points;
     const bool drifts = kind == GM_MESH_FREE && mesh->drift;
     struct bench bench;
     if (!bench_open(&bench, mesh)) {
@@ -235,20 +235,10 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
     return good;
 }
 
-/* Opens the elements of a state and evaluates them. False if it cannot; the caller closes them in both cases. */
-static bool open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state)
-{
-    if (!gm_elements_open(stage, mesh)) {
-        return false;
-    }
-    gm_elements_place(stage, state);
-    return gm_elements_evaluate(stage, mesh);
-}
-
 double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
     for (size_t e = 0; !isnan(sum) && e < stage.count; e++) {
         const double g = stage.slope[e];
         const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
@@ -267,7 +257,7 @@ double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
     for (size_t k = 1; !isnan(sum) && k <= mesh->points; k++) {
         sum += gm_momentum_v(&stage, k);
     }
@@ -278,7 +268,7 @@ double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
 double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double jump = open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
+    double jump = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
     if (!isnan(jump)) {
         gm_elements_constrain(&stage, mesh);
     }
@@ -293,7 +283,7 @@ double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state
 double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double least = open_at(&stage, mesh, state) ? INFINITY : NAN;
+    double least = gm_elements_open_at(&stage, mesh, state) ? INFINITY : NAN;
     for (size_t k = 1; !isnan(least) && k <= mesh->points; k++) {
         least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
     }
@@ -304,7 +294,7 @@ double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
 bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3])
 {
     struct gm_elements stage;
-    const bool good = open_at(&stage, mesh, state);
+    const bool good = gm_elements_open_at(&stage, mesh, state);
     memset(blocks, 0, mesh->points * sizeof *blocks);
     for (size_t i = 0; good && i < 2 * stage.count; i++) {
         const size_t e = i / 2, end = i % 2, node = e + end; /* 0 and N + 1 are held */
@@ -325,7 +315,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     const size_t points = mesh->points, n = 2 * points;
     struct gm_elements stage = {0};
     double *dense = points <= GM_DENSE_POINTS ? calloc(n * n + 2 * n, sizeof *dense) : NULL;
-    bool good = dense && open_at(&stage, mesh, state);
+    bool good = dense && gm_elements_open_at(&stage, mesh, state);
     for (size_t e = 0; good && e <= points; e++) {
         struct gm_element_matrices at;
         gm_elements_matrices(&stage, mesh, e, false, &at);

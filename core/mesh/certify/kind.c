@@ -71,14 +71,10 @@ static void momenta(const struct gm_mesh_subject *subject, const double *state, 
     const size_t points = subject->mesh.points;
     const bool alone = subject->mesh.alone;
     struct gm_elements stage;
-    memset(phase, 0, points * sizeof *phase); /* nodes alone have a field that is 0 */
+    memset(phase, 0, 4 * points * sizeof *phase); /* nodes alone have a field that is 0 */
     memcpy(phase + alone * points, state, (2 - alone) * points * sizeof *phase);
-    if (!gm_elements_open(&stage, &subject->mesh)) {
-        return;
-    }
-    gm_elements_place(&stage, state);
-    gm_elements_evaluate(&stage, &subject->mesh);
-    for (size_t k = 1; k <= points; k++) {
+    const bool good = gm_elements_open_at(&stage, &subject->mesh, state);
+    for (size_t k = 1; good && k <= points; k++) {
         phase[2 * points + k - 1] = gm_momentum_u(&stage, k);
         phase[3 * points + k - 1] = gm_momentum_v(&stage, k);
     }
