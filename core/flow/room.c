@@ -954,17 +954,6 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* The line `side:` of that name; NULL if it is missing. */
-static const struct gm_system_item *find_side(const struct gm_room *room, const char *name)
-{
-    const struct gm_system_item *side;
-    size_t i = 0;
-    do {
-        side = gm_system_item_of(&room->system, GM_WORD_SIDE, i++);
-    } while (side && strcmp(side->name, name) != 0);
-    return side;
-}
-
 /* The groups of a line, which the parameter of its name lists. */
 static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
@@ -1029,7 +1018,8 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
             name_groups(room, mesh, i, side_of);
             continue;
         }
-        const struct gm_system_item *side = all ? NULL : find_side(room, line->name);
+        const struct gm_system_item *side =
+            all ? NULL : gm_system_item_named(&room->system, GM_WORD_SIDE, line->name);
         bool met = all;
         for (size_t b = 0; b < complex->boundary && (all || side); b++) {
             double middle[4] = {0};

@@ -272,6 +272,9 @@ bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t co
 /* Item number `number` of a word, or NULL. */
 const struct gm_system_item *gm_system_item_of(const struct gm_user_system *system, enum gm_system_word word,
                                                size_t number);
+/* The first item of a word with this name, or NULL. */
+const struct gm_system_item *gm_system_item_named(const struct gm_user_system *system,
+                                                  enum gm_system_word word, const char *name);
 
 /* The name in lists: its name, or else its title; NULL: none. */
 static inline const char *gm_system_title(const struct gm_user_system *system)

@@ -212,13 +212,12 @@ static double profile_error(const struct gm_view *view)
     const char quantity = view->observable->key[0] == 'u' ? 'u' : 's';
     const double margin = 0.02;
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    const struct gm_room_profile *line =
-        user_room->subjects[view->observable - user_room->observables].profile;
+    const double *ends =
+        user_room->subjects[view->observable - user_room->observables].profile->options->numbers;
     double sum = 0;
     for (size_t i = 0; i < PLACES; i++) {
         const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),
-                     at[2] = {line->a[0] + s * (line->b[0] - line->a[0]),
-                              line->a[1] + s * (line->b[1] - line->a[1])};
+                     at[2] = {ends[0] + s * (ends[2] - ends[0]), ends[1] + s * (ends[3] - ends[1])};
         struct gm_sample sample = {0};
         gm_flow_sample(gm_flow_of(view->problem), view->state, at[0], at[1], &sample);
         sum += fabs(gm_room_quantity(&sample, quantity) - gm_room_exact(view, gm_room_key_of(quantity), at));

@@ -176,43 +176,16 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-static void make_profiles(struct gm_user_room *user_room)
+static void check_tables(const struct gm_user_room *user_room)
 {
     const struct gm_user_system *system = &user_room->room.system;
-    size_t *count = &user_room->profile_count;
-    const struct gm_system_item *item;
-    for (; (item = gm_system_item_of(system, GM_WORD_PROFILE, *count)); ++*count) {
-        const double *numbers = item->options->numbers;
-        user_room->profiles =
-            gm_arena_resize(user_room->arena, user_room->profiles, *count + 1, sizeof *user_room->profiles);
-        user_room->profiles[*count] =
-            (struct gm_room_profile){item, numbers, numbers + 2, (size_t)fmin(fmax(numbers[4], 2), 1e6)};
-    }
-}
-
-static const struct gm_room_profile *find_profile(const struct gm_user_room *user_room, const char *name)
-{
-    size_t i = 0;
-    while (i < user_room->profile_count && strcmp(user_room->profiles[i].item->name, name) != 0) {
-        i++;
-    }
-    return i < user_room->profile_count ? &user_room->profiles[i] : NULL;
-}
-
-static void make_tables(struct gm_user_room *user_room)
-{
-    const struct gm_user_system *system = &user_room->room.system;
-    size_t *count = &user_room->table_count;
-    const struct gm_system_item *item;
-    for (; (item = gm_system_item_of(system, GM_WORD_TABLE, *count)); ++*count) {
-        const struct gm_room_table table = {
-            item, find_profile(user_room, item->words), gm_scene_parameter(&user_room->scene, item->text),
-            item->options ? item->options->numbers : NULL, item->options ? item->options->count / 2 : 0};
-        gm_system_refuse_if(system, !table.profile || !table.row, item->place,
+    const struct gm_system_item *table;
+    for (size_t i = 0; (table = gm_system_item_of(system, GM_WORD_TABLE, i)); i++) {
+        gm_system_refuse_if(system,
+                            !gm_system_item_named(system, GM_WORD_PROFILE, table->words) ||
+                                !gm_scene_parameter(&user_room->scene, table->text),
+                            table->place,
                             "a table has a name and a profile, the value of a parameter, and points");
-        user_room->tables =
-            gm_arena_resize(user_room->arena, user_room->tables, *count + 1, sizeof *user_room->tables);
-        user_room->tables[*count] = table;
     }
 }
 
@@ -221,7 +194,8 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
 {
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_observable *row = gm_room_observable(item->name, along);
-    const struct gm_room_profile *profile = along ? find_profile(user_room, along) : user_room->profiles;
+    const struct gm_system_item *profile =
+        along ? gm_system_item_named(&user_room->room.system, GM_WORD_PROFILE, along) : NULL;
     size_t i = 0;
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
         i++;
@@ -304,8 +278,8 @@ void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_roo
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_COLOURS, i)); i++) {
         *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
     }
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles |= user_room->profiles[i].item->words[0] != 0;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_PROFILE, i)); i++) {
+        look->profiles |= item->words[0] != 0;
     }
     const bool graphs = gm_room_said(room, GM_WORD_GRAPH);
     look->profiles_below = look->profiles && room->rectangular && !graphs;
@@ -410,8 +384,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     struct gm_scene *scene = &user_room->scene;
     const struct gm_system_item *item;
     make_rows(user_room);
-    make_profiles(user_room);
-    make_tables(user_room);
+    check_tables(user_room);
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
         observe(user_room, item);
     }
@@ -426,5 +399,5 @@ void gm_room_take_lines(struct gm_user_room *user_room)
         check_observable(user_room, item->name, item->place);
     }
     make_studies(user_room);
-    scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
+    scene->profile = gm_room_said(&user_room->room, GM_WORD_PROFILE) ? gm_room_write_profiles : NULL;
 }

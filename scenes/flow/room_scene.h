@@ -56,27 +56,8 @@ struct gm_room_file {
 struct gm_room_subject {
     const char *name; /* the name of a line; NULL: the number is used */
     size_t number;    /* the number of a hole */
-    const struct gm_room_profile *profile;
+    const struct gm_system_item *profile;
     int what; /* the quantity of the subject (enum local, user_room.c) */
-};
-
-/* A line of `count` points from a to b along which quantities are drawn and written, with its item: the letters of the
-   quantities u, v and s, the scalar, are its words; its text is the label of values, NULL: the quantity's name; low and
-   high are the range of that axis, NAN: the range of the values. */
-struct gm_room_profile {
-    const struct gm_system_item *item;
-    const double *a, *b;
-    size_t count;
-};
-
-/* Published points on a profile: the position along its axis, and the first quantity there, or NAN. They hold
-   if the row has the value of the item. */
-struct gm_room_table {
-    const struct gm_system_item *item;
-    const struct gm_room_profile *profile;
-    const struct gm_parameter *row;
-    const double *points;
-    size_t count;
 };
 
 struct gm_user_room {
@@ -96,9 +77,6 @@ struct gm_user_room {
     size_t observable_count;
     const char *forces
         [2]; /* keys of the forces on the first hole, shown by a room without a scalar; NULL: not shown */
-    struct gm_room_profile *profiles;
-    struct gm_room_table *tables;
-    size_t profile_count, table_count;
     struct gm_work work;
     struct gm_stability stability;
 };
