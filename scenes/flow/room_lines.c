@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
    scene's arena; its body calls this. */
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -208,89 +208,6 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
         user_room->subjects[user_room->observable_count++].profile = profile;
     }
     gm_written_options(&user_room->observables[i], item);
-}
-
-/* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
-   the rest. */
-static bool take_brace(const char *text, struct gm_span *rest, struct gm_span *before, struct gm_span *key,
-                       bool *nonzero)
-{
-    const size_t open = gm_span_until(text, *rest, "{"),
-                 close = gm_span_until(text, (struct gm_span){open, rest->end}, "}"),
-                 colon = gm_span_until(text, (struct gm_span){open, close}, ":");
-    *before = (struct gm_span){rest->begin, open};
-    *key = (struct gm_span){open < close ? open + 1 : open, colon};
-    *nonzero = colon < close;
-    rest->begin = close < rest->end ? close + 1 : close;
-    return open < close;
-}
-
-/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
-static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
-                          struct gm_picture *picture, struct gm_look *look)
-{
-    const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_SUBTITLE, 0);
-    struct gm_span rest = gm_room_said(room, GM_WORD_SUBTITLE)->value, before, key;
-    bool nonzero;
-    memset(look->told, 0, sizeof look->told);
-    look->remark = "";
-    for (size_t i = 0; rest.begin < rest.end; i++) {
-        const bool filled = take_brace(room->system.source, &rest, &before, &key, &nonzero);
-        const struct gm_parameter *row =
-            gm_scene_parameter(&user_room->scene, gm_room_text(picture, room, key));
-        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !look->remark[0]) {
-            before.begin += strspn(room->system.source + before.begin, ", ");
-            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->system.source, before));
-            look->told[i].offset = row->offset;
-            look->told[i].nonzero = nonzero;
-        } else {
-            look->remark =
-                gm_picture_text(picture, "%s%s", look->remark, gm_room_text(picture, room, before));
-            if (filled && item->nodes[i] != GM_NO_NODE) {
-                look->remark =
-                    gm_picture_text(picture, "%s%.4g", look->remark, gm_room_evaluate(room, item->nodes[i]));
-            }
-        }
-    }
-}
-
-/* The unit of the clock: the first word after the formula of a line time:. */
-static const char *clock_unit(const struct gm_room *room, struct gm_picture *picture, const char *otherwise)
-{
-    const char *text = room->system.texts[GM_WORD_TIME];
-    const bool is_unit = gm_system_item_of(&room->system, GM_WORD_TIME, 0);
-    return text ? gm_picture_text(picture, "%.*s", is_unit ? (int)strcspn(text, ", ") : 0, text) : otherwise;
-}
-
-void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
-                       struct gm_picture *picture, struct gm_look *look)
-{
-    const struct gm_user_system *system = &room->system;
-    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_LEVELS, 0);
-    look->clock_unit = clock_unit(room, picture, look->clock_unit);
-    if (gm_room_said(room, GM_WORD_SUBTITLE)) {
-        fill_subtitle(user_room, room, picture, look);
-    } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
-        memset(look->told, 0, sizeof look->told);
-    }
-    look->levels = item ? item->options->numbers : NULL;
-    look->level_count = item ? item->options->count : 0;
-    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_COLOURS, i)); i++) {
-        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
-    }
-    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_PROFILE, i)); i++) {
-        look->profiles |= item->words[0] != 0;
-    }
-    const bool graphs = gm_room_said(room, GM_WORD_GRAPH);
-    look->profiles_below = look->profiles && room->rectangular && !graphs;
-    for (size_t i = 0; i < GM_COUNT(look->graphs) && (graphs || look->profiles_below); i++) {
-        item = gm_system_item_of(system, GM_WORD_GRAPH, i);
-        for (size_t k = 0; item && k < item->count; k++) {
-            (k == 0 ? look->graph_low : look->graph_high)[i] = gm_room_evaluate(room, item->nodes[k]);
-        }
-        const bool shown = item && (item->count == 0 || look->graph_low[i] < look->graph_high[i]);
-        look->graphs[i] = shown ? gm_picture_text(picture, "%s", item->name) : NULL;
-    }
 }
 
 /* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt

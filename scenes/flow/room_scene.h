@@ -101,11 +101,19 @@ bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, str
 
 /* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
+/* Writes rows of CSV: published points, and profiles. */
+void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream);
+void gm_room_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 /* Powers of the units of length, time and temperature. */
 struct gm_powers {
     int of[3];
 };
+/* Writes a product of powers of the units in the line `units:`, "K m²/s", to GM_ROOM_UNIT bytes; "" if one of them is not
+   named. */
+const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name);
+/* Writes " / (m/s)", the unit after a title, to GM_ROOM_UNIT + 8 bytes. */
+const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text);
 /* A row of an observable of flows. */
 struct gm_room_row {
     struct gm_observable observable;

@@ -16,8 +16,7 @@
 #include "scenes/common/written.h"
 #include "scenes/flow/look.h"
 
-/* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
-static const char *name_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
+const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
     static const int order[3] = {2, 0, 1};
@@ -45,11 +44,10 @@ static const char *name_unit(const struct gm_user_room *user_room, struct gm_pow
     return name;
 }
 
-/* Writes " / (m/s)", the unit after a title. */
-static const char *beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
+const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
 {
     char unit[GM_ROOM_UNIT];
-    name_unit(user_room, powers, unit);
+    gm_room_unit(user_room, powers, unit);
     const bool alone = !strpbrk(unit, "/ ");
     snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
              alone ? "" : ")");
@@ -446,83 +444,6 @@ static const char *idle(const void *parameters, const char *key)
     return NULL;
 }
 
-/* Returns about the largest scalar that sources produce: twice its value in the air that leaves. */
-static double enriched(const struct gm_flow *flow)
-{
-    double sum = 0, through = 0;
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        sum += flow->source[v];
-    }
-    for (size_t i = 0; i < flow->openings; i++) {
-        through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
-    }
-    return through > 0 ? 2 * sum / through : 0;
-}
-
-static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
-{
-    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
-    const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
-    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
-    static const struct {
-        int show;
-        const char *name;
-        struct gm_powers powers;
-    } shown[] = {{GM_SHOW_VORTICITY, "vorticity ω", {{0, -1, 0}}},
-                 {GM_SHOW_SPEED, "speed |u|", {{1, -1, 0}}},
-                 {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
-                 {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
-    const struct gm_powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
-    char unit[GM_ROOM_UNIT + 8];
-    const double *range = flow->temperature_range,
-                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
-    const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
-    double high = 0;
-    for (size_t k = 0; k < count; k++) {
-        const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
-        high = fmax(high, fmax(other->theta_high, enriched(other)));
-    }
-    /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
-    const double size = sqrt(flow->complex->total_area),
-                 speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const bool named = !room->rectangular;
-    const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
-    for (size_t i = 0; sides && i < room->count; i++) {
-        sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
-    }
-    struct gm_look look = {
-        .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
-                  gm_picture_text(picture, "%s", name_unit(user_room, spread, unit)), false},
-                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
-        .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
-        .sides = sides,
-        .graphs = {flow->heat             ? "temperature_mean"
-                   : user_room->forces[0] ? user_room->forces[0]
-                   : scalar               ? "scalar_mean"
-                                          : "scalar_total",
-                   flow->heat             ? "kinetic_energy"
-                   : user_room->forces[1] ? user_room->forces[1]
-                                          : "scalar_outflow"},
-        .scalar_high = high > 0 ? high : 1,
-        .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = scalar ? scalar : "concentration θ"},
-        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
-        .speed_high = 1.2 * speed,
-    };
-    for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
-        look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || user_room->room.system.texts[GM_WORD_UNITS]) {
-            look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
-        }
-    }
-    for (size_t i = 0; i < GM_COUNT(shown); i++) {
-        look.names[shown[i].show] =
-            gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
-    }
-    gm_room_take_look(user_room, room, picture, &look);
-    gm_flows_draw(lanes, count, picture, &look);
-}
-
 /* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names
    become _. Too many of them, and a repeated key, are noted. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
@@ -568,7 +489,7 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
         user_room->observables[i] = (struct gm_observable){
             .key = key,
             .title = gm_arena_print(user_room->arena, "%s %s%s", name, rows[what].title,
-                                    beside_unit(user_room, rows[what].powers, unit)),
+                                    gm_room_beside_unit(user_room, rows[what].powers, unit)),
             .evaluate = observe_local,
             .missing = rows[what].missing};
         subject.what = what;
@@ -590,7 +511,7 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
         observable->title = rows[i].of_scalar && scalar
                                 ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, scalar)
                                 : gm_arena_print(user_room->arena, "%s%s", observable->title,
-                                                 beside_unit(user_room, rows[i].powers, unit));
+                                                 gm_room_beside_unit(user_room, rows[i].powers, unit));
     }
 }
 
@@ -721,7 +642,7 @@ static void make(struct gm_arena *arena, void *data)
         .note = note_origin,
         .close = close_problem,
         .start_with = start,
-        .draw = draw,
+        .draw = gm_room_draw,
         .failure = tell_failure,
     };
     user_room->initial.room = user_room;
