@@ -32,7 +32,7 @@ struct typed {
     struct gm_mesh mesh;
 };
 
-static void open_typed(struct typed *typed, const char *text, double half_length, long points, double alpha)
+static void open_chosen(struct typed *typed, const char *text, const struct gm_user_mesh *chosen)
 {
     struct gm_fault fault;
     if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
@@ -40,14 +40,19 @@ static void open_typed(struct typed *typed, const char *text, double half_length
     }
     assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
+    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, chosen));
+    free(values);
+    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+}
+
+static void open_typed(struct typed *typed, const char *text, double half_length, long points, double alpha)
+{
     const struct gm_user_mesh chosen = {.first = -half_length,
                                         .length = 2 * half_length,
                                         .points = points,
                                         .alpha = alpha,
                                         .density = "arclength"};
-    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, &chosen));
-    free(values);
-    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+    open_chosen(typed, text, &chosen);
 }
 
 static void close_typed(struct typed *typed)
@@ -280,27 +285,18 @@ static void typed_densities_are_derived(void **unused)
 {
     (void)unused;
     struct typed typed;
-    open_typed(
-        &typed,
-        "field: u\nV: u^2/2\nparameter: k = 0.25\nlet: half = sin(x)/2\nstart: u = exp(-x^2), u_t = 0\n", 6,
-        7, 1);
     static const struct gm_density_numbers of_all = {GM_OF_ALL, GM_SINE_GORDON, 1.3, 1, 1};
-    char sentence[GM_FAULT_SENTENCE];
-    struct gm_mesh_names names = {.wave = &typed.wave,
-                                  .alpha = 1.3,
-                                  .steepest = 1,
-                                  .bend = 1,
-                                  .sentence = sentence,
-                                  .size = sizeof sentence};
-    double *values = gm_equations_start(&typed.system, NULL);
-    names.values = values;
-    struct gm_user_density density;
-    assert_true(gm_user_density_open(&density, &names,
-                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)"));
-    densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
-    gm_tape_close(&density.tape);
-    gm_tape_close(&density.itself);
-    free(values);
+    const struct gm_user_mesh chosen = {.first = -6,
+                                        .length = 12,
+                                        .points = 7,
+                                        .alpha = 1.3,
+                                        .density =
+                                            "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)"};
+    open_chosen(
+        &typed,
+        "field: u\nV: u^2/2\nparameter: k = 0.25\nlet: half = sin(x)/2\nstart: u = exp(-x^2), u_t = 0\n",
+        &chosen);
+    densities_agree(typed.mesh.density, gm_closed_density(&of_all), 1e-13);
     close_typed(&typed);
 }
 
