@@ -79,23 +79,16 @@ static int rates(double t, const double *omega, double *rate, void *data)
     (void)t;
     const struct gm_flow *flow = data;
     const struct gm_complex *complex = flow->complex;
-    double start[STATE], centre[2 * MOST];
+    double start[STATE], centre[2 * MOST], flux[3 * MOST];
     if (!gm_flow_start(flow, omega, start)) {
         return GSL_ENOMEM;
     }
-    const double *psi = gm_flow_block(flow, start, GM_FLOW_PSI);
-    for (size_t f = 0; f < complex->triangles; f++) {
-        centre[f] = 0;
-        for (size_t k = 3 * f; k < 3 * f + 3; k++) {
-            centre[f] += complex->weight[k] * psi[complex->triangle[k]];
-        }
-    }
+    gm_flow_fluxes(complex, gm_flow_block(flow, start, GM_FLOW_PSI), centre, flux);
     memset(rate, 0, complex->vertices * sizeof *rate);
     for (size_t e = 0; e < complex->edges; e++) {
         const int a = complex->edge[2 * e], b = complex->edge[2 * e + 1];
-        const double flux = centre[complex->edge_triangle[2 * e]] - centre[complex->edge_triangle[2 * e + 1]];
         const double carried =
-            flux * (omega[a] + omega[b]) / 2 - flow->viscosity * complex->star1[e] * (omega[b] - omega[a]);
+            flux[e] * (omega[a] + omega[b]) / 2 - flow->viscosity * complex->star1[e] * (omega[b] - omega[a]);
         rate[a] -= carried / complex->star0[a];
         rate[b] += carried / complex->star0[b];
     }
