@@ -74,11 +74,13 @@ double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const dou
                                    : gm_room_value(room, line, key, place, key == GM_ROOM_SPEED_Y ? 0 : NAN);
 }
 
-/* |values - exact| / |exact| at the vertices in the norm sum star0 w^2 */
-static double vertex_error(const struct gm_view *view, enum gm_flow_block block, enum gm_room_key key)
+/* |values - exact| / |exact| at the vertices in the norm sum star0 w^2, of psi or the scalar by the observable's key */
+static double vertex_error(const struct gm_view *view)
 {
-    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
-    const double *values = gm_flow_block(gm_flow_of(view->problem), view->state, block);
+    const struct gm_complex *complex = flow_of(view)->complex;
+    const bool stream = strcmp(view->observable->key, "psi_error") == 0;
+    const enum gm_room_key key = stream ? GM_ROOM_STREAM_FUNCTION : GM_ROOM_SCALAR;
+    const double *values = gm_flow_block(flow_of(view), view->state, stream ? GM_FLOW_PSI : GM_FLOW_THETA);
     double error = 0, size = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         const double truth = gm_room_exact(view, key, complex->point + 2 * v), away = values[v] - truth;
@@ -86,16 +88,6 @@ static double vertex_error(const struct gm_view *view, enum gm_flow_block block,
         size += complex->star0[v] * truth * truth;
     }
     return sqrt(error / size);
-}
-
-static double psi_error(const struct gm_view *view)
-{
-    return vertex_error(view, GM_FLOW_PSI, GM_ROOM_STREAM_FUNCTION);
-}
-
-static double scalar_error(const struct gm_view *view)
-{
-    return vertex_error(view, GM_FLOW_THETA, GM_ROOM_SCALAR);
 }
 
 static double solution_error(const struct gm_view *view)
@@ -161,10 +153,11 @@ static double velocity_error(const struct gm_view *view)
     return sqrt(error / size);
 }
 
-/* Returns the error of the total pressure over the triangles whose dual vertex is further than `margin` from
-   the boundary of the rectangle; both pressures with mean 0 there. */
-static double pressure_error_within(const struct gm_view *view, double margin)
+/* Returns the error of the total pressure over the triangles, or over those whose dual vertex is further than 0.2 from
+   the boundary of the rectangle, by the observable's key; both pressures with mean 0 there. */
+static double pressure_error(const struct gm_view *view)
 {
+    const double margin = strcmp(view->observable->key, "pressure_error") == 0 ? -INFINITY : 0.2;
     const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
     const struct gm_rectangle *box = &gm_room_of(view->problem)->rectangle;
     double *pressure = malloc(3 * complex->triangles * sizeof *pressure);
@@ -192,16 +185,6 @@ static double pressure_error_within(const struct gm_view *view, double margin)
     }
     free(pressure);
     return sqrt(error / size);
-}
-
-static double pressure_error(const struct gm_view *view)
-{
-    return pressure_error_within(view, -INFINITY);
-}
-
-static double pressure_error_middle(const struct gm_view *view)
-{
-    return pressure_error_within(view, 0.2);
 }
 
 /* Returns the mean of |u - exact|, or of |theta - exact|, at fifty points inside a profile: on the walls
@@ -235,13 +218,13 @@ static const struct gm_observable errors_along[] = {
 /* Observables of flows; the last ones are observed of every room. */
 static const struct gm_room_row rows[] = {
     {.observable = GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ")},
-    {.observable = GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ")},
-    {.observable = GM_LOG_OBSERVABLE("theta_error", scalar_error, "relative error of θ")},
+    {.observable = GM_LOG_OBSERVABLE("psi_error", vertex_error, "relative error of ψ")},
+    {.observable = GM_LOG_OBSERVABLE("theta_error", vertex_error, "relative error of θ")},
     {.observable = GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux")},
     {.observable = GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity")},
     {.observable =
          GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure")},
-    {.observable = GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
+    {.observable = GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error,
                                      "relative error of the total pressure away from the walls")},
     {.observable = GM_OBSERVABLE("psi_min", psi_low, "least stream function")},
     {.observable = GM_OBSERVABLE("mean_edge", of_mesh, "mean edge")},
