@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_interp.h>
+
 #include "core/linear/eigenvalues.h"
 #include "core/mesh/nodes.h"
 
@@ -153,15 +155,7 @@ static void field_at(const void *context, const double *x, size_t count, double 
 {
     const struct field *field = context;
     for (size_t i = 0; i < count; i++) {
-        size_t low = 0, high = field->count - 1;
-        while (high - low > 1) {
-            const size_t middle = (low + high) / 2;
-            if (field->x[middle] <= x[i]) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        const size_t low = gsl_interp_bsearch(field->x, x[i], 0, field->count - 1), high = low + 1;
         const double d = field->x[high] - field->x[low], s = (x[i] - field->x[low]) / d, r = 1 - s;
         const double leave = d * field->slope[low], arrive = d * field->slope[high];
         const double rise = field->y[high] - field->y[low];
