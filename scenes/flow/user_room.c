@@ -14,45 +14,6 @@
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
 #include "scenes/common/written.h"
-#include "scenes/flow/look.h"
-
-const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
-{
-    static const char *const raised[] = {"", "", "²", "³", "⁴"};
-    static const int order[3] = {2, 0, 1};
-    char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
-    for (int i = 0; i < 3; i++) {
-        const char *units = user_room->room.system.texts[GM_WORD_UNITS], *at = units ? units : "";
-        const int power = powers.of[order[i]];
-        for (int place = order[i]; place > 0 && *at; place--) {
-            at += strcspn(at, ", ");
-            at += strspn(at, ", ");
-        }
-        const int length = (int)strcspn(at, ", ");
-        if (power != 0 && (length == 0 || length > 12)) {
-            name[0] = '\0';
-            return name;
-        }
-        char *part = power > 0 ? above : below;
-        const size_t used = strlen(part);
-        if (power != 0) {
-            snprintf(part + used, sizeof above - used, "%s%.*s%s", used > 0 ? " " : "", length, at,
-                     raised[abs(power)]);
-        }
-    }
-    snprintf(name, GM_ROOM_UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
-    return name;
-}
-
-const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
-{
-    char unit[GM_ROOM_UNIT];
-    gm_room_unit(user_room, powers, unit);
-    const bool alone = !strpbrk(unit, "/ ");
-    snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
-             alone ? "" : ")");
-    return text;
-}
 
 /* The observables of an opening, a probe, a wall and a hole. */
 enum local { FLOW, SCALAR_FLOW, SCALAR, SPEED, PRESSURE, TEMPERATURE, HEAT, DRAG, LIFT, CIRCULATION, LOCALS };
