@@ -193,8 +193,8 @@ void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *p
 void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
                       const double *y, double *out);
 
-/* Has the tracers of the start y wait outside, to come in one after the other. */
-void gm_tracers_wait(const struct gm_flow *flow, double *y);
+/* Strews the tracers of the start y evenly, or has them wait outside, to come in one after the other. */
+void gm_tracers_strew(const struct gm_flow *flow, double *y);
 
 /* Functionals of a state y. */
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);
