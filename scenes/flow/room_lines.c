@@ -12,6 +12,9 @@
 #include "core/schemes.h"
 #include "scenes/common/written.h"
 
+const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
+const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
+
 /* Returns the schemes of a list, NULL-terminated, which must be schemes for flows; NULL: none. */
 static const char *const *list_schemes(const struct gm_user_room *user_room, const char *text, size_t place)
 {

@@ -92,13 +92,6 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
-/* Returns true if the mesh is the room's rectangle, with no file named instead. */
-bool gm_flows_has_rectangle(const struct gm_flows *flows);
-/* Reads or makes the mesh of a lane; without a room, as it is in its file. On failure returns false with a
-   sentence that names the line or triangle. */
-bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
-                   char *sentence);
-
 /* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
 /* Writes rows of CSV: published points, and profiles. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rooms from files: the scene of such a room. Lengths, times and concentrations are in the file's units. */
+/* Rooms from files: the scene of such a room, and its mesh. Lengths, times and concentrations are in the file's units. */
 #include "scenes/flow/user_room.h"
 
 #include <math.h>
@@ -13,7 +13,119 @@
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
+#include "render/files/regular_file.h"
 #include "scenes/common/written.h"
+
+static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
+{
+    char text[GM_TRIANGULATION_SENTENCE];
+    gm_refuse(sentence, "%s", gm_triangulation_explain(name, fault, text));
+}
+
+/* Returns the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence on failure. */
+static struct gm_complex *lay_rectangle(struct gm_rectangle *rectangle, char *sentence)
+{
+    enum { MOST = 10000000 };
+    const long best =
+        gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
+    rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
+    if ((double)rectangle->edges * (double)rectangle->strips > MOST) {
+        gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle->edges,
+                  rectangle->strips, 2 * MOST);
+        return NULL;
+    }
+    if (rectangle->strips % 2 != 0) {
+        gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
+        return NULL;
+    }
+    if (!gm_rectangle_is_acute(rectangle)) {
+        gm_refuse(
+            sentence,
+            "%ld edges and %ld strips do not make acute triangles: the height of a strip must lie between half an "
+            "edge and an edge; %ld strips are best",
+            rectangle->edges, rectangle->strips, best);
+        return NULL;
+    }
+    struct gm_triangulation_fault fault;
+    struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
+    if (!complex) {
+        explain("the mesh", &fault, sentence);
+    }
+    return complex;
+}
+
+/* Reads the mesh of a file, or a built-in one if `inside` is not NULL. */
+static bool read_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                      struct gm_triangulation *mesh, char *sentence)
+{
+    enum { LARGEST = 1 << 29 };
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    char *text = inside ? NULL : gm_regular_read(path, LARGEST, &size, reason);
+    if (!text && !inside) {
+        return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
+    }
+    struct gm_triangulation_fault fault;
+    const bool good = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
+                                            star, mesh, &fault);
+    free(text);
+    if (!good) {
+        explain(path, &fault, sentence);
+    }
+    return good;
+}
+
+/* Cuts each edge of the mesh of a file into `parts`, a power of two. */
+static bool refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                   char *sentence)
+{
+    enum { MOST_TRIANGLES = 5000000 };
+    struct gm_triangulation_fault fault;
+    if ((parts & (parts - 1)) != 0) {
+        return gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
+    }
+    if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
+        return gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
+                         MOST_TRIANGLES, mesh->complex->triangles, path);
+    }
+    for (; parts > 1; parts /= 2) {
+        if (!gm_triangulation_halve(mesh, star, &fault)) {
+            explain(path, &fault, sentence);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Returns true if the mesh is the room's rectangle, with no file named instead. */
+static bool has_rectangle(const struct gm_flows *flows)
+{
+    return flows->room->room.rectangular && strcmp(flows->mesh, "none") == 0;
+}
+
+/* Reads or makes the mesh of a lane; without a room, as it is in its file. On failure returns false with a
+   sentence that names the line or triangle. */
+static bool open_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
+                      char *sentence)
+{
+    const struct gm_user_room *user_room = flows->room;
+    const enum gm_star star = (enum gm_star)flows->star;
+    *mesh = (struct gm_triangulation){0};
+    if (room && has_rectangle(flows)) {
+        struct gm_rectangle rectangle = room->rectangle;
+        mesh->complex = lay_rectangle(&rectangle, sentence);
+        return mesh->complex != NULL;
+    }
+    const char *path = user_room->room.rectangular ? flows->mesh : user_room->mesh;
+    if (!read_file(path, user_room->inside, star, mesh, sentence)) {
+        return false;
+    }
+    const bool good = !room || flows->refine < 2 || refine(path, star, flows->refine, mesh, sentence);
+    if (!good) {
+        gm_triangulation_close(mesh);
+    }
+    return good;
+}
 
 /* The observables of an opening, a probe, a wall and a hole. */
 enum local { FLOW, SCALAR_FLOW, SCALAR, SPEED, PRESSURE, TEMPERATURE, HEAT, DRAG, LIFT, CIRCULATION, LOCALS };
@@ -159,7 +271,7 @@ static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *r
     snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon ? colon - text : GM_TEXT_SIZE),
              colon || !gm_flows_outlets[i] ? text : "outlet");
     const bool names = gm_room_parameter(room, "inlet");
-    if (gm_flows_has_rectangle(chosen) && names &&
+    if (has_rectangle(chosen) && names &&
         (strcmp(group, "outlet") != 0 || strcmp(chosen->inlet, "inlet") != 0)) {
         return gm_refuse(
             sentence,
@@ -176,15 +288,15 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     struct gm_triangulation mesh;
     struct gm_fault fault;
     const long edges = room->rectangle.edges, multiple = room->multiple;
-    room->from_file = room->rectangular && !gm_flows_has_rectangle(chosen);
-    if (gm_flows_has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
+    room->from_file = room->rectangular && !has_rectangle(chosen);
+    if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
         gm_refuse(
             sentence,
             "%s=%ld: the lips of inlet and outlet are vertices only if %s is a multiple of %ld; the nearest is %ld",
             room->edges, edges, room->edges, multiple, multiple * ((edges + multiple / 2) / multiple));
         return NULL;
     }
-    if (!gm_flows_mesh(chosen, room, &mesh, sentence)) {
+    if (!open_mesh(chosen, room, &mesh, sentence)) {
         return NULL;
     }
     struct gm_flow *flow = gm_room_flow(room, &mesh, &fault);
@@ -355,8 +467,8 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 static bool readable(const void *parameters, char *sentence)
 {
     struct gm_triangulation mesh;
-    const bool good = gm_flows_has_rectangle(parameters) || gm_flows_mesh(parameters, NULL, &mesh, sentence);
-    if (good && !gm_flows_has_rectangle(parameters)) {
+    const bool good = has_rectangle(parameters) || open_mesh(parameters, NULL, &mesh, sentence);
+    if (good && !has_rectangle(parameters)) {
         gm_triangulation_close(&mesh);
     }
     return good;
@@ -614,7 +726,7 @@ static void make(struct gm_arena *arena, void *data)
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
         gm_arena_keep(arena, mesh, close_mesh);
-        if (!gm_flows_mesh(&user_room->initial, NULL, mesh, sentence)) {
+        if (!open_mesh(&user_room->initial, NULL, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }
     }
