@@ -16,42 +16,37 @@
 #include "render/files/regular_file.h"
 #include "scenes/common/written.h"
 
-static void explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
+/* Writes what is wrong with a mesh. Returns false. */
+static bool explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
     char text[GM_TRIANGULATION_SENTENCE];
-    gm_refuse(sentence, "%s", gm_triangulation_explain(name, fault, text));
+    return gm_refuse(sentence, "%s", gm_triangulation_explain(name, fault, text));
 }
 
-/* Returns the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence on failure. */
-static struct gm_complex *lay_rectangle(struct gm_rectangle *rectangle, char *sentence)
+/* Makes the mesh of a rectangle; `strips` 0: the best number. Returns false with a sentence on failure. */
+static bool lay_rectangle(struct gm_rectangle rectangle, struct gm_triangulation *mesh, char *sentence)
 {
     enum { MOST = 10000000 };
     const long best =
-        gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
-    rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
-    if ((double)rectangle->edges * (double)rectangle->strips > MOST) {
-        gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle->edges,
-                  rectangle->strips, 2 * MOST);
-        return NULL;
+        gm_rectangle_strips(rectangle.width, rectangle.height, rectangle.edges, rectangle.transposed);
+    rectangle.strips = rectangle.strips == 0 ? best : rectangle.strips;
+    if ((double)rectangle.edges * (double)rectangle.strips > MOST) {
+        return gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle.edges,
+                         rectangle.strips, 2 * MOST);
     }
-    if (rectangle->strips % 2 != 0) {
-        gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
-        return NULL;
+    if (rectangle.strips % 2 != 0) {
+        return gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
     }
-    if (!gm_rectangle_is_acute(rectangle)) {
-        gm_refuse(
+    if (!gm_rectangle_is_acute(&rectangle)) {
+        return gm_refuse(
             sentence,
             "%ld edges and %ld strips do not make acute triangles: the height of a strip must lie between half an "
             "edge and an edge; %ld strips are best",
-            rectangle->edges, rectangle->strips, best);
-        return NULL;
+            rectangle.edges, rectangle.strips, best);
     }
     struct gm_triangulation_fault fault;
-    struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
-    if (!complex) {
-        explain("the mesh", &fault, sentence);
-    }
-    return complex;
+    mesh->complex = gm_rectangle_open(&rectangle, &fault);
+    return mesh->complex || explain("the mesh", &fault, sentence);
 }
 
 /* Reads the mesh of a file, or a built-in one if `inside` is not NULL. */
@@ -69,10 +64,7 @@ static bool read_file(const char *path, const struct gm_built_in *inside, enum g
     const bool good = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
                                             star, mesh, &fault);
     free(text);
-    if (!good) {
-        explain(path, &fault, sentence);
-    }
-    return good;
+    return good || explain(path, &fault, sentence);
 }
 
 /* Cuts each edge of the mesh of a file into `parts`, a power of two. */
@@ -90,8 +82,7 @@ static bool refine(const char *path, enum gm_star star, long parts, struct gm_tr
     }
     for (; parts > 1; parts /= 2) {
         if (!gm_triangulation_halve(mesh, star, &fault)) {
-            explain(path, &fault, sentence);
-            return false;
+            return explain(path, &fault, sentence);
         }
     }
     return true;
@@ -112,9 +103,7 @@ static bool open_mesh(const struct gm_flows *flows, const struct gm_room *room, 
     const enum gm_star star = (enum gm_star)flows->star;
     *mesh = (struct gm_triangulation){0};
     if (room && has_rectangle(flows)) {
-        struct gm_rectangle rectangle = room->rectangle;
-        mesh->complex = lay_rectangle(&rectangle, sentence);
-        return mesh->complex != NULL;
+        return lay_rectangle(room->rectangle, mesh, sentence);
     }
     const char *path = user_room->room.rectangular ? flows->mesh : user_room->mesh;
     if (!read_file(path, user_room->inside, star, mesh, sentence)) {
