@@ -157,46 +157,39 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     panel->axes = true;
     panel->x = (struct gm_axis){.label = "mean edge length", .scale = GM_LOG, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "relative error", .scale = GM_LOG, .low = 1, .high = 0};
-    double *points = gm_picture_memory(picture, 2 * (count + 1) * sizeof *points);
-    for (int drawn = 0; points && drawn < 2; drawn++) {
-        for (size_t k = 0; k < GM_COUNT(errors); k++) {
-            if (gm_scene_observable(lanes[0]->scene, errors[k].observable) < 0) {
-                continue;
+    double *points[GM_COUNT(errors)];
+    size_t made[GM_COUNT(errors)] = {0};
+    for (size_t k = 0; k < GM_COUNT(errors); k++) {
+        const int series = gm_scene_observable(lanes[0]->scene, errors[k].observable);
+        points[k] = gm_picture_memory(picture, 2 * count * sizeof *points[k]);
+        for (size_t i = 0; series >= 0 && points[k] && i < count; i++) {
+            const double x = flow_of(lanes[i])->complex->mean_edge,
+                         e = gm_lane_observe(lanes[i], (size_t)series);
+            if (e > 0) {
+                points[k][2 * made[k]] = x;
+                points[k][2 * made[k]++ + 1] = e;
+                gm_range_add(&panel->x.low, &panel->x.high, x);
+                gm_range_add(&panel->y.low, &panel->y.high, e);
             }
-            const int series = gm_asked_series(picture, lanes[0]->scene, errors[k].observable);
-            size_t made = 0;
-            for (size_t i = 0; series >= 0 && i < count; i++) {
-                const double x = gm_flow_of(&lanes[i]->problem)->complex->mean_edge,
-                             e = gm_lane_observe(lanes[i], (size_t)series);
-                if (!(e > 0)) {
-                    continue;
-                }
-                points[2 * made] = x;
-                points[2 * made++ + 1] = e;
-                if (!drawn) {
-                    gm_range_add(&panel->x.low, &panel->x.high, x);
-                    gm_range_add(&panel->y.low, &panel->y.high, e);
-                }
-            }
-            if (!drawn || made == 0) {
-                continue;
-            }
-            const struct gm_style style = {gm_lane_role(k), 1, 2, gm_lane_dash(k)};
-            gm_mark_line(picture, panel, style, points, made, false);
-            gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
-                           points, made);
-            const double *first = points, *last = points + 2 * (made - 1);
-            const double slope = made > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
-            const char *name =
-                made > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
-            gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
-                         first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
         }
-        if (!drawn) {
-            gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
-            panel->x.low *= 0.8;
-            panel->x.high *= 2.6; /* space for the names on the right */
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
+    panel->x.low *= 0.8;
+    panel->x.high *= 2.6; /* space for the names on the right */
+    for (size_t k = 0; k < GM_COUNT(errors); k++) {
+        if (made[k] == 0) {
+            continue;
         }
+        const struct gm_style style = {gm_lane_role(k), 1, 2, gm_lane_dash(k)};
+        gm_mark_line(picture, panel, style, points[k], made[k], false);
+        gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
+                       points[k], made[k]);
+        const double *first = points[k], *last = points[k] + 2 * (made[k] - 1);
+        const double slope = made[k] > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
+        const char *name =
+            made[k] > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
+        gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
+                     first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
     }
 }
 
