@@ -43,6 +43,7 @@ struct gm_flow_place {
 /* A piece of the boundary through which air enters or leaves. */
 struct gm_opening {
     size_t first, count; /* boundary edges, on from the first along its loop */
+    size_t end;          /* the edge behind the last */
     size_t side;         /* number of its side (core/flow/boundary.h) */
     bool inlet;
     double length, before, side_length; /* lengths: itself, its side's pieces before it, all of them */

@@ -324,13 +324,9 @@ static void find_outward(const struct gm_flow *flow, const struct gm_opening *op
                          double middle[2])
 {
     const struct gm_complex *complex = flow->complex;
-    size_t e = opening->first;
-    for (size_t k = 0; k < opening->count; k++) {
-        e = gm_complex_next(complex, e);
-    }
     /* outside is on the right of the opening's direction */
     const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
-                 *b = complex->point + 2 * complex->boundary_vertex[e];
+                 *b = complex->point + 2 * complex->boundary_vertex[opening->end];
     outward[0] = b[1] - a[1];
     outward[1] = a[0] - b[0];
     middle[0] = (a[0] + b[0]) / 2;
