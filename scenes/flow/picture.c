@@ -348,7 +348,7 @@ void gm_room_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
 {
     const struct gm_flows *flows = lanes[0]->parameters;
     const struct gm_room *room = gm_room_of(&lanes[0]->problem);
-    const bool profiles = has_profiles(room);
+    const bool profiles = has_profiles(&flows->room->room);
     struct gm_look look;
     picture->title = lanes[0]->scene->title;
     picture->subtitle = subtitle(picture, lanes, count);
