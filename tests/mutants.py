@@ -125,8 +125,7 @@ def chosen(count, seed, only):
 
 
 def folder_of(name):
-    return next(folder for folder in SEEN_BY if name.startswith(folder + "/")) if any(
-        name.startswith(folder + "/") for folder in SEEN_BY) else "core"
+    return next(folder for folder in SEEN_BY if name.startswith(folder + "/"))
 
 
 def change_of(place):
@@ -189,7 +188,7 @@ def judge(folder, number, place):
     environment = dict(os.environ, GM_MUTANT=str(number))
     for test in SEEN_BY[folder_of(place[0])].split("|"):
         ran = subprocess.run(["meson", "test", "-C", os.path.join(folder, "build"), "--no-rebuild", "--logbase", f"mutant{number}",
-                              "--num-processes", "1", *([test] if " " in test else test.split())], env=environment, capture_output=True, text=True)
+                              "--num-processes", "1", test], env=environment, capture_output=True, text=True)
         if ran.returncode != 0:
             return test
     return None

@@ -93,9 +93,9 @@ static enum gm_boundary_fault find_openings(const struct maker *maker)
         struct gm_opening *opening = &flow->opening[flow->openings++];
         *opening =
             (struct gm_opening){.side = side, .first = e, .inlet = maker->sides[side].kind == GM_EDGE_INLET};
-        for (size_t at = e; maker->side_of[at] == side && opening->count < complex->boundary;
-             at = gm_complex_next(complex, at)) {
-            opening->count++;
+        for (opening->end = e; maker->side_of[opening->end] == side && opening->count < complex->boundary;
+             opening->count++) {
+            opening->end = gm_complex_next(complex, opening->end);
         }
         if (opening->count == 1) {
             return GM_BOUNDARY_SHORT;
@@ -431,11 +431,8 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
         if (fabs(level) <= 1e-12 * through) {
             level = 0; /* all that entered has left, but for rounding */
         }
-        size_t e = opening->first;
-        for (size_t k = 0; k < opening->count; k++) {
-            e = gm_complex_next(complex, e);
-        }
-        for (; i + 1 < flow->openings && e != next->first; e = gm_complex_next(complex, e)) {
+        for (size_t e = opening->end; i + 1 < flow->openings && e != next->first;
+             e = gm_complex_next(complex, e)) {
             flow->psi[complex->boundary_vertex[e]] = level;
         }
     }

@@ -43,6 +43,7 @@ struct gm_flow_place {
 /* A piece of the boundary through which air enters or leaves. */
 struct gm_opening {
     size_t first, count; /* boundary edges, on from the first along its loop */
+    size_t end;          /* the edge behind the last */
     size_t side;         /* number of its side (core/flow/boundary.h) */
     bool inlet;
     double length, before, side_length; /* lengths: itself, its side's pieces before it, all of them */
@@ -148,21 +149,10 @@ struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
 /* Adds heat to a flow, nowhere held, everywhere at the reference temperature. */
 void gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
-/* States that a run may start from: psi for a vorticity, the given scalar, tracers strewn evenly. */
-
-/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. Returns false
-   when out of memory, or if the boundary leaves psi undetermined. */
-bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
-/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
-   omega less its mean on a closed surface. */
-bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
-
-/* The one of these that the flow has. */
-static inline bool gm_flow_start(const struct gm_flow *flow, double *y)
-{
-    return flow->vorticity ? gm_flow_start_vorticity(flow, flow->vorticity, y)
-                           : gm_flow_start_irrotational(flow, y);
-}
+/* A state that a run may start from: psi for this vorticity at the vertices, the given scalar, tracers strewn evenly.
+   K psi = star0 omega inside, omega less its mean on a closed surface; without a vorticity, NULL, K psi = 0, and
+   omega = 0 on soft outlets. Returns false when out of memory, or if the boundary leaves psi undetermined. */
+bool gm_flow_start(const struct gm_flow *flow, const double *omega, double *y);
 
 /* The flux through the dual of an edge. */
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
@@ -204,8 +194,8 @@ void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *p
 void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, int64_t step,
                       const double *y, double *out);
 
-/* Has the tracers of the start y wait outside, to come in one after the other. */
-void gm_tracers_wait(const struct gm_flow *flow, double *y);
+/* Strews the tracers of the start y evenly, or has them wait outside, to come in one after the other. */
+void gm_tracers_strew(const struct gm_flow *flow, double *y);
 
 /* Functionals of a state y. */
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);

@@ -17,6 +17,15 @@ double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y)
     return sum / 2;
 }
 
+static double total(const struct gm_flow *flow, const double *values)
+{
+    double sum = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->complex->star0[v] * values[v];
+    }
+    return sum;
+}
+
 double gm_flow_enstrophy(const struct gm_flow *flow, const double *y)
 {
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA);
@@ -30,12 +39,11 @@ double gm_flow_enstrophy(const struct gm_flow *flow, const double *y)
 double gm_flow_circulation_error(const struct gm_flow *flow, const double *y)
 {
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA);
-    double sum = 0, sizes = 0;
+    double sizes = 0;
     for (size_t v = 0; v < flow->complex->vertices; v++) {
-        sum += flow->complex->star0[v] * omega[v];
         sizes += flow->complex->star0[v] * fabs(omega[v]);
     }
-    return sizes > 0 ? fabs(sum) / sizes : 0;
+    return sizes > 0 ? fabs(total(flow, omega)) / sizes : 0;
 }
 
 double gm_flow_divergence(const struct gm_flow *flow, const double *y)
@@ -55,12 +63,7 @@ double gm_flow_divergence(const struct gm_flow *flow, const double *y)
 
 double gm_flow_scalar_total(const struct gm_flow *flow, const double *y)
 {
-    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
-    double sum = 0;
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        sum += flow->complex->star0[v] * theta[v];
-    }
-    return sum;
+    return total(flow, gm_flow_block(flow, y, GM_FLOW_THETA));
 }
 
 /* Row v of -d0' diag(F) A theta + kappa K theta, and q = d0' F there; `theta`: the scalar or temperature. */
@@ -156,15 +159,12 @@ double gm_flow_heated(const struct gm_flow *flow)
 
 double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y)
 {
-    double sum = 0;
-    for (size_t v = 0; flow->heat && v < flow->complex->vertices; v++) {
-        sum += flow->complex->star0[v] * gm_flow_block(flow, y, GM_FLOW_TEMPERATURE)[v];
-    }
-    return sum / flow->complex->total_area;
+    return flow->heat ? total(flow, gm_flow_block(flow, y, GM_FLOW_TEMPERATURE)) / flow->complex->total_area
+                      : 0;
 }
 
-/* P(left) - P(right) over an inner edge: the mean of omega on the flux, viscosity, and what accelerates U. */
-static double inertia_step(const struct gm_flow *flow, const double *y, size_t e)
+/* P(left) - P(right) over an inner edge: the mean of omega on the flux, viscosity, what accelerates U, and buoyancy. */
+static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
 {
     const struct gm_complex *complex = flow->complex;
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
@@ -172,20 +172,15 @@ static double inertia_step(const struct gm_flow *flow, const double *y, size_t e
     const int a = complex->edge[2 * e], b = complex->edge[2 * e + 1];
     const double dt = gm_flow_step(flow, y);
     const double flux = gm_flow_flux(complex, gm_flow_block(flow, y, GM_FLOW_PSI_HALF), e);
-    if (complex->star != GM_STAR_CIRCUMCENTRIC) {
+    double step = -flux * (omega[a] + omega[b]) / 2;
+    if (complex->star == GM_STAR_CIRCUMCENTRIC) {
+        const double rate = dt != 0 ? (y[b] - before[b] - (y[a] - before[a])) / dt : 0;
+        step += complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
+    } else {
         const double moved = gm_flow_star(complex, y, e) - gm_flow_star(complex, before, e);
-        return -flux * (omega[a] + omega[b]) / 2 + flow->viscosity * gm_flow_star(complex, omega, e) +
-               (dt != 0 ? moved / dt : 0);
+        step += flow->viscosity * gm_flow_star(complex, omega, e);
+        step += dt != 0 ? moved / dt : 0;
     }
-    const double rate = dt != 0 ? (y[b] - before[b] - (y[a] - before[a])) / dt : 0;
-    return -flux * (omega[a] + omega[b]) / 2 +
-           complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
-}
-
-/* The pressure step with buoyancy. */
-static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
-{
-    const double step = inertia_step(flow, y, e);
     return flow->heat ? step + gm_flow_lift(flow, gm_flow_block(flow, y, GM_FLOW_TEMPERATURE), e) : step;
 }
 

@@ -748,7 +748,6 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
                              .buoyancy = NAN,
                              .reference_temperature = NAN,
                              .outlet = GM_VERTEX_SOFT};
-    *fault = (struct gm_fault){0};
     const unsigned long refusals = gm_memory_refusals();
     struct gm_user_system *system = &room->system;
     gm_formula_open(&system->graph);
@@ -945,18 +944,6 @@ static bool is_rest(const struct gm_room *room, const struct gm_triangulation *m
     return strcmp(name, "all") == 0 && (room->rectangular || gm_triangulation_group(mesh, name) == 0);
 }
 
-/* The line `side:` of that name; NULL if it is missing. */
-static const struct gm_system_item *find_side(const struct gm_room *room, const char *name)
-{
-    const struct gm_system_item *side;
-    for (size_t i = 0; (side = gm_system_item_of(&room->system, GM_WORD_SIDE, i)); i++) {
-        if (strcmp(side->name, name) == 0) {
-            break;
-        }
-    }
-    return side;
-}
-
 /* The groups of a line, which the parameter of its name lists. */
 static const char *groups_of(const struct gm_room *room, const struct gm_room_line *line)
 {
@@ -1021,7 +1008,8 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
             name_groups(room, mesh, i, side_of);
             continue;
         }
-        const struct gm_system_item *side = all ? NULL : find_side(room, line->name);
+        const struct gm_system_item *side =
+            all ? NULL : gm_system_item_named(&room->system, GM_WORD_SIDE, line->name);
         bool met = all;
         for (size_t b = 0; b < complex->boundary && (all || side); b++) {
             double middle[4] = {0};
@@ -1031,11 +1019,9 @@ static void name_sides(const struct gm_room *room, const struct gm_triangulation
                 met = true;
             }
         }
-        if (!met) {
-            gm_system_refuse(&room->system, line->place,
-                             "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
-                             line->name, line->name);
-        }
+        gm_system_refuse_if(&room->system, !met, line->place,
+                            "no edge of the rectangle is called %.63s: it needs a line side: %.63s; x = 0",
+                            line->name, line->name);
     }
 }
 

@@ -111,7 +111,7 @@ static void close_flow(void *flow)
 /* Opens the solver of the flow that the data points to, and lets it point to the solver. */
 static void open_solver(struct gm_arena *arena, void *data)
 {
-    const struct gm_flow *flow = *(const struct gm_flow **)data;
+    const struct gm_flow *flow = *(const void **)data;
     struct gm_flow_solver *solver = gm_arena_take(arena, 1, sizeof *solver);
     solver->arena = arena;
     solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), close_flow) : NULL;
@@ -124,19 +124,21 @@ static void open_solver(struct gm_arena *arena, void *data)
     *(void **)data = solver;
 }
 
-struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
+void *gm_flow_solver_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const void *opened = flow;
+    (void)scheme;
+    const void *opened = gm_flow_of(problem);
     struct gm_arena *arena = gm_arena_open();
     if (!gm_arena_run(arena, open_solver, &opened)) {
         gm_arena_close(arena);
         return NULL;
     }
-    return (struct gm_flow_solver *)(uintptr_t)opened;
+    return (void *)(uintptr_t)opened;
 }
 
-void gm_flow_solver_close(struct gm_flow_solver *solver)
+void gm_flow_solver_close(void *workspace)
 {
+    struct gm_flow_solver *solver = workspace;
     if (solver) {
         gm_cholesky_close(solver->poisson);
         gm_cholesky_close(solver->stokes);

@@ -34,8 +34,9 @@ struct gm_flow_solver {
     double *gmres, *bicgstab;
 };
 
-struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow);
-void gm_flow_solver_close(struct gm_flow_solver *solver);
+/* Open and close the workspace of a family, a solver. */
+void *gm_flow_solver_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_flow_solver_close(void *workspace);
 
 /* Sets the boundary values to those at the time t. Returns false if they are not valid (struct gm_flow,
    give). */

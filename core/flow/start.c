@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The states that a run may start from, without and with vorticity, and where tracers begin. */
+/* The states that a run may start from, without and with vorticity. */
 
 #include <math.h>
 #include <string.h>
@@ -38,62 +38,32 @@ static void complete_start(const struct gm_flow *flow, double *y)
     for (int block = GM_FLOW_TEMPERATURE; flow->heat && block < GM_FLOW_MOST_BLOCKS; block++) {
         memcpy(y + (size_t)block * n, flow->temperature, n * sizeof *y);
     }
-    double *step = y + gm_flow_block_numbers(flow);
-    memset(step, 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
-    /* tracers are strewn evenly: the golden ratio's multiples over the triangles, by area */
-    const struct gm_complex *complex = flow->complex;
-    double *tracer = step + 1, before = 0;
-    size_t t = 0;
-    for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
-        const double at = ((double)i + 0.5) / (double)flow->tracers * complex->total_area;
-        while (t + 1 < complex->triangles && before + complex->area[t] < at) {
-            before += complex->area[t++];
-        }
-        double p[6];
-        gm_complex_corners(complex, t, p);
-        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)),
-                     s = fmod((double)i * 0.5698402909980532, 1);
-        const double w[3] = {1 - r, r * (1 - s), r * s};
-        tracer[GM_TRACER_X] = w[0] * p[0] + w[1] * p[2] + w[2] * p[4];
-        tracer[GM_TRACER_Y] = w[0] * p[1] + w[1] * p[3] + w[2] * p[5];
-        tracer[GM_TRACER_TRIANGLE] = (double)t;
-    }
-    if (flow->smoke && (flow->inflow.count > 1 || flow->smoking_count > 0)) {
-        gm_tracers_wait(flow, y);
-    }
+    memset(y + gm_flow_block_numbers(flow), 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
+    gm_tracers_strew(flow, y);
 }
 
-bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y)
-{
-    const size_t n = flow->complex->vertices;
-    memcpy(y, flow->psi, n * sizeof *y);
-    if (!gm_arena_run_once(solve, &(struct poisson){flow, NULL, y})) {
-        return false;
-    }
-    memset(y + GM_FLOW_OMEGA * n, 0, n * sizeof *y);
-    gm_flow_vorticity(flow, y, y + GM_FLOW_OMEGA * n);
-    complete_start(flow, y);
-    return true;
-}
-
-bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y)
+bool gm_flow_start(const struct gm_flow *flow, const double *omega, double *y)
 {
     const struct gm_complex *complex = flow->complex;
     const size_t n = complex->vertices;
     double *mine = y + GM_FLOW_OMEGA * n, *right = y + GM_FLOW_THETA * n;
     double sum = 0;
-    for (size_t v = 0; v < n; v++) {
+    for (size_t v = 0; omega && v < n; v++) {
         sum += complex->star0[v] * omega[v];
     }
-    for (size_t v = 0; v < n; v++) {
+    for (size_t v = 0; omega && v < n; v++) {
         mine[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0
                   : complex->boundary == 0        ? omega[v] - sum / complex->total_area
                                                   : omega[v];
         right[v] = complex->star0[v] * mine[v];
     }
     memcpy(y, flow->psi, n * sizeof *y);
-    if (!gm_arena_run_once(solve, &(struct poisson){flow, right, y})) {
+    if (!gm_arena_run_once(solve, &(struct poisson){flow, omega ? right : NULL, y})) {
         return false;
+    }
+    if (!omega) {
+        memset(mine, 0, n * sizeof *y);
+        gm_flow_vorticity(flow, y, mine);
     }
     complete_start(flow, y);
     return true;

@@ -126,17 +126,32 @@ static void enter(const struct gm_flow *flow, size_t tracer, int64_t step, struc
     locate(flow->complex, place, w); /* it comes near; the next step continues from there */
 }
 
-void gm_tracers_wait(const struct gm_flow *flow, double *y)
+/* They are strewn by the golden ratio's multiples over the triangles, by area. */
+void gm_tracers_strew(const struct gm_flow *flow, double *y)
 {
-    double *tracer = y + gm_flow_block_numbers(flow) + 1;
+    const struct gm_complex *complex = flow->complex;
+    const bool wait = flow->smoke && (flow->inflow.count > 1 || flow->smoking_count > 0);
+    double *tracer = y + gm_flow_block_numbers(flow) + 1, before = 0;
+    size_t t = 0;
     for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
-        struct gm_flow_place place = {{tracer[GM_TRACER_X], tracer[GM_TRACER_Y]},
-                                      (int)tracer[GM_TRACER_TRIANGLE]};
-        enter(flow, i, 0, &place);
+        const double at = ((double)i + 0.5) / (double)flow->tracers * complex->total_area;
+        while (t + 1 < complex->triangles && before + complex->area[t] < at) {
+            before += complex->area[t++];
+        }
+        double p[6];
+        gm_complex_corners(complex, t, p);
+        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)),
+                     s = fmod((double)i * 0.5698402909980532, 1);
+        const double w[3] = {1 - r, r * (1 - s), r * s};
+        struct gm_flow_place place = {
+            {w[0] * p[0] + w[1] * p[2] + w[2] * p[4], w[0] * p[1] + w[1] * p[3] + w[2] * p[5]}, (int)t};
+        if (wait) {
+            enter(flow, i, 0, &place);
+        }
         tracer[GM_TRACER_X] = place.x[0];
         tracer[GM_TRACER_Y] = place.x[1];
         tracer[GM_TRACER_TRIANGLE] = place.triangle;
-        tracer[GM_TRACER_AGE] = -1 - (double)i;
+        tracer[GM_TRACER_AGE] = wait ? -1 - (double)i : 0;
     }
 }
 

@@ -19,7 +19,7 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
     const size_t of_density = mesh->density && mesh->density->local ? 2 * (3 + GM_DENSITY_VALUES) : 0;
     const size_t count = GM_COUNT(arrays), length = mesh->points + 2,
                  of_cells = mesh->cell ? 2 * GM_CELL_INPUTS + 3 : 0;
-    *stage = (struct gm_elements){.count = mesh->points + 1, .alone = mesh->alone};
+    *stage = (struct gm_elements){.count = mesh->points + 1};
     stage->memory =
         calloc((count + 8 + GM_DENSITY_OF_SLOPE + of_density + of_cells) * length, sizeof *stage->memory);
     if (!stage->memory) {
@@ -55,12 +55,10 @@ void gm_elements_close(struct gm_elements *stage)
 void gm_elements_place(struct gm_elements *stage, const double *state)
 {
     const size_t points = stage->count - 1, size = points * sizeof(double);
-    memcpy(stage->x + 1, state + (stage->alone ? 0 : points), size);
-    memcpy(stage->v + 1, state + (stage->alone ? 1 : 3) * points, size);
-    if (!stage->alone) {
-        memcpy(stage->y + 1, state, size);
-        memcpy(stage->u + 1, state + 2 * points, size);
-    }
+    memcpy(stage->y + 1, state, size);
+    memcpy(stage->x + 1, state + points, size);
+    memcpy(stage->u + 1, state + 2 * points, size);
+    memcpy(stage->v + 1, state + 3 * points, size);
 }
 
 /* Geometry of the elements; the least width, NaN if one is NaN. */
@@ -146,6 +144,20 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
     }
     sum += mesh->cell ? add_cells(stage, mesh->cell) : 0;
     return isfinite(sum);
+}
+
+bool gm_elements_open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state)
+{
+    if (!gm_elements_open(stage, mesh)) {
+        return false;
+    }
+    if (mesh->alone) {
+        memcpy(stage->x + 1, state, mesh->points * sizeof *state);
+        memcpy(stage->v + 1, state + mesh->points, mesh->points * sizeof *state);
+    } else {
+        gm_elements_place(stage, state);
+    }
+    return gm_elements_evaluate(stage, mesh);
 }
 
 /* Evaluates the density, or what the homotopy has in its place. */

@@ -24,7 +24,6 @@
 
 struct gm_elements {
     size_t count; /* N + 1 */
-    bool alone;   /* states have no field (struct gm_mesh) */
     double *memory;
     double *y, *x, *u, *v; /* at the nodes, N + 2 each, ends included */
     /* at the elements */
@@ -55,6 +54,10 @@ void gm_elements_close(struct gm_elements *stage);
 
 /* Fills the nodes from a canonical state. */
 void gm_elements_place(struct gm_elements *stage, const double *state);
+
+/* Opens the elements of a problem's state, which nodes alone have half of, and evaluates them. Returns false if it
+   cannot; the caller closes them in both cases. */
+bool gm_elements_open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state);
 
 /* Sets the places and velocities of the nodes at time t on a mesh that is uniform or known; else nothing. */
 void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage);

@@ -91,15 +91,10 @@ struct gm_mesh {
     const struct gm_potential *potential;
 };
 
-/* The numbers of X and of dX/dt in a state. */
+/* The number of the first X in a state. */
 static inline size_t gm_mesh_place(const struct gm_mesh *mesh)
 {
     return mesh->alone ? 0 : mesh->points;
-}
-
-static inline size_t gm_mesh_rate(const struct gm_mesh *mesh)
-{
-    return (mesh->alone ? 1 : 3) * mesh->points;
 }
 
 /* A field and its rate of change in time: values, slopes and rates at `count` places x. */

@@ -89,16 +89,8 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
     for (size_t e = 0; e <= points; e++) {
         const double left = (slope ? stage->gradient[0][e] * slope[e] : 0) + stage->gradient[1][e];
         const double right = (slope ? stage->gradient[2][e] * slope[e + 1] : 0) + stage->gradient[3][e];
-        if (e > 0) {
-            gm_banded_add(matrix, e - 1, e - 1, left);
-        }
-        if (e > 0 && e < points) {
-            gm_banded_add(matrix, e - 1, e, right);
-            gm_banded_add(matrix, e, e - 1, -left);
-        }
-        if (e < points) {
-            gm_banded_add(matrix, e, e, -right);
-        }
+        const struct gm_assembly assembly = {matrix, points, 1, e};
+        gm_nodes_add_row(&assembly, 0, (struct gm_places){GM_NOWHERE, 0}, (double[]){0, left, 0, right});
     }
 }
 

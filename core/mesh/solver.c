@@ -86,14 +86,12 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
     bool good = gm_elements_open(&solver->ends, mesh);
     for (size_t i = 0; i < solver->stages; i++) {
         good = good && gm_elements_open(&solver->stage[i], mesh);
-        solver->stage[i].alone = false;
     }
     good = good && gm_banded_open(&solver->matrix, n, 2 * solver->per_node - 1) &&
            gm_banded_open(&solver->projection, moves * points, 2 * moves - 1) &&
            gm_banded_open(&solver->places, points, 1);
     double *next = calloc(3 * n + 10 * points + 1 + solver->stages * (3 * points + 1), sizeof *next);
     solver->unknowns = next;
-    solver->ends.alone = false; /* of whole states */
     if (!good || !next) {
         gm_mesh_workspace_close(solver);
         return NULL;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_interp.h>
+
 #include "core/linear/eigenvalues.h"
 #include "core/mesh/nodes.h"
 
@@ -14,7 +16,7 @@ enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
 struct bench {
     struct gm_elements stage;
     struct gm_banded matrix;
-    double *change;
+    double *change; /* 2 N + 2: N of its own, then the last good mesh */
 };
 
 static void bench_close(struct bench *bench)
@@ -26,7 +28,7 @@ static void bench_close(struct bench *bench)
 
 static bool bench_open(struct bench *bench, const struct gm_mesh *mesh)
 {
-    *bench = (struct bench){.change = calloc(mesh->points, sizeof(double))};
+    *bench = (struct bench){.change = calloc(2 * mesh->points + 2, sizeof(double))};
     if (!gm_elements_open(&bench->stage, mesh) || !gm_banded_open(&bench->matrix, mesh->points, 1) ||
         !bench->change) {
         bench_close(bench);
@@ -56,12 +58,8 @@ void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t,
 static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                         const void *context)
 {
-    double *x = bench->stage.x;
+    double *x = bench->stage.x, *good = bench->change + mesh->points;
     const size_t size = (mesh->points + 2) * sizeof *x;
-    double *good = malloc(size);
-    if (!good) {
-        return false;
-    }
     even(mesh, x);
     memcpy(good, x, size);
     double reached = 0, step = 1. / CONTINUATION;
@@ -77,7 +75,6 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
             memcpy(x, good, size);
         }
     }
-    free(good);
     return reached >= 1;
 }
 
@@ -109,7 +106,7 @@ static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_prof
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state)
 {
-    const size_t points = mesh->points, place = gm_mesh_place(mesh), rate = gm_mesh_rate(mesh);
+    const size_t points = mesh->points, place = gm_mesh_place(mesh), rate = (mesh->alone ? 1 : 3) * points;
     const bool drifts = kind == GM_MESH_FREE && mesh->drift;
     struct bench bench;
     if (!bench_open(&bench, mesh)) {
@@ -153,15 +150,7 @@ static void field_at(const void *context, const double *x, size_t count, double 
 {
     const struct field *field = context;
     for (size_t i = 0; i < count; i++) {
-        size_t low = 0, high = field->count - 1;
-        while (high - low > 1) {
-            const size_t middle = (low + high) / 2;
-            if (field->x[middle] <= x[i]) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        const size_t low = gsl_interp_bsearch(field->x, x[i], 0, field->count - 1), high = low + 1;
         const double d = field->x[high] - field->x[low], s = (x[i] - field->x[low]) / d, r = 1 - s;
         const double leave = d * field->slope[low], arrive = d * field->slope[high];
         const double rise = field->y[high] - field->y[low];
@@ -235,20 +224,10 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
     return good;
 }
 
-/* Opens the elements of a state and evaluates them. False if it cannot; the caller closes them in both cases. */
-static bool open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state)
-{
-    if (!gm_elements_open(stage, mesh)) {
-        return false;
-    }
-    gm_elements_place(stage, state);
-    return gm_elements_evaluate(stage, mesh);
-}
-
 double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
     for (size_t e = 0; !isnan(sum) && e < stage.count; e++) {
         const double g = stage.slope[e];
         const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
@@ -267,7 +246,7 @@ double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
 double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double sum = open_at(&stage, mesh, state) ? 0 : NAN;
+    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
     for (size_t k = 1; !isnan(sum) && k <= mesh->points; k++) {
         sum += gm_momentum_v(&stage, k);
     }
@@ -278,7 +257,7 @@ double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
 double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double jump = open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
+    double jump = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
     if (!isnan(jump)) {
         gm_elements_constrain(&stage, mesh);
     }
@@ -293,7 +272,7 @@ double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state
 double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
 {
     struct gm_elements stage;
-    double least = open_at(&stage, mesh, state) ? INFINITY : NAN;
+    double least = gm_elements_open_at(&stage, mesh, state) ? INFINITY : NAN;
     for (size_t k = 1; !isnan(least) && k <= mesh->points; k++) {
         least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
     }
@@ -304,7 +283,7 @@ double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
 bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3])
 {
     struct gm_elements stage;
-    const bool good = open_at(&stage, mesh, state);
+    const bool good = gm_elements_open_at(&stage, mesh, state);
     memset(blocks, 0, mesh->points * sizeof *blocks);
     for (size_t i = 0; good && i < 2 * stage.count; i++) {
         const size_t e = i / 2, end = i % 2, node = e + end; /* 0 and N + 1 are held */
@@ -325,7 +304,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     const size_t points = mesh->points, n = 2 * points;
     struct gm_elements stage = {0};
     double *dense = points <= GM_DENSE_POINTS ? calloc(n * n + 2 * n, sizeof *dense) : NULL;
-    bool good = dense && open_at(&stage, mesh, state);
+    bool good = dense && gm_elements_open_at(&stage, mesh, state);
     for (size_t e = 0; good && e <= points; e++) {
         struct gm_element_matrices at;
         gm_elements_matrices(&stage, mesh, e, false, &at);

@@ -90,6 +90,17 @@ const struct gm_system_item *gm_system_item_of(const struct gm_user_system *syst
     return NULL;
 }
 
+const struct gm_system_item *gm_system_item_named(const struct gm_user_system *system,
+                                                  enum gm_system_word word, const char *name)
+{
+    const struct gm_system_item *item;
+    size_t i = 0;
+    do {
+        item = gm_system_item_of(system, word, i++);
+    } while (item && strcmp(item->name, name) != 0);
+    return item;
+}
+
 const struct gm_system_option *gm_system_option(const struct gm_system_item *item,
                                                 enum gm_system_option_word word)
 {

@@ -272,6 +272,9 @@ bool gm_system_place(struct gm_user_system *system, gm_node_id *nodes, size_t co
 /* Item number `number` of a word, or NULL. */
 const struct gm_system_item *gm_system_item_of(const struct gm_user_system *system, enum gm_system_word word,
                                                size_t number);
+/* The first item of a word with this name, or NULL. */
+const struct gm_system_item *gm_system_item_named(const struct gm_user_system *system,
+                                                  enum gm_system_word word, const char *name);
 
 /* The words that a line of few words may have, then NULL: space, boundary of a line, star, interior. */
 const char *const *gm_system_choices(enum gm_system_word word);

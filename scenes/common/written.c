@@ -76,13 +76,17 @@ void gm_written_timing(struct gm_arena *arena, const struct gm_user_system *syst
     set_timing(arena, system, GM_WORD_UNTIL, until, &rows[1]);
 }
 
-/* FNV-1a */
+uint32_t gm_written_sum(uint32_t sum, const void *bytes, size_t size)
+{
+    for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
+        sum = (sum ^ *at) * UINT32_C(16777619);
+    }
+    return sum;
+}
+
 const char *gm_written_mark(struct gm_arena *arena, const char *name, const char *text)
 {
-    uint32_t sum = UINT32_C(2166136261);
-    for (const char *at = text; *at; at++) {
-        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
-    }
+    const uint32_t sum = gm_written_sum(GM_SUM_OF_NOTHING, text, strlen(text));
     return gm_arena_print(arena, "%s:%08x", name, (unsigned)sum);
 }
 

@@ -7,6 +7,9 @@
 
 /* Common parts of scenes made from a user's text. */
 
+/* Continues a checksum (FNV-1a) with more bytes. */
+#define GM_SUM_OF_NOTHING UINT32_C(2166136261)
+uint32_t gm_written_sum(uint32_t sum, const void *bytes, size_t size);
 /* Returns the name with a checksum of the text, to distinguish equal names. */
 const char *gm_written_mark(struct gm_arena *arena, const char *name, const char *text);
 

@@ -1,11 +1,50 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Observables of flows: measures of their states, and errors against the exact solution that a room's file
+/* Observables of flows and their units: measures of their states, and errors against the exact solution that a room's file
    gives (NAN without one). */
 #include "scenes/flow/room_scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
+{
+    static const char *const raised[] = {"", "", "²", "³", "⁴"};
+    static const int order[3] = {2, 0, 1};
+    char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
+    for (int i = 0; i < 3; i++) {
+        const char *units = user_room->room.system.texts[GM_WORD_UNITS], *at = units ? units : "";
+        const int power = powers.of[order[i]];
+        for (int place = order[i]; place > 0 && *at; place--) {
+            at += strcspn(at, ", ");
+            at += strspn(at, ", ");
+        }
+        const int length = (int)strcspn(at, ", ");
+        if (power != 0 && (length == 0 || length > 12)) {
+            name[0] = '\0';
+            return name;
+        }
+        char *part = power > 0 ? above : below;
+        const size_t used = strlen(part);
+        if (power != 0) {
+            snprintf(part + used, sizeof above - used, "%s%.*s%s", used > 0 ? " " : "", length, at,
+                     raised[abs(power)]);
+        }
+    }
+    snprintf(name, GM_ROOM_UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
+    return name;
+}
+
+const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
+{
+    char unit[GM_ROOM_UNIT];
+    gm_room_unit(user_room, powers, unit);
+    const bool alone = !strpbrk(unit, "/ ");
+    snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
+             alone ? "" : ")");
+    return text;
+}
 
 static const struct gm_flow *flow_of(const struct gm_view *view)
 {
@@ -74,11 +113,13 @@ double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const dou
                                    : gm_room_value(room, line, key, place, key == GM_ROOM_SPEED_Y ? 0 : NAN);
 }
 
-/* |values - exact| / |exact| at the vertices in the norm sum star0 w^2 */
-static double vertex_error(const struct gm_view *view, enum gm_flow_block block, enum gm_room_key key)
+/* |values - exact| / |exact| at the vertices in the norm sum star0 w^2, of psi or the scalar by the observable's key */
+static double vertex_error(const struct gm_view *view)
 {
-    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
-    const double *values = gm_flow_block(gm_flow_of(view->problem), view->state, block);
+    const struct gm_complex *complex = flow_of(view)->complex;
+    const bool stream = strcmp(view->observable->key, "psi_error") == 0;
+    const enum gm_room_key key = stream ? GM_ROOM_STREAM_FUNCTION : GM_ROOM_SCALAR;
+    const double *values = gm_flow_block(flow_of(view), view->state, stream ? GM_FLOW_PSI : GM_FLOW_THETA);
     double error = 0, size = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         const double truth = gm_room_exact(view, key, complex->point + 2 * v), away = values[v] - truth;
@@ -86,16 +127,6 @@ static double vertex_error(const struct gm_view *view, enum gm_flow_block block,
         size += complex->star0[v] * truth * truth;
     }
     return sqrt(error / size);
-}
-
-static double psi_error(const struct gm_view *view)
-{
-    return vertex_error(view, GM_FLOW_PSI, GM_ROOM_STREAM_FUNCTION);
-}
-
-static double scalar_error(const struct gm_view *view)
-{
-    return vertex_error(view, GM_FLOW_THETA, GM_ROOM_SCALAR);
 }
 
 static double solution_error(const struct gm_view *view)
@@ -161,10 +192,11 @@ static double velocity_error(const struct gm_view *view)
     return sqrt(error / size);
 }
 
-/* Returns the error of the total pressure over the triangles whose dual vertex is further than `margin` from
-   the boundary of the rectangle; both pressures with mean 0 there. */
-static double pressure_error_within(const struct gm_view *view, double margin)
+/* Returns the error of the total pressure over the triangles, or over those whose dual vertex is further than 0.2 from
+   the boundary of the rectangle, by the observable's key; both pressures with mean 0 there. */
+static double pressure_error(const struct gm_view *view)
 {
+    const double margin = strcmp(view->observable->key, "pressure_error") == 0 ? -INFINITY : 0.2;
     const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
     const struct gm_rectangle *box = &gm_room_of(view->problem)->rectangle;
     double *pressure = malloc(3 * complex->triangles * sizeof *pressure);
@@ -194,16 +226,6 @@ static double pressure_error_within(const struct gm_view *view, double margin)
     return sqrt(error / size);
 }
 
-static double pressure_error(const struct gm_view *view)
-{
-    return pressure_error_within(view, -INFINITY);
-}
-
-static double pressure_error_middle(const struct gm_view *view)
-{
-    return pressure_error_within(view, 0.2);
-}
-
 /* Returns the mean of |u - exact|, or of |theta - exact|, at fifty points inside a profile: on the walls
    velocity and temperature are given, and a polynomial fitted to one side misses the flow. */
 static double profile_error(const struct gm_view *view)
@@ -212,13 +234,12 @@ static double profile_error(const struct gm_view *view)
     const char quantity = view->observable->key[0] == 'u' ? 'u' : 's';
     const double margin = 0.02;
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    const struct gm_room_profile *line =
-        user_room->subjects[view->observable - user_room->observables].profile;
+    const double *ends =
+        user_room->subjects[view->observable - user_room->observables].profile->options->numbers;
     double sum = 0;
     for (size_t i = 0; i < PLACES; i++) {
         const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),
-                     at[2] = {line->a[0] + s * (line->b[0] - line->a[0]),
-                              line->a[1] + s * (line->b[1] - line->a[1])};
+                     at[2] = {ends[0] + s * (ends[2] - ends[0]), ends[1] + s * (ends[3] - ends[1])};
         struct gm_sample sample = {0};
         gm_flow_sample(gm_flow_of(view->problem), view->state, at[0], at[1], &sample);
         sum += fabs(gm_room_quantity(&sample, quantity) - gm_room_exact(view, gm_room_key_of(quantity), at));
@@ -236,13 +257,13 @@ static const struct gm_observable errors_along[] = {
 /* Observables of flows; the last ones are observed of every room. */
 static const struct gm_room_row rows[] = {
     {.observable = GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ")},
-    {.observable = GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ")},
-    {.observable = GM_LOG_OBSERVABLE("theta_error", scalar_error, "relative error of θ")},
+    {.observable = GM_LOG_OBSERVABLE("psi_error", vertex_error, "relative error of ψ")},
+    {.observable = GM_LOG_OBSERVABLE("theta_error", vertex_error, "relative error of θ")},
     {.observable = GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux")},
     {.observable = GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity")},
     {.observable =
          GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure")},
-    {.observable = GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
+    {.observable = GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error,
                                      "relative error of the total pressure away from the walls")},
     {.observable = GM_OBSERVABLE("psi_min", psi_low, "least stream function")},
     {.observable = GM_OBSERVABLE("mean_edge", of_mesh, "mean edge")},

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of flows: a field of colours, streamlines as level lines of the stream function (the very paths of
-   the discrete velocity), tracers with short tails, the walls, and graphs. */
+/* Pictures of rooms: their fields, graphs over time, profiles, and errors over the mesh. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,184 +7,33 @@
 #include "scenes/common/graph.h"
 #include "scenes/flow/look.h"
 
-enum { SMOOTH = 4000 /* triangles */, MOST_BESIDE_GRAPHS = 4 };
+enum { MOST_BESIDE_GRAPHS = 4 };
 
 static const struct gm_flow *flow_of(const struct gm_lane *lane)
 {
     return gm_flow_of(&lane->problem);
 }
 
-/* Returns the field that is shown, at the vertices; may be NULL. */
-static const double *field_of(struct gm_picture *picture, const struct gm_lane *lane)
-{
-    const struct gm_flows *flows = lane->parameters;
-    const struct gm_flow *flow = flow_of(lane);
-    const struct gm_complex *complex = flow->complex;
-    const double *y = gm_run_state(lane->run);
-    const size_t n = complex->vertices;
-    if (flows->show == GM_SHOW_SCALAR) {
-        return gm_flow_block(flow, y, GM_FLOW_THETA);
-    }
-    if (flows->show == GM_SHOW_VORTICITY) {
-        return gm_flow_block(flow, y, GM_FLOW_OMEGA);
-    }
-    if (flows->show == GM_SHOW_TEMPERATURE) {
-        return flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL;
-    }
-    double *values = gm_picture_memory(picture, 3 * n * sizeof *values);
-    double *scratch = gm_picture_memory(picture, 3 * n * sizeof *scratch);
-    if (!values || !scratch) {
-        return NULL;
-    }
-    if (flows->show == GM_SHOW_SPEED) {
-        gm_flow_vertex_velocities(complex, y, scratch);
-        for (size_t v = 0; v < n; v++) {
-            values[v] = hypot(scratch[2 * v], scratch[2 * v + 1]);
-        }
-        return values;
-    }
-    double *pressure = gm_picture_memory(picture, complex->triangles * sizeof *pressure);
-    if (flows->show != GM_SHOW_PRESSURE || !pressure || !gm_flow_pressure(flow, y, pressure)) {
-        return NULL;
-    }
-    memset(values, 0, n * sizeof *values);
-    memset(scratch, 0, n * sizeof *scratch);
-    for (size_t k = 0; k < 3 * complex->triangles; k++) {
-        values[complex->triangle[k]] += complex->area[k / 3] * pressure[k / 3];
-        scratch[complex->triangle[k]] += complex->area[k / 3];
-    }
-    for (size_t v = 0; v < n; v++) {
-        values[v] /= scratch[v];
-    }
-    return values;
-}
+/* A real parameter in the subtitle, by its offset in struct gm_flows; if all lanes share it, else panels show it. */
+struct told {
+    const char *name, *unit;
+    size_t offset;
+    bool nonzero; /* it is left out if it is 0 */
+};
 
-/* Sets the ends of the colours, the same for all lanes. */
-static void colour_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         const struct gm_look *look, double *low, double *high)
+/* Returns "viscosity 0.01 m²/s,  ", or "". */
+static const char *tell(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        struct told told)
 {
-    const struct gm_flows *flows = lanes[0]->parameters;
-    *low = 0;
-    *high = flows->show == GM_SHOW_SPEED ? look->speed_high : look->scalar_high;
-    if (flows->show == GM_SHOW_TEMPERATURE) {
-        *low = look->temperature[0];
-        *high = look->temperature[1];
-    }
-    if (flows->show == GM_SHOW_VORTICITY) {
-        *high = look->vorticity_range;
-        *low = -*high;
-    }
-    if (flows->show == GM_SHOW_PRESSURE) {
-        double lowest = 1, highest = 0;
-        for (size_t i = 0; i < count; i++) {
-            const double *values = field_of(picture, lanes[i]);
-            for (size_t v = 0; values && v < flow_of(lanes[i])->complex->vertices; v++) {
-                gm_range_add(&lowest, &highest, values[v]);
-            }
-        }
-        gm_range_round(&lowest, &highest, GM_LINEAR);
-        *high = fmax(fabs(lowest), fabs(highest));
-        *low = -*high;
-    }
-}
-
-static const char *title_of(struct gm_picture *picture, const struct gm_lane *lane)
-{
-    const char *colour = lane->shown.colour_name, *panel = gm_lane_title(lane);
-    return colour[0] ? gm_picture_text(picture, "%s, %s", panel, colour) : panel;
-}
-
-static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_lane *lane,
-                                   const struct gm_look *look, double low, double high, bool titled,
-                                   bool named)
-{
-    const struct gm_flows *flows = lane->parameters;
-    const struct gm_flow *flow = flow_of(lane);
-    const struct gm_complex *complex = flow->complex;
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, titled ? title_of(picture, lane) : "");
-    double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (size_t v = 0; v < complex->vertices; v++) {
-        for (int c = 0; c < 2; c++) {
-            box[2 * c] = fmin(box[2 * c], complex->point[2 * v + (size_t)c]);
-            box[2 * c + 1] = fmax(box[2 * c + 1], complex->point[2 * v + (size_t)c]);
-        }
-    }
-    for (int c = 0; c < 2; c++) {
-        if (complex->period[c] > 0) {
-            box[2 * c] = 0;
-            box[2 * c + 1] = complex->period[c];
-        }
-    }
-    const double size = fmax(box[1] - box[0], box[3] - box[2]),
-                 edge = complex->boundary > 0 ? 0.006 * size : 0;
-    const double beside = flow->inflow.count > 0 && named && !look->sides ? 0.15 * size : edge;
-    /* names of openings are outside, and need their width in small pictures too */
-    double aside[2] = {beside, beside};
-    bool stands[2] = {false, false};
-    for (size_t i = 0; named && i < flow->openings; i++) {
-        double outward[2], middle[2];
-        gm_flow_opening_outward(flow, &flow->opening[i], outward, middle);
-        if (fabs(outward[0]) < fabs(outward[1])) {
-            stands[outward[1] > 0] = true;
-        } else if (look->sides) {
-            const double letters = (double)strlen(look->sides[flow->opening[i].side]);
-            double *room = &aside[outward[0] > 0];
-            *room = fmax(*room, fmin(0.04 * letters, 0.3) * size);
-        }
-    }
-    panel->x = (struct gm_axis){.label = "", .low = box[0] - aside[0], .high = box[1] + aside[1]};
-    panel->y = (struct gm_axis){.label = "",
-                                .low = box[2] - (stands[0] ? 0.06 * size : edge),
-                                .high = box[3] + (stands[1] ? 0.06 * size : edge)};
-    panel->equal = true;
-    panel->axes = look->axes[0] && named;
-    if (panel->axes) {
-        panel->x.label = look->axes[0];
-        panel->y.label = look->axes[1];
-    }
-    panel->note = gm_lane_failure(picture, lane);
-    const bool coloured = flows->show <= GM_SHOW_PRESSURE || flows->show == GM_SHOW_TEMPERATURE,
-               over = coloured && !gm_flow_is_signed(flows->show);
-    const double *field = coloured ? field_of(picture, lane) : NULL;
-    /* colours of fine meshes are smooth already, and four times the triangles cost three times the time */
-    const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
-    struct gm_flow_sheet sheet;
-    if (!gm_flow_sheet_make(picture, complex, gm_run_state(lane->run), plain ? NULL : field, &sheet)) {
-        return panel;
-    }
-    if (field) {
-        gm_mark_mesh(picture, panel, gm_flow_is_signed(flows->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
-                     low, high, plain ? complex->point : sheet.points, plain ? field : sheet.field,
-                     plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
-                     plain ? complex->triangles : sheet.count);
-        panel->colour_bar = true;
-        panel->colour_bar_label = look->names[flows->show];
-    }
-    if (flows->grid) {
-        gm_flow_draw_grid(picture, panel, complex, over);
-    }
-    if (flows->streamlines) {
-        gm_flow_draw_streamlines(picture, panel, lane, &sheet, look);
-    }
-    if (flows->arrows) {
-        gm_flow_draw_arrows(picture, panel, lane, over, look->speed_high);
-    }
-    gm_flow_draw_tracers(picture, panel, lane, over, size);
-    gm_flow_draw_walls(picture, panel, flow);
-    if (named) {
-        gm_flow_name_openings(picture, panel, flow, look->sides, size);
-    }
-    return panel;
-}
-
-static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t offset)
-{
-    bool common = true;
+    double value = 0;
+    memcpy(&value, (const char *)lanes[0]->parameters + told.offset, sizeof value);
+    bool shown = !(told.nonzero && value == 0);
     for (size_t i = 1; i < count; i++) {
-        common &= memcmp((const char *)lanes[0]->parameters + offset,
-                         (const char *)lanes[i]->parameters + offset, sizeof(double)) == 0;
+        shown &= memcmp(&value, (const char *)lanes[i]->parameters + told.offset, sizeof value) == 0;
     }
-    return common;
+    return shown ? gm_picture_text(picture, "%s %.6g%s%s,  ", told.name, value, told.unit[0] ? " " : "",
+                                   told.unit)
+                 : "";
 }
 
 /* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh from a file: its least entry. */
@@ -223,22 +71,66 @@ static const char *mesh_and_scheme(struct gm_picture *picture, const struct gm_l
     return one_scheme ? gm_picture_text(picture, "%s,  %s", mesh, lanes[0]->schemes) : mesh;
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                            const struct gm_look *look)
+/* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
+   the rest. */
+static bool take_brace(const char *text, struct gm_span *rest, struct gm_span *before, struct gm_span *key,
+                       bool *nonzero)
 {
-    const char *told = "";
-    for (size_t i = 0; i < GM_COUNT(look->told) && look->told[i].name; i++) {
-        const size_t offset = look->told[i].offset;
-        double value = 0;
-        memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
-        if (is_common(lanes, count, offset) && !(look->told[i].nonzero && value == 0)) {
-            const char *unit = look->told[i].unit ? look->told[i].unit : "";
-            told = gm_picture_text(picture, "%s%s %.6g%s%s,  ", told, look->told[i].name, value,
-                                   unit[0] ? " " : "", unit);
+    const size_t open = gm_span_until(text, *rest, "{"),
+                 close = gm_span_until(text, (struct gm_span){open, rest->end}, "}"),
+                 colon = gm_span_until(text, (struct gm_span){open, close}, ":");
+    *before = (struct gm_span){rest->begin, open};
+    *key = (struct gm_span){open < close ? open + 1 : open, colon};
+    *nonzero = colon < close;
+    rest->begin = close < rest->end ? close + 1 : close;
+    return open < close;
+}
+
+/* Returns a part of a room's text. */
+static const char *text_of(struct gm_picture *picture, const struct gm_room *room, struct gm_span span)
+{
+    return gm_picture_text(picture, "%.*s", (int)(span.end - span.begin), room->system.source + span.begin);
+}
+
+/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces; else what a room
+   is made of. */
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    enum { MOST_TOLD = 2 };
+    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
+    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
+    const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_SUBTITLE, 0);
+    const struct gm_read_line *line = gm_room_said(room, GM_WORD_SUBTITLE);
+    const char *told = "", *remark = "", *source = room->system.source;
+    char unit[GM_ROOM_UNIT];
+    if (!line && gm_scene_parameter(&user_room->scene, "viscosity")) {
+        gm_room_unit(user_room, (struct gm_powers){{2, -1, 0}}, unit);
+        told = tell(picture, lanes, count,
+                    (struct told){"viscosity", unit, offsetof(struct gm_flows, viscosity), false});
+        told = gm_picture_text(
+            picture, "%s%s", told,
+            tell(picture, lanes, count,
+                 (struct told){"Schmidt number", "", offsetof(struct gm_flows, schmidt), false}));
+    }
+    struct gm_span rest = line ? line->value : (struct gm_span){0, 0}, before, key;
+    for (size_t i = 0; rest.begin < rest.end; i++) {
+        bool nonzero;
+        const bool filled = take_brace(source, &rest, &before, &key, &nonzero);
+        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, text_of(picture, room, key));
+        if (i < MOST_TOLD && row && row->type == GM_REAL && !remark[0]) {
+            before.begin += strspn(source + before.begin, ", ");
+            const char *name = text_of(picture, room, gm_span_trimmed(source, before));
+            told =
+                gm_picture_text(picture, "%s%s", told,
+                                tell(picture, lanes, count, (struct told){name, "", row->offset, nonzero}));
+        } else {
+            remark = gm_picture_text(picture, "%s%s", remark, text_of(picture, room, before));
+            if (filled && item->nodes[i] != GM_NO_NODE) {
+                remark = gm_picture_text(picture, "%s%.4g", remark, gm_room_evaluate(room, item->nodes[i]));
+            }
         }
     }
-    return gm_picture_text(picture, "%s%s%s", told, mesh_and_scheme(picture, lanes, count),
-                           look->remark ? look->remark : "");
+    return gm_picture_text(picture, "%s%s%s", told, mesh_and_scheme(picture, lanes, count), remark);
 }
 
 /* Returns true if all lanes seek a steady state, which has no time. */
@@ -265,101 +157,208 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     panel->axes = true;
     panel->x = (struct gm_axis){.label = "mean edge length", .scale = GM_LOG, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "relative error", .scale = GM_LOG, .low = 1, .high = 0};
-    double *points = gm_picture_memory(picture, 2 * (count + 1) * sizeof *points);
-    for (int drawn = 0; points && drawn < 2; drawn++) {
-        for (size_t k = 0; k < GM_COUNT(errors); k++) {
-            if (gm_scene_observable(lanes[0]->scene, errors[k].observable) < 0) {
-                continue;
+    double *points[GM_COUNT(errors)];
+    size_t made[GM_COUNT(errors)] = {0};
+    for (size_t k = 0; k < GM_COUNT(errors); k++) {
+        const int series = gm_scene_observable(lanes[0]->scene, errors[k].observable);
+        points[k] = gm_picture_memory(picture, 2 * count * sizeof *points[k]);
+        for (size_t i = 0; series >= 0 && points[k] && i < count; i++) {
+            const double x = flow_of(lanes[i])->complex->mean_edge,
+                         e = gm_lane_observe(lanes[i], (size_t)series);
+            if (e > 0) {
+                points[k][2 * made[k]] = x;
+                points[k][2 * made[k]++ + 1] = e;
+                gm_range_add(&panel->x.low, &panel->x.high, x);
+                gm_range_add(&panel->y.low, &panel->y.high, e);
             }
-            const int series = gm_asked_series(picture, lanes[0]->scene, errors[k].observable);
-            size_t made = 0;
-            for (size_t i = 0; series >= 0 && i < count; i++) {
-                const double x = gm_flow_of(&lanes[i]->problem)->complex->mean_edge,
-                             e = gm_lane_observe(lanes[i], (size_t)series);
-                if (!(e > 0)) {
-                    continue;
-                }
-                points[2 * made] = x;
-                points[2 * made++ + 1] = e;
-                if (!drawn) {
-                    gm_range_add(&panel->x.low, &panel->x.high, x);
-                    gm_range_add(&panel->y.low, &panel->y.high, e);
-                }
-            }
-            if (!drawn || made == 0) {
-                continue;
-            }
-            const struct gm_style style = {gm_lane_role(k), 1, 2, gm_lane_dash(k)};
-            gm_mark_line(picture, panel, style, points, made, false);
-            gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
-                           points, made);
-            const double *first = points, *last = points + 2 * (made - 1);
-            const double slope = made > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
-            const char *name =
-                made > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
-            gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
-                         first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
         }
-        if (!drawn) {
-            gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
-            panel->x.low *= 0.8;
-            panel->x.high *= 2.6; /* space for the names on the right */
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
+    panel->x.low *= 0.8;
+    panel->x.high *= 2.6; /* space for the names on the right */
+    for (size_t k = 0; k < GM_COUNT(errors); k++) {
+        if (made[k] == 0) {
+            continue;
         }
+        const struct gm_style style = {gm_lane_role(k), 1, 2, gm_lane_dash(k)};
+        gm_mark_line(picture, panel, style, points[k], made[k], false);
+        gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
+                       points[k], made[k]);
+        const double *first = points[k], *last = points[k] + 2 * (made[k] - 1);
+        const double slope = made[k] > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
+        const char *name =
+            made[k] > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
+        gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
+                     first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
     }
 }
 
-static bool is_logarithmic(const struct gm_scene *scene, const char *key)
+/* The unit of the clock: the first word after the formula of a line time:, or else the room's unit of time. */
+static const char *clock_unit(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const int observable = gm_scene_observable(scene, key);
-    return observable >= 0 && scene->observables[observable].logarithmic;
+    const struct gm_user_system *system = &gm_room_of(&lane->problem)->system;
+    const char *text = system->texts[GM_WORD_TIME];
+    char unit[GM_ROOM_UNIT];
+    if (!text) {
+        gm_room_unit(gm_user_room_of(lane->parameters), (struct gm_powers){{0, 1, 0}}, unit);
+        return gm_picture_text(picture, "%s", unit);
+    }
+    return gm_picture_text(picture, "%.*s",
+                           gm_system_item_of(system, GM_WORD_TIME, 0) ? (int)strcspn(text, ", ") : 0, text);
 }
 
-static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                        const struct gm_look *look)
+/* Chooses graph number i: of the file's lines graph:, or else what is usual. Returns false without it. */
+static bool choose_graph(struct gm_picture *picture, const struct gm_lane *lane, size_t i,
+                         struct gm_graph *graph)
+{
+    const struct gm_room *room = gm_room_of(&lane->problem);
+    const struct gm_user_room *user_room = gm_user_room_of(lane->parameters);
+    const struct gm_scene *scene = lane->scene;
+    if (gm_room_said(room, GM_WORD_GRAPH)) {
+        const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_GRAPH, i);
+        graph->observable = item ? gm_picture_text(picture, "%s", item->name) : "";
+        graph->calm_low = item && item->count > 0 ? gm_room_evaluate(room, item->nodes[0]) : 0;
+        graph->calm_high = item && item->count > 0 ? gm_room_evaluate(room, item->nodes[1]) : 0;
+        if (!item || (item->count > 0 && !(graph->calm_low < graph->calm_high))) {
+            return false;
+        }
+    } else {
+        const bool heat = flow_of(lane)->heat, named = user_room->room.system.texts[GM_WORD_SCALAR];
+        const char *const usual[] = {heat    ? "temperature_mean"
+                                     : named ? "scalar_mean"
+                                             : "scalar_total",
+                                     heat ? "kinetic_energy" : "scalar_outflow"};
+        graph->observable = !heat && user_room->forces[i] ? user_room->forces[i] : usual[i];
+    }
+    const int observable = gm_scene_observable(scene, graph->observable);
+    graph->scale = observable >= 0 && scene->observables[observable].logarithmic ? GM_LOG : GM_LINEAR;
+    return observable >= 0;
+}
+
+static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     /* a steady state has no time: its corrections are counted */
     const bool steady = is_steady(lanes, count);
-    const char *unit =
-        strchr(look->clock_unit, '/') ? gm_picture_text(picture, "(%s)", look->clock_unit) : look->clock_unit;
-    const char *time = unit[0] ? gm_picture_text(picture, "t / %s", unit) : "t";
-    for (size_t i = 0; i < 2 && look->graphs[i]; i++) {
-        const struct gm_graph graph = {
-            .observable = look->graphs[i],
-            .scale = is_logarithmic(lanes[0]->scene, look->graphs[i]) ? GM_LOG : GM_LINEAR,
-            .calm_low = look->graph_low[i],
-            .calm_high = look->graph_high[i],
-            .time_label = steady ? "corrections" : time,
-            .time_unit = steady ? fabs(lanes[0]->run->dt) : 0,
-        };
+    const char *plain = clock_unit(picture, lanes[0]),
+               *unit = strchr(plain, '/') ? gm_picture_text(picture, "(%s)", plain) : plain;
+    struct gm_graph graph = {
+        .time_label = steady    ? "corrections"
+                      : unit[0] ? gm_picture_text(picture, "t / %s", unit)
+                                : "t",
+        .time_unit = steady ? fabs(lanes[0]->run->dt) : 0,
+    };
+    for (size_t i = 0; i < 2 && choose_graph(picture, lanes[0], i, &graph); i++) {
         gm_draw_graphs(picture, lanes, count, &graph, 1);
     }
 }
 
 /* Draws the clock, except for steady states, which have no time. */
-static void draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                       const struct gm_look *look)
+static void draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
+    const char *unit = clock_unit(picture, lanes[0]);
     gm_draw_clock(picture, lanes, count);
     if (is_steady(lanes, count)) {
         picture->clock = "";
-    } else if (look->clock_unit[0]) {
-        picture->clock = gm_picture_text(picture, "%s %s", picture->clock, look->clock_unit);
+    } else if (unit[0]) {
+        picture->clock = gm_picture_text(picture, "%s %s", picture->clock, unit);
     }
 }
 
-void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                   const struct gm_look *look)
+/* Returns about the largest scalar that sources produce: twice its value in the air that leaves. */
+static double enriched(const struct gm_flow *flow)
+{
+    double sum = 0, through = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->source[v];
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
+    }
+    return through > 0 ? 2 * sum / through : 0;
+}
+
+/* Sets what the field of lane 0 and those beside it look like: by its flow, and by lines of its file. */
+static void choose_look(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        struct gm_look *look)
+{
+    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
+    const struct gm_flow *flow = flow_of(lanes[0]);
+    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
+    static const struct {
+        int show;
+        const char *name;
+        struct gm_powers powers;
+    } shown[] = {{GM_SHOW_VORTICITY, "vorticity ω", {{0, -1, 0}}},
+                 {GM_SHOW_SPEED, "speed |u|", {{1, -1, 0}}},
+                 {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
+                 {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
+    char unit[GM_ROOM_UNIT + 8];
+    const double *range = flow->temperature_range,
+                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
+    const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
+    double high = 0;
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_flow *other = flow_of(lanes[k]);
+        high = fmax(high, fmax(other->theta_high, enriched(other)));
+    }
+    /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
+    const double size = sqrt(flow->complex->total_area),
+                 speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
+    const bool named = !room->rectangular;
+    const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
+    for (size_t i = 0; sides && i < room->count; i++) {
+        sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
+    }
+    const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_LEVELS, 0);
+    *look = (struct gm_look){
+        .sides = sides,
+        .scalar_high = high > 0 ? high : 1,
+        .temperature = {warm[0], warm[1]},
+        .names = {[GM_SHOW_SCALAR] = scalar ? scalar : "concentration θ"},
+        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
+        .speed_high = 1.2 * speed,
+        .levels = item ? item->options->numbers : NULL,
+        .level_count = item ? item->options->count : 0,
+    };
+    for (size_t c = 0; c < 2 && (named || user_room->room.system.texts[GM_WORD_UNITS]); c++) {
+        gm_room_beside_unit(user_room, (struct gm_powers){{1, 0, 0}}, unit);
+        look->axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], unit);
+    }
+    for (size_t i = 0; i < GM_COUNT(shown); i++) {
+        gm_room_beside_unit(user_room, shown[i].powers, unit);
+        look->names[shown[i].show] = gm_picture_text(picture, "%s%s", shown[i].name, unit);
+    }
+    for (size_t i = 0; (item = gm_system_item_of(&room->system, GM_WORD_COLOURS, i)); i++) {
+        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
+    }
+}
+
+/* Returns true if the room has profiles of a quantity. */
+static bool has_profiles(const struct gm_room *room)
+{
+    const struct gm_system_item *item;
+    bool drawn = false;
+    for (size_t i = 0; (item = gm_system_item_of(&room->system, GM_WORD_PROFILE, i)); i++) {
+        drawn |= item->words[0] != 0;
+    }
+    return drawn;
+}
+
+void gm_room_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_flows *flows = lanes[0]->parameters;
+    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
+    const bool profiles = has_profiles(&flows->room->room);
+    struct gm_look look;
     picture->title = lanes[0]->scene->title;
-    picture->subtitle = subtitle(picture, lanes, count, look);
+    picture->subtitle = subtitle(picture, lanes, count);
     picture->graphs_below = true;
-    draw_clock(picture, lanes, count, look);
-    if (flows->show == GM_SHOW_CONVERGENCE && gm_room_line(gm_room_of(&lanes[0]->problem), GM_ROOM_EXACT)) {
+    draw_clock(picture, lanes, count);
+    if (flows->show == GM_SHOW_CONVERGENCE && gm_room_line(room, GM_ROOM_EXACT)) {
         draw_convergence(picture, lanes, count);
         return;
     }
-    if (flows->show == GM_SHOW_PROFILES && look->profiles) {
+    if (flows->show == GM_SHOW_PROFILES && profiles) {
         gm_room_draw_profiles(lanes, count, picture, GM_PLACE_STATE);
         return;
     }
@@ -372,17 +371,12 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
         gm_draw_graphs(picture, lanes, count, &graph, 1);
         return;
     }
-    double low = 0, high = 1;
-    colour_range(picture, lanes, count, look, &low, &high);
     const bool graphs = count <= MOST_BESIDE_GRAPHS && flows->show != GM_SHOW_NONE;
-    for (size_t i = 0; i < count; i++) {
-        struct gm_panel *panel = draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
-        panel->title_role = graphs ? gm_lane_role(lanes[i]->shown.colour) : GM_INK;
-        panel->colour_bar &= i + 1 == count; /* all panels have the same colours */
-    }
-    if (graphs && look->graphs[0]) {
-        draw_graphs(picture, lanes, count, look);
-    } else if (graphs && look->profiles_below) {
+    choose_look(picture, lanes, count, &look);
+    gm_flow_draw_fields(picture, lanes, count, &look, graphs);
+    if (graphs && profiles && room->rectangular && !gm_room_said(room, GM_WORD_GRAPH)) {
         gm_room_draw_profiles(lanes, count, picture, GM_PLACE_GRAPH);
+    } else if (graphs) {
+        draw_graphs(picture, lanes, count);
     }
 }

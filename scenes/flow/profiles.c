@@ -8,38 +8,46 @@
 #include "scenes/common/graph.h"
 
 /* Returns true if published points hold for a lane's parameters. */
-static bool holds(const struct gm_room_table *table, const struct gm_flows *flows)
+static bool holds(const struct gm_system_item *table, const struct gm_flows *flows)
 {
-    return strcmp(flows->mesh, "none") == 0 && gm_parameter_get(table->row, flows) == table->item->value;
+    const struct gm_parameter *row = gm_scene_parameter(&flows->room->scene, table->text);
+    return strcmp(flows->mesh, "none") == 0 && gm_parameter_get(row, flows) == table->value;
 }
 
-/* Returns the coordinate that runs along a profile: 0, or 1 if it is steeper. */
-static int along(const struct gm_room_profile *profile)
+/* Returns the coordinate that runs along a profile from end to end: 0, or 1 if it is steeper. */
+static int along(const double ends[4])
 {
-    return fabs(profile->b[1] - profile->a[1]) >= fabs(profile->b[0] - profile->a[0]);
+    return fabs(ends[3] - ends[1]) >= fabs(ends[2] - ends[0]);
+}
+
+/* Returns the number of points of a table, each with its position and value. */
+static size_t points_of(const struct gm_system_item *table)
+{
+    return table->options ? table->options->count / 2 : 0;
 }
 
 static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         enum gm_place place, const struct gm_room_profile *profile, char quantity)
+                         enum gm_place place, const struct gm_system_item *profile, char quantity)
 {
     enum { POINTS = 97 };
-    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
-    const int up = along(profile);
+    const struct gm_user_system *system = &gm_user_room_of(lanes[0]->parameters)->room.system;
+    const double *ends = profile->options->numbers;
+    const int up = along(ends);
     double at[2 * POINTS], (*points)[2 * POINTS] = gm_picture_memory(picture, (count + 2) * sizeof *points);
     size_t *made = gm_picture_memory(picture, count * sizeof *made);
     if (!points || !made) {
         return;
     }
     struct gm_panel *panel = gm_panel_add(picture, place, "");
-    struct gm_axis value = {.label = profile->item->text ? profile->item->text
-                                     : quantity == 's'   ? "θ"
-                                     : quantity == 'v'   ? "v"
-                                                         : "u",
+    struct gm_axis value = {.label = profile->text     ? profile->text
+                                     : quantity == 's' ? "θ"
+                                     : quantity == 'v' ? "v"
+                                                       : "u",
                             .low = 1,
                             .high = 0};
     for (size_t i = 0; i < POINTS; i++) {
         for (size_t c = 0; c < 2; c++) {
-            at[2 * i + c] = profile->a[c] + (profile->b[c] - profile->a[c]) * (double)i / (POINTS - 1);
+            at[2 * i + c] = ends[c] + (ends[2 + c] - ends[c]) * (double)i / (POINTS - 1);
         }
     }
     const struct gm_view view = gm_lane_view(lanes[0]);
@@ -69,11 +77,11 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
     if (!known) {
         gm_range_round(&value.low, &value.high, GM_LINEAR);
     }
-    if (!isnan(profile->item->low)) {
-        value.low = profile->item->low;
-        value.high = profile->item->high;
+    if (!isnan(profile->low)) {
+        value.low = profile->low;
+        value.high = profile->high;
     }
-    const struct gm_axis axis = {.label = up ? "y" : "x", .low = profile->a[up], .high = profile->b[up]};
+    const struct gm_axis axis = {.label = up ? "y" : "x", .low = ends[up], .high = ends[2 + up]};
     panel->axes = true;
     panel->x = up ? value : axis;
     panel->y = up ? axis : value;
@@ -83,15 +91,15 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
     }
     for (size_t k = 0; k < count; k++) {
         gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points[k], made[k], false);
-        for (size_t i = 0; i < user_room->table_count; i++) {
-            const struct gm_room_table *table = &user_room->tables[i];
+        const struct gm_system_item *table;
+        for (size_t i = 0; (table = gm_system_item_of(system, GM_WORD_TABLE, i)); i++) {
+            const bool here = strcmp(table->words, profile->name) == 0 && quantity == profile->words[0] &&
+                              holds(table, lanes[k]->parameters);
             size_t published = 0;
-            for (size_t p = 0; table->profile == profile && quantity == profile->item->words[0] &&
-                               holds(table, lanes[k]->parameters) && p < table->count && published < POINTS;
-                 p++) {
+            for (size_t p = 0; here && p < points_of(table) && published < POINTS; p++) {
                 double *point = points[count + 1] + 2 * published;
-                point[up] = table->points[2 * p];
-                point[1 - up] = table->points[2 * p + 1];
+                point[up] = table->options->numbers[2 * p];
+                point[1 - up] = table->options->numbers[2 * p + 1];
                 published += !isnan(point[1 - up]);
             }
             gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 1, .width = 5.5},
@@ -105,10 +113,12 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                            enum gm_place place)
 {
-    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        for (const char *what = user_room->profiles[i].item->words; *what; what++) {
-            draw_profile(picture, lanes, count, place, &user_room->profiles[i], *what);
+    const struct gm_system_item *profile;
+    for (size_t i = 0; (profile = gm_system_item_of(&gm_user_room_of(lanes[0]->parameters)->room.system,
+                                                    GM_WORD_PROFILE, i));
+         i++) {
+        for (const char *what = profile->words; *what; what++) {
+            draw_profile(picture, lanes, count, place, profile, *what);
         }
     }
 }
@@ -130,24 +140,25 @@ static void write_sample(const struct gm_view *view, const char *front, const ch
 
 void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream)
 {
-    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    for (size_t i = 0; i < user_room->table_count; i++) {
-        const struct gm_room_table *table = &user_room->tables[i];
-        const struct gm_room_profile *profile = table->profile;
-        for (size_t k = 0; holds(table, view->parameters) && k < table->count; k++) {
-            double at[2] = {profile->a[0], profile->a[1]};
-            at[along(profile)] = table->points[2 * k];
-            write_sample(view, front, table->item->name, at[0], at[1], table->points[2 * k + 1], stream);
+    const struct gm_user_system *system = &gm_user_room_of(view->parameters)->room.system;
+    const struct gm_system_item *table, *profile;
+    for (size_t i = 0; (table = gm_system_item_of(system, GM_WORD_TABLE, i)); i++) {
+        const double *ends = gm_system_item_named(system, GM_WORD_PROFILE, table->words)->options->numbers;
+        for (size_t k = 0; holds(table, view->parameters) && k < points_of(table); k++) {
+            const double *point = table->options->numbers + 2 * k;
+            double at[2] = {ends[0], ends[1]};
+            at[along(ends)] = point[0];
+            write_sample(view, front, table->name, at[0], at[1], point[1], stream);
         }
     }
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        const struct gm_room_profile *profile = &user_room->profiles[i];
-        const char quantity = profile->item->words[0];
-        for (size_t k = 0; k < profile->count; k++) {
-            const double s = (double)k / (double)(profile->count - 1),
-                         at[2] = {profile->a[0] + s * (profile->b[0] - profile->a[0]),
-                                  profile->a[1] + s * (profile->b[1] - profile->a[1])};
-            write_sample(view, front, profile->item->name, at[0], at[1],
+    for (size_t i = 0; (profile = gm_system_item_of(system, GM_WORD_PROFILE, i)); i++) {
+        const double *ends = profile->options->numbers;
+        const size_t count = (size_t)fmin(fmax(ends[4], 2), 1e6);
+        const char quantity = profile->words[0];
+        for (size_t k = 0; k < count; k++) {
+            const double s = (double)k / (double)(count - 1),
+                         at[2] = {ends[0] + s * (ends[2] - ends[0]), ends[1] + s * (ends[3] - ends[1])};
+            write_sample(view, front, profile->name, at[0], at[1],
                          quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines of a room other than its boundary: parameters, observables, pictures and studies. All data is in the
    scene's arena; its body calls this. */
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +11,9 @@
 #include "core/model/scope.h"
 #include "core/schemes.h"
 #include "scenes/common/written.h"
+
+const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
+const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
 /* Returns the schemes of a list, NULL-terminated, which must be schemes for flows; NULL: none. */
 static const char *const *list_schemes(const struct gm_user_room *user_room, const char *text, size_t place)
@@ -176,43 +179,16 @@ static void make_rows(struct gm_user_room *user_room)
     }
 }
 
-static void make_profiles(struct gm_user_room *user_room)
+static void check_tables(const struct gm_user_room *user_room)
 {
     const struct gm_user_system *system = &user_room->room.system;
-    size_t *count = &user_room->profile_count;
-    const struct gm_system_item *item;
-    for (; (item = gm_system_item_of(system, GM_WORD_PROFILE, *count)); ++*count) {
-        const double *numbers = item->options->numbers;
-        user_room->profiles =
-            gm_arena_resize(user_room->arena, user_room->profiles, *count + 1, sizeof *user_room->profiles);
-        user_room->profiles[*count] =
-            (struct gm_room_profile){item, numbers, numbers + 2, (size_t)fmin(fmax(numbers[4], 2), 1e6)};
-    }
-}
-
-static const struct gm_room_profile *find_profile(const struct gm_user_room *user_room, const char *name)
-{
-    size_t i = 0;
-    while (i < user_room->profile_count && strcmp(user_room->profiles[i].item->name, name) != 0) {
-        i++;
-    }
-    return i < user_room->profile_count ? &user_room->profiles[i] : NULL;
-}
-
-static void make_tables(struct gm_user_room *user_room)
-{
-    const struct gm_user_system *system = &user_room->room.system;
-    size_t *count = &user_room->table_count;
-    const struct gm_system_item *item;
-    for (; (item = gm_system_item_of(system, GM_WORD_TABLE, *count)); ++*count) {
-        const struct gm_room_table table = {
-            item, find_profile(user_room, item->words), gm_scene_parameter(&user_room->scene, item->text),
-            item->options ? item->options->numbers : NULL, item->options ? item->options->count / 2 : 0};
-        gm_system_refuse_if(system, !table.profile || !table.row, item->place,
+    const struct gm_system_item *table;
+    for (size_t i = 0; (table = gm_system_item_of(system, GM_WORD_TABLE, i)); i++) {
+        gm_system_refuse_if(system,
+                            !gm_system_item_named(system, GM_WORD_PROFILE, table->words) ||
+                                !gm_scene_parameter(&user_room->scene, table->text),
+                            table->place,
                             "a table has a name and a profile, the value of a parameter, and points");
-        user_room->tables =
-            gm_arena_resize(user_room->arena, user_room->tables, *count + 1, sizeof *user_room->tables);
-        user_room->tables[*count] = table;
     }
 }
 
@@ -221,7 +197,8 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
 {
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_observable *row = gm_room_observable(item->name, along);
-    const struct gm_room_profile *profile = along ? find_profile(user_room, along) : user_room->profiles;
+    const struct gm_system_item *profile =
+        along ? gm_system_item_named(&user_room->room.system, GM_WORD_PROFILE, along) : NULL;
     size_t i = 0;
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
         i++;
@@ -234,89 +211,6 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
         user_room->subjects[user_room->observable_count++].profile = profile;
     }
     gm_written_options(&user_room->observables[i], item);
-}
-
-/* Reads the next value in braces: the text before it, and its key. Returns false after the last; the text is
-   the rest. */
-static bool take_brace(const char *text, struct gm_span *rest, struct gm_span *before, struct gm_span *key,
-                       bool *nonzero)
-{
-    const size_t open = gm_span_until(text, *rest, "{"),
-                 close = gm_span_until(text, (struct gm_span){open, rest->end}, "}"),
-                 colon = gm_span_until(text, (struct gm_span){open, close}, ":");
-    *before = (struct gm_span){rest->begin, open};
-    *key = (struct gm_span){open < close ? open + 1 : open, colon};
-    *nonzero = colon < close;
-    rest->begin = close < rest->end ? close + 1 : close;
-    return open < close;
-}
-
-/* subtitle: TEXT {key}, TEXT {key:nonzero}, and a remark after mesh and scheme, with values in braces */
-static void fill_subtitle(const struct gm_user_room *user_room, const struct gm_room *room,
-                          struct gm_picture *picture, struct gm_look *look)
-{
-    const struct gm_system_item *item = gm_system_item_of(&room->system, GM_WORD_SUBTITLE, 0);
-    struct gm_span rest = gm_room_said(room, GM_WORD_SUBTITLE)->value, before, key;
-    bool nonzero;
-    memset(look->told, 0, sizeof look->told);
-    look->remark = "";
-    for (size_t i = 0; rest.begin < rest.end; i++) {
-        const bool filled = take_brace(room->system.source, &rest, &before, &key, &nonzero);
-        const struct gm_parameter *row =
-            gm_scene_parameter(&user_room->scene, gm_room_text(picture, room, key));
-        if (i < GM_COUNT(look->told) && row && row->type == GM_REAL && !look->remark[0]) {
-            before.begin += strspn(room->system.source + before.begin, ", ");
-            look->told[i].name = gm_room_text(picture, room, gm_span_trimmed(room->system.source, before));
-            look->told[i].offset = row->offset;
-            look->told[i].nonzero = nonzero;
-        } else {
-            look->remark =
-                gm_picture_text(picture, "%s%s", look->remark, gm_room_text(picture, room, before));
-            if (filled && item->nodes[i] != GM_NO_NODE) {
-                look->remark =
-                    gm_picture_text(picture, "%s%.4g", look->remark, gm_room_evaluate(room, item->nodes[i]));
-            }
-        }
-    }
-}
-
-/* The unit of the clock: the first word after the formula of a line time:. */
-static const char *clock_unit(const struct gm_room *room, struct gm_picture *picture, const char *otherwise)
-{
-    const char *text = room->system.texts[GM_WORD_TIME];
-    const bool is_unit = gm_system_item_of(&room->system, GM_WORD_TIME, 0);
-    return text ? gm_picture_text(picture, "%.*s", is_unit ? (int)strcspn(text, ", ") : 0, text) : otherwise;
-}
-
-void gm_room_take_look(const struct gm_user_room *user_room, const struct gm_room *room,
-                       struct gm_picture *picture, struct gm_look *look)
-{
-    const struct gm_user_system *system = &room->system;
-    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_LEVELS, 0);
-    look->clock_unit = clock_unit(room, picture, look->clock_unit);
-    if (gm_room_said(room, GM_WORD_SUBTITLE)) {
-        fill_subtitle(user_room, room, picture, look);
-    } else if (!gm_scene_parameter(&user_room->scene, "viscosity")) {
-        memset(look->told, 0, sizeof look->told);
-    }
-    look->levels = item ? item->options->numbers : NULL;
-    look->level_count = item ? item->options->count : 0;
-    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_COLOURS, i)); i++) {
-        *(strcmp(item->name, "speed") == 0 ? &look->speed_high : &look->vorticity_range) = item->value;
-    }
-    for (size_t i = 0; i < user_room->profile_count; i++) {
-        look->profiles |= user_room->profiles[i].item->words[0] != 0;
-    }
-    const bool graphs = gm_room_said(room, GM_WORD_GRAPH);
-    look->profiles_below = look->profiles && room->rectangular && !graphs;
-    for (size_t i = 0; i < GM_COUNT(look->graphs) && (graphs || look->profiles_below); i++) {
-        item = gm_system_item_of(system, GM_WORD_GRAPH, i);
-        for (size_t k = 0; item && k < item->count; k++) {
-            (k == 0 ? look->graph_low : look->graph_high)[i] = gm_room_evaluate(room, item->nodes[k]);
-        }
-        const bool shown = item && (item->count == 0 || look->graph_low[i] < look->graph_high[i]);
-        look->graphs[i] = shown ? gm_picture_text(picture, "%s", item->name) : NULL;
-    }
 }
 
 /* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
@@ -410,8 +304,7 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     struct gm_scene *scene = &user_room->scene;
     const struct gm_system_item *item;
     make_rows(user_room);
-    make_profiles(user_room);
-    make_tables(user_room);
+    check_tables(user_room);
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
         observe(user_room, item);
     }
@@ -426,5 +319,5 @@ void gm_room_take_lines(struct gm_user_room *user_room)
         check_observable(user_room, item->name, item->place);
     }
     make_studies(user_room);
-    scene->profile = user_room->profile_count > 0 ? gm_room_write_profiles : NULL;
+    scene->profile = gm_room_said(&user_room->room, GM_WORD_PROFILE) ? gm_room_write_profiles : NULL;
 }

@@ -56,27 +56,8 @@ struct gm_room_file {
 struct gm_room_subject {
     const char *name; /* the name of a line; NULL: the number is used */
     size_t number;    /* the number of a hole */
-    const struct gm_room_profile *profile;
+    const struct gm_system_item *profile;
     int what; /* the quantity of the subject (enum local, user_room.c) */
-};
-
-/* A line of `count` points from a to b along which quantities are drawn and written, with its item: the letters of the
-   quantities u, v and s, the scalar, are its words; its text is the label of values, NULL: the quantity's name; low and
-   high are the range of that axis, NAN: the range of the values. */
-struct gm_room_profile {
-    const struct gm_system_item *item;
-    const double *a, *b;
-    size_t count;
-};
-
-/* Published points on a profile: the position along its axis, and the first quantity there, or NAN. They hold
-   if the row has the value of the item. */
-struct gm_room_table {
-    const struct gm_system_item *item;
-    const struct gm_room_profile *profile;
-    const struct gm_parameter *row;
-    const double *points;
-    size_t count;
 };
 
 struct gm_user_room {
@@ -96,9 +77,6 @@ struct gm_user_room {
     size_t observable_count;
     const char *forces
         [2]; /* keys of the forces on the first hole, shown by a room without a scalar; NULL: not shown */
-    struct gm_room_profile *profiles;
-    struct gm_room_table *tables;
-    size_t profile_count, table_count;
     struct gm_work work;
     struct gm_stability stability;
 };
@@ -114,20 +92,21 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
-/* Returns true if the mesh is the room's rectangle, with no file named instead. */
-bool gm_flows_has_rectangle(const struct gm_flows *flows);
-/* Reads or makes the mesh of a lane; without a room, as it is in its file. On failure returns false with a
-   sentence that names the line or triangle. */
-bool gm_flows_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
-                   char *sentence);
-
 /* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
+/* Writes rows of CSV: published points, and profiles. */
+void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE *stream);
+void gm_room_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 /* Powers of the units of length, time and temperature. */
 struct gm_powers {
     int of[3];
 };
+/* Writes a product of powers of the units in the line `units:`, "K m²/s", to GM_ROOM_UNIT bytes; "" if one of them is not
+   named. */
+const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name);
+/* Writes " / (m/s)", the unit after a title, to GM_ROOM_UNIT + 8 bytes. */
+const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text);
 /* A row of an observable of flows. */
 struct gm_room_row {
     struct gm_observable observable;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rooms from files: the scene of such a room. Lengths, times and concentrations are in the file's units. */
+/* Rooms from files: the scene of such a room, and its mesh. Lengths, times and concentrations are in the file's units. */
 #include "scenes/flow/user_room.h"
 
 #include <math.h>
@@ -13,46 +13,107 @@
 #include "core/files/files.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
-#include "scenes/flow/look.h"
+#include "render/files/regular_file.h"
+#include "scenes/common/written.h"
 
-/* Writes a product of powers of the units in the line `units:`, "K m²/s"; "" if one of them is not named. */
-static const char *name_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
+/* Writes what is wrong with a mesh. Returns false. */
+static bool explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
 {
-    static const char *const raised[] = {"", "", "²", "³", "⁴"};
-    static const int order[3] = {2, 0, 1};
-    char above[GM_ROOM_UNIT / 2] = "", below[GM_ROOM_UNIT / 2] = "";
-    for (int i = 0; i < 3; i++) {
-        const char *units = user_room->room.system.texts[GM_WORD_UNITS], *at = units ? units : "";
-        const int power = powers.of[order[i]];
-        for (int place = order[i]; place > 0 && *at; place--) {
-            at += strcspn(at, ", ");
-            at += strspn(at, ", ");
-        }
-        const int length = (int)strcspn(at, ", ");
-        if (power != 0 && (length == 0 || length > 12)) {
-            name[0] = '\0';
-            return name;
-        }
-        char *part = power > 0 ? above : below;
-        const size_t used = strlen(part);
-        if (power != 0) {
-            snprintf(part + used, sizeof above - used, "%s%.*s%s", used > 0 ? " " : "", length, at,
-                     raised[abs(power)]);
-        }
-    }
-    snprintf(name, GM_ROOM_UNIT, "%s%s%s", above[0] || !below[0] ? above : "1", below[0] ? "/" : "", below);
-    return name;
+    char text[GM_TRIANGULATION_SENTENCE];
+    return gm_refuse(sentence, "%s", gm_triangulation_explain(name, fault, text));
 }
 
-/* Writes " / (m/s)", the unit after a title. */
-static const char *beside_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *text)
+/* Makes the mesh of a rectangle; `strips` 0: the best number. Returns false with a sentence on failure. */
+static bool lay_rectangle(struct gm_rectangle rectangle, struct gm_triangulation *mesh, char *sentence)
 {
-    char unit[GM_ROOM_UNIT];
-    name_unit(user_room, powers, unit);
-    const bool alone = !strpbrk(unit, "/ ");
-    snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
-             alone ? "" : ")");
-    return text;
+    enum { MOST = 10000000 };
+    const long best =
+        gm_rectangle_strips(rectangle.width, rectangle.height, rectangle.edges, rectangle.transposed);
+    rectangle.strips = rectangle.strips == 0 ? best : rectangle.strips;
+    if ((double)rectangle.edges * (double)rectangle.strips > MOST) {
+        return gm_refuse(sentence, "%ld edges and %ld strips make more than %d triangles", rectangle.edges,
+                         rectangle.strips, 2 * MOST);
+    }
+    if (rectangle.strips % 2 != 0) {
+        return gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
+    }
+    if (!gm_rectangle_is_acute(&rectangle)) {
+        return gm_refuse(
+            sentence,
+            "%ld edges and %ld strips do not make acute triangles: the height of a strip must lie between half an "
+            "edge and an edge; %ld strips are best",
+            rectangle.edges, rectangle.strips, best);
+    }
+    struct gm_triangulation_fault fault;
+    mesh->complex = gm_rectangle_open(&rectangle, &fault);
+    return mesh->complex || explain("the mesh", &fault, sentence);
+}
+
+/* Reads the mesh of a file, or a built-in one if `inside` is not NULL. */
+static bool read_file(const char *path, const struct gm_built_in *inside, enum gm_star star,
+                      struct gm_triangulation *mesh, char *sentence)
+{
+    enum { LARGEST = 1 << 29 };
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    char *text = inside ? NULL : gm_regular_read(path, LARGEST, &size, reason);
+    if (!text && !inside) {
+        return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
+    }
+    struct gm_triangulation_fault fault;
+    const bool good = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
+                                            star, mesh, &fault);
+    free(text);
+    return good || explain(path, &fault, sentence);
+}
+
+/* Cuts each edge of the mesh of a file into `parts`, a power of two. */
+static bool refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                   char *sentence)
+{
+    enum { MOST_TRIANGLES = 5000000 };
+    struct gm_triangulation_fault fault;
+    if ((parts & (parts - 1)) != 0) {
+        return gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
+    }
+    if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
+        return gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
+                         MOST_TRIANGLES, mesh->complex->triangles, path);
+    }
+    for (; parts > 1; parts /= 2) {
+        if (!gm_triangulation_halve(mesh, star, &fault)) {
+            return explain(path, &fault, sentence);
+        }
+    }
+    return true;
+}
+
+/* Returns true if the mesh is the room's rectangle, with no file named instead. */
+static bool has_rectangle(const struct gm_flows *flows)
+{
+    return flows->room->room.rectangular && strcmp(flows->mesh, "none") == 0;
+}
+
+/* Reads or makes the mesh of a lane; without a room, as it is in its file. On failure returns false with a
+   sentence that names the line or triangle. */
+static bool open_mesh(const struct gm_flows *flows, const struct gm_room *room, struct gm_triangulation *mesh,
+                      char *sentence)
+{
+    const struct gm_user_room *user_room = flows->room;
+    const enum gm_star star = (enum gm_star)flows->star;
+    *mesh = (struct gm_triangulation){0};
+    if (room && has_rectangle(flows)) {
+        return lay_rectangle(room->rectangle, mesh, sentence);
+    }
+    const char *path = user_room->room.rectangular ? flows->mesh : user_room->mesh;
+    if (!read_file(path, user_room->inside, star, mesh, sentence)) {
+        return false;
+    }
+    const bool good = !room || flows->refine < 2 || refine(path, star, flows->refine, mesh, sentence);
+    if (!good) {
+        gm_triangulation_close(mesh);
+    }
+    return good;
 }
 
 /* The observables of an opening, a probe, a wall and a hole. */
@@ -199,7 +260,7 @@ static bool choose_outlet(const struct gm_flows *chosen, const struct gm_room *r
     snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon ? colon - text : GM_TEXT_SIZE),
              colon || !gm_flows_outlets[i] ? text : "outlet");
     const bool names = gm_room_parameter(room, "inlet");
-    if (gm_flows_has_rectangle(chosen) && names &&
+    if (has_rectangle(chosen) && names &&
         (strcmp(group, "outlet") != 0 || strcmp(chosen->inlet, "inlet") != 0)) {
         return gm_refuse(
             sentence,
@@ -216,15 +277,15 @@ static struct gm_flow *open_flow(const struct gm_user_room *user_room, const str
     struct gm_triangulation mesh;
     struct gm_fault fault;
     const long edges = room->rectangle.edges, multiple = room->multiple;
-    room->from_file = room->rectangular && !gm_flows_has_rectangle(chosen);
-    if (gm_flows_has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
+    room->from_file = room->rectangular && !has_rectangle(chosen);
+    if (has_rectangle(chosen) && multiple > 0 && edges % multiple != 0) {
         gm_refuse(
             sentence,
             "%s=%ld: the lips of inlet and outlet are vertices only if %s is a multiple of %ld; the nearest is %ld",
             room->edges, edges, room->edges, multiple, multiple * ((edges + multiple / 2) / multiple));
         return NULL;
     }
-    if (!gm_flows_mesh(chosen, room, &mesh, sentence)) {
+    if (!open_mesh(chosen, room, &mesh, sentence)) {
         return NULL;
     }
     struct gm_flow *flow = gm_room_flow(room, &mesh, &fault);
@@ -318,9 +379,10 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
                   double *y, char *sentence)
 {
     (void)scheme;
+    const struct gm_flow *flow = gm_flow_of(problem);
     const struct gm_fault fault = {.sentence =
                                        "the boundary does not determine the stream function at the start"};
-    const bool good = gm_flow_start(gm_flow_of(problem), y);
+    const bool good = gm_flow_start(flow, flow->vorticity, y);
     if (!good) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, sentence);
     }
@@ -394,8 +456,8 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 static bool readable(const void *parameters, char *sentence)
 {
     struct gm_triangulation mesh;
-    const bool good = gm_flows_has_rectangle(parameters) || gm_flows_mesh(parameters, NULL, &mesh, sentence);
-    if (good && !gm_flows_has_rectangle(parameters)) {
+    const bool good = has_rectangle(parameters) || open_mesh(parameters, NULL, &mesh, sentence);
+    if (good && !has_rectangle(parameters)) {
         gm_triangulation_close(&mesh);
     }
     return good;
@@ -444,83 +506,6 @@ static const char *idle(const void *parameters, const char *key)
     return NULL;
 }
 
-/* Returns about the largest scalar that sources produce: twice its value in the air that leaves. */
-static double enriched(const struct gm_flow *flow)
-{
-    double sum = 0, through = 0;
-    for (size_t v = 0; v < flow->complex->vertices; v++) {
-        sum += flow->source[v];
-    }
-    for (size_t i = 0; i < flow->openings; i++) {
-        through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
-    }
-    return through > 0 ? 2 * sum / through : 0;
-}
-
-static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
-{
-    const struct gm_user_room *user_room = gm_user_room_of(lanes[0]->parameters);
-    const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
-    const struct gm_room *room = gm_room_of(&lanes[0]->problem);
-    static const struct {
-        int show;
-        const char *name;
-        struct gm_powers powers;
-    } shown[] = {{GM_SHOW_VORTICITY, "vorticity ω", {{0, -1, 0}}},
-                 {GM_SHOW_SPEED, "speed |u|", {{1, -1, 0}}},
-                 {GM_SHOW_PRESSURE, "total pressure", {{2, -2, 0}}},
-                 {GM_SHOW_TEMPERATURE, "temperature", {{0, 0, 1}}}};
-    const struct gm_powers length = {{1, 0, 0}}, time = {{0, 1, 0}}, spread = {{2, -1, 0}};
-    char unit[GM_ROOM_UNIT + 8];
-    const double *range = flow->temperature_range,
-                 warm[2] = {range[0], range[1] > range[0] ? range[1] : range[0] + 1};
-    const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
-    double high = 0;
-    for (size_t k = 0; k < count; k++) {
-        const struct gm_flow *other = gm_flow_of(&lanes[k]->problem);
-        high = fmax(high, fmax(other->theta_high, enriched(other)));
-    }
-    /* a quarter of the speed of free fall by buoyancy: the largest of convection in a closed room */
-    const double size = sqrt(flow->complex->total_area),
-                 speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
-    const bool named = !room->rectangular;
-    const char **sides = named ? gm_picture_memory(picture, (room->count + 1) * sizeof *sides) : NULL;
-    for (size_t i = 0; sides && i < room->count; i++) {
-        sides[i + 1] = gm_picture_text(picture, "%s", room->lines[i].name);
-    }
-    struct gm_look look = {
-        .told = {{"viscosity", offsetof(struct gm_flows, viscosity),
-                  gm_picture_text(picture, "%s", name_unit(user_room, spread, unit)), false},
-                 {"Schmidt number", offsetof(struct gm_flows, schmidt), NULL, false}},
-        .clock_unit = gm_picture_text(picture, "%s", name_unit(user_room, time, unit)),
-        .sides = sides,
-        .graphs = {flow->heat             ? "temperature_mean"
-                   : user_room->forces[0] ? user_room->forces[0]
-                   : scalar               ? "scalar_mean"
-                                          : "scalar_total",
-                   flow->heat             ? "kinetic_energy"
-                   : user_room->forces[1] ? user_room->forces[1]
-                                          : "scalar_outflow"},
-        .scalar_high = high > 0 ? high : 1,
-        .temperature = {warm[0], warm[1]},
-        .names = {[GM_SHOW_SCALAR] = scalar ? scalar : "concentration θ"},
-        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
-        .speed_high = 1.2 * speed,
-    };
-    for (size_t c = 0; c < GM_COUNT(look.graphs); c++) {
-        look.graphs[c] = gm_scene_observable(&user_room->scene, look.graphs[c]) < 0 ? NULL : look.graphs[c];
-        if (named || user_room->room.system.texts[GM_WORD_UNITS]) {
-            look.axes[c] = gm_picture_text(picture, "%c%s", "xy"[c], beside_unit(user_room, length, unit));
-        }
-    }
-    for (size_t i = 0; i < GM_COUNT(shown); i++) {
-        look.names[shown[i].show] =
-            gm_picture_text(picture, "%s%s", shown[i].name, beside_unit(user_room, shown[i].powers, unit));
-    }
-    gm_room_take_look(user_room, room, picture, &look);
-    gm_flows_draw(lanes, count, picture, &look);
-}
-
 /* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names
    become _. Too many of them, and a repeated key, are noted. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
@@ -566,7 +551,7 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
         user_room->observables[i] = (struct gm_observable){
             .key = key,
             .title = gm_arena_print(user_room->arena, "%s %s%s", name, rows[what].title,
-                                    beside_unit(user_room, rows[what].powers, unit)),
+                                    gm_room_beside_unit(user_room, rows[what].powers, unit)),
             .evaluate = observe_local,
             .missing = rows[what].missing};
         subject.what = what;
@@ -588,7 +573,7 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
         observable->title = rows[i].of_scalar && scalar
                                 ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, scalar)
                                 : gm_arena_print(user_room->arena, "%s%s", observable->title,
-                                                 beside_unit(user_room, rows[i].powers, unit));
+                                                 gm_room_beside_unit(user_room, rows[i].powers, unit));
     }
 }
 
@@ -626,27 +611,18 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
     }
 }
 
-/* Continues a checksum (FNV-1a) with more bytes. */
-static uint32_t checksum(uint32_t sum, const void *bytes, size_t size)
-{
-    for (const unsigned char *at = bytes, *end = at + size; at < end; at++) {
-        sum = (sum ^ *at) * UINT32_C(16777619);
-    }
-    return sum;
-}
-
 /* Returns the room's name with a checksum of its text and mesh, which distinguishes rooms of one name. */
 static const char *make_mark(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
     uint32_t sum =
-        checksum(UINT32_C(2166136261), user_room->room.system.source, user_room->room.system.length);
+        gm_written_sum(GM_SUM_OF_NOTHING, user_room->room.system.source, user_room->room.system.length);
     if (complex) {
-        sum = checksum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
-        sum = checksum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
+        sum = gm_written_sum(sum, complex->point, 2 * complex->vertices * sizeof *complex->point);
+        sum = gm_written_sum(sum, complex->triangle, 3 * complex->triangles * sizeof *complex->triangle);
         for (size_t e = 0; e < complex->edges; e++) {
             const int group = gm_triangulation_first(mesh, e);
-            sum = checksum(sum, &group, sizeof group);
+            sum = gm_written_sum(sum, &group, sizeof group);
         }
     }
     return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
@@ -728,7 +704,7 @@ static void make(struct gm_arena *arena, void *data)
         .note = note_origin,
         .close = close_problem,
         .start_with = start,
-        .draw = draw,
+        .draw = gm_room_draw,
         .failure = tell_failure,
     };
     user_room->initial.room = user_room;
@@ -739,7 +715,7 @@ static void make(struct gm_arena *arena, void *data)
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
         gm_arena_keep(arena, mesh, close_mesh);
-        if (!gm_flows_mesh(&user_room->initial, NULL, mesh, sentence)) {
+        if (!open_mesh(&user_room->initial, NULL, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }
     }

@@ -2,6 +2,7 @@
 #include "scenes/mesh/observed.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "core/basics.h"
 #include "scenes/common/lane.h"
@@ -116,24 +117,21 @@ static double straightest(const struct gm_view *view)
     return gm_mesh_straightest(&mesh, view->state);
 }
 
-static double rank(const struct gm_view *view)
+/* The rank of the mass matrix, or its condition, by the observable's key. */
+static double mass(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_integrated(view);
     double rank, condition;
-    return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? rank : NAN;
-}
-
-static double condition(const struct gm_view *view)
-{
-    const struct gm_mesh mesh = gm_mesh_integrated(view);
-    double rank, condition;
-    return gm_mesh_mass(&mesh, view->state, &rank, &condition) ? condition : NAN;
+    if (!gm_mesh_mass(&mesh, view->state, &rank, &condition)) {
+        return NAN;
+    }
+    return strcmp(view->observable->key, "mass_rank") == 0 ? rank : condition;
 }
 
 const struct gm_observable gm_mesh_asked[3] = {
     GM_LOG_OBSERVABLE("straightest", straightest, "least difference of slopes at a node"),
-    GM_OBSERVABLE("mass_rank", rank, "rank of the mass matrix", .missing = "there are more than 255 nodes"),
-    GM_LOG_OBSERVABLE("mass_condition", condition, "condition of the mass matrix",
+    GM_OBSERVABLE("mass_rank", mass, "rank of the mass matrix", .missing = "there are more than 255 nodes"),
+    GM_LOG_OBSERVABLE("mass_condition", mass, "condition of the mass matrix",
                       .missing = "there are more than 255 nodes"),
 };
 

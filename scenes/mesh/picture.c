@@ -91,19 +91,16 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
 }
 
 /* The axes of the ellipse dq^T A dq = 1 of displacements dq = (dy, dX), the long one first; false if A has rank 1. */
-struct ellipse {
-    double axes[2][2];
-};
-
-static bool find_axes(const double block[3], struct ellipse *ellipse)
+static bool find_axes(const double block[3], double axes[2][2])
 {
     const double mean = (block[0] + block[2]) / 2, half = (block[0] - block[2]) / 2,
                  apart = hypot(half, block[1]),
                  angle = atan2(block[1], half) / 2; /* of the stiff direction */
     const double least = mean - apart, largest = mean + apart;
-    const double axes[2][2] = {{-sin(angle) / sqrt(least), cos(angle) / sqrt(least)},
-                               {cos(angle) / sqrt(largest), sin(angle) / sqrt(largest)}};
-    memcpy(ellipse->axes, axes, sizeof axes);
+    axes[0][0] = -sin(angle) / sqrt(least);
+    axes[0][1] = cos(angle) / sqrt(least);
+    axes[1][0] = cos(angle) / sqrt(largest);
+    axes[1][1] = sin(angle) / sqrt(largest);
     return least > 1e-9 * largest;
 }
 
@@ -125,32 +122,31 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     double(*blocks)[3] = gm_picture_memory(picture, mesh.points * sizeof *blocks);
-    double *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND];
+    double *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND], axes[2][2];
     size_t count = 0;
-    struct ellipse ellipse;
     if (!blocks || !sizes || !gm_mesh_inertia(&mesh, view.state, blocks)) {
         return;
     }
     for (size_t k = 0; k < mesh.points; k++) {
-        if (find_axes(blocks[k], &ellipse)) {
-            sizes[count++] = hypot(ellipse.axes[0][1] / width, ellipse.axes[0][0] / height);
+        if (find_axes(blocks[k], axes)) {
+            sizes[count++] = hypot(axes[0][1] / width, axes[0][0] / height);
         }
     }
     qsort(sizes, count, sizeof *sizes, ascending);
     const double scale = count > 0 ? 1. / 40 / sizes[count / 4] : 0; /* most others are nearly straight */
     for (size_t k = 0; k < mesh.points; k++) {
         const double *node = nodes + 2 * k + 2;
-        if (!find_axes(blocks[k], &ellipse)) {
+        if (!find_axes(blocks[k], axes)) {
             gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 1, 2.4, GM_SOLID}, node - 2, 3, false);
             continue;
         }
-        const double reach = scale * fabs(ellipse.axes[0][1]),
+        const double reach = scale * fabs(axes[0][1]),
                      part = scale * fmin(1, fmin(node[0] - node[-2], node[2] - node[0]) / reach);
         for (size_t i = 0; i < AROUND; i++) {
             const double c = part * cos(2 * M_PI * (double)i / AROUND),
                          s = part * sin(2 * M_PI * (double)i / AROUND);
-            around[2 * i] = node[0] + c * ellipse.axes[0][1] + s * ellipse.axes[1][1];
-            around[2 * i + 1] = node[1] + c * ellipse.axes[0][0] + s * ellipse.axes[1][0];
+            around[2 * i] = node[0] + c * axes[0][1] + s * axes[1][1];
+            around[2 * i + 1] = node[1] + c * axes[0][0] + s * axes[1][0];
         }
         gm_mark_line(picture, panel, (struct gm_style){role, 1, 2, GM_SOLID}, around, AROUND, true);
     }
@@ -279,7 +275,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     for (size_t i = 0; i < count; i++) {
         over[i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
         const struct gm_history *history = &lanes[i]->history;
-        largest[i] = lanes[i]->run->status == GM_OK ? 0 : NAN;
+        largest[i] = 0;
         for (size_t b = 0; b < history->count; b++) {
             largest[i] = fmax(history->bins[b * history->series + (size_t)error].high, largest[i]);
         }
@@ -424,27 +420,25 @@ void gm_mesh_draw(const struct gm_lane *const *lanes, size_t count, struct gm_pi
     }
     if (all) {
         picture->graphs_below = true;
-        const struct gm_graph kept = {.observable = "energy",
-                                      .title = "energy / initial energy",
-                                      .relative = true,
-                                      .calm_low = 0.99,
-                                      .calm_high = 1.01};
-        gm_draw_graphs(picture, lanes, count, &kept, 1);
-        const struct gm_graph momentum = {.observable = "momentum_error",
+        const struct gm_graph below[] = {{.observable = "energy",
+                                          .title = "energy / initial energy",
+                                          .relative = true,
+                                          .calm_low = 0.99,
+                                          .calm_high = 1.01},
+                                         {.observable = "momentum_error",
                                           .highest = true,
                                           .scale = GM_LOG,
                                           .calm_low = 1e-16,
-                                          .calm_high = 1e-2};
-        if (gm_scene_observable(lanes[0]->scene, momentum.observable) >= 0) {
-            gm_draw_graphs(picture, lanes, count, &momentum, 1);
-        }
-        const struct gm_graph error = {.observable = "solution_error",
-                                       .scale = GM_LOG,
-                                       .calm_low = 1e-4,
-                                       .calm_high = 10,
-                                       .floor = 1e-4};
-        if (gm_scene_observable(lanes[0]->scene, error.observable) >= 0) {
-            gm_draw_graphs(picture, lanes, count, &error, 1);
+                                          .calm_high = 1e-2},
+                                         {.observable = "solution_error",
+                                          .scale = GM_LOG,
+                                          .calm_low = 1e-4,
+                                          .calm_high = 10,
+                                          .floor = 1e-4}};
+        for (size_t i = 0; i < GM_COUNT(below); i++) {
+            if (gm_scene_observable(lanes[0]->scene, below[i].observable) >= 0) {
+                gm_draw_graphs(picture, lanes, count, &below[i], 1);
+            }
         }
     }
 }

@@ -79,7 +79,7 @@ static double *start_at_rest(const struct gm_flow *flow)
 {
     double *start = malloc(gm_flow_size(flow) * sizeof *start);
     assert_non_null(start);
-    assert_true(gm_flow_start_irrotational(flow, start));
+    assert_true(gm_flow_start(flow, NULL, start));
     return start;
 }
 
@@ -530,7 +530,7 @@ static void torus_agrees(void **unused)
         const double *p = flow->complex->point + 2 * v;
         omega[v] = 4 * M_PI * sin(2 * M_PI * p[0]) * sin(2 * M_PI * p[1]);
     }
-    assert_true(gm_flow_start_vorticity(flow, omega, start));
+    assert_true(gm_flow_start(flow, omega, start));
     expect_block(flow, start, GM_FLOW_OMEGA, "torus_omega_0");
     expect_block(flow, start, GM_FLOW_PSI, "torus_psi_0");
     struct gm_run *run = open_run(flow, &problem, "semi-implicit", 0.01, start);
@@ -565,7 +565,7 @@ static void torus_conserves(void **unused)
             omega[v] += 2 * M_PI * mode[3] * sin(2 * M_PI * (mode[0] * p[0] + mode[1] * p[1]) + mode[2]);
         }
     }
-    assert_true(gm_flow_start_vorticity(flow, omega, start));
+    assert_true(gm_flow_start(flow, omega, start));
     expect_number("enstrophy", gm_flow_enstrophy(flow, start), 35.57150819330606);
     const double energy = gm_flow_kinetic_energy(flow, start);
     expect_number("kinetic energy", energy, 0.290761645779033);

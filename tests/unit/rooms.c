@@ -166,7 +166,7 @@ static void kovasznay(struct gm_flow *flow, double error[ERRORS])
     }
     double *start = malloc(gm_flow_size(flow) * sizeof *start);
     double *pressure = malloc(complex->triangles * sizeof *pressure);
-    assert_true(start && pressure && gm_flow_start_irrotational(flow, start));
+    assert_true(start && pressure && gm_flow_start(flow, NULL, start));
     struct gm_problem problem;
     struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
     gm_run_advance(run, 9);
@@ -300,7 +300,7 @@ static double couette(int n, double shaken)
     flow->viscosity = 0.1;
     flow->reynolds = 10;
     double *start = malloc(gm_flow_size(flow) * sizeof *start), force[2];
-    assert_true(start && gm_flow_start_irrotational(flow, start));
+    assert_true(start && gm_flow_start(flow, NULL, start));
     struct gm_problem problem;
     struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
     gm_run_advance(run, 8);
@@ -400,7 +400,7 @@ static void smoke_comes_in(void **unused)
     }
     double *y = malloc(gm_flow_size(flow) * sizeof *y),
            *velocities = malloc(3 * flow->complex->vertices * sizeof *velocities);
-    assert_true(y && velocities && gm_flow_start_irrotational(flow, y));
+    assert_true(y && velocities && gm_flow_start(flow, NULL, y));
     gm_flow_vertex_velocities(flow->complex, y, velocities);
     for (long step = 0; step <= STEPS; step++) {
         size_t inside = 0;
@@ -462,7 +462,7 @@ static void walls_vary(void **unused)
             flow->scalar = true;
             struct gm_problem problem;
             double *start = malloc(gm_flow_size(flow) * sizeof *start);
-            assert_true(start && gm_flow_start_irrotational(flow, start));
+            assert_true(start && gm_flow_start(flow, NULL, start));
             struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
             assert_int_equal(gm_run_advance(run, 1), GM_OK);
             const double *theta = gm_flow_block(flow, gm_run_state(run), GM_FLOW_THETA);
@@ -578,7 +578,7 @@ static struct gm_flow *open_part(enum half half, size_t *number)
 static double *steady_state(struct gm_flow *flow)
 {
     double *y = malloc(gm_flow_size(flow) * sizeof *y);
-    assert_true(y && gm_flow_start_irrotational(flow, y));
+    assert_true(y && gm_flow_start(flow, NULL, y));
     struct gm_problem problem;
     struct gm_run *run = open_run(flow, &problem, "steady", 1, y);
     gm_run_advance(run, 12);
@@ -720,7 +720,7 @@ static void budget_closes(void **unused)
         flow->time_unit = 1;
         flow->scalar = true;
         double *y = malloc(gm_flow_size(flow) * sizeof *y);
-        assert_true(y && gm_flow_start_irrotational(flow, y));
+        assert_true(y && gm_flow_start(flow, NULL, y));
         struct gm_problem problem;
         struct gm_run *run = open_run(flow, &problem, schemes[k], 0.05, y);
         double before = gm_flow_scalar_total(flow, y);
@@ -757,7 +757,7 @@ static void pressure_is_single_valued(void **unused)
         const struct gm_complex *complex = flow->complex;
         double *y = malloc(gm_flow_size(flow) * sizeof *y),
                *pressure = malloc(complex->triangles * sizeof *pressure);
-        assert_true(y && pressure && gm_flow_start_irrotational(flow, y));
+        assert_true(y && pressure && gm_flow_start(flow, NULL, y));
         struct gm_problem problem;
         struct gm_run *run = open_run(flow, &problem, schemes[k], 0.05, y);
         for (int step = 0; step < 10; step++) {
@@ -810,7 +810,7 @@ static void kelvin(void **unused)
         const double x = complex->point[2 * v] - 1, z = complex->point[2 * v + 1] - 1;
         omega[v] = 20 * exp(-4 * (x * x + z * z));
     }
-    assert_true(gm_flow_start_vorticity(flow, omega, y));
+    assert_true(gm_flow_start(flow, omega, y));
     free(omega);
     size_t wall = 0;
     while (flow->hole[wall] == 0) {
@@ -916,7 +916,7 @@ static double nusselt(struct gm_flow *flow, const char *scheme, double dt, long 
 {
     const size_t size = gm_flow_size(flow) * sizeof *end;
     double *start = malloc(size);
-    assert_true(start && gm_flow_start_irrotational(flow, start));
+    assert_true(start && gm_flow_start(flow, NULL, start));
     if (from) {
         memcpy(start, from, size);
     }
@@ -1032,7 +1032,7 @@ static void layers_rest(void **unused)
     }
     double *y = malloc(gm_flow_size(flow) * sizeof *y),
            *pressure = malloc(complex->triangles * sizeof *pressure);
-    assert_true(y && pressure && gm_flow_start_irrotational(flow, y));
+    assert_true(y && pressure && gm_flow_start(flow, NULL, y));
     struct gm_problem problem;
     struct gm_run *run = open_run(flow, &problem, "semi-implicit", 0.01, y);
     gm_run_advance(run, 5);
@@ -1064,7 +1064,7 @@ static double *coarse_start(struct gm_flow *flow, double rayleigh)
     struct gm_flow *coarse = open_square(40, rayleigh, 0);
     const struct gm_complex *complex = flow->complex;
     double *y = malloc(gm_flow_size(coarse) * sizeof *y), *start = malloc(gm_flow_size(flow) * sizeof *start);
-    assert_true(y && start && gm_flow_start_irrotational(flow, start));
+    assert_true(y && start && gm_flow_start(flow, NULL, start));
     nusselt(coarse, "steady", 1, 16, NULL, y);
     for (size_t v = 0; v < complex->vertices; v++) {
         struct gm_sample sample;

@@ -33,7 +33,7 @@ struct typed {
     struct gm_mesh mesh;
 };
 
-static void open_typed(struct typed *typed, const char *text, double half_length, long points, double alpha)
+static void open_chosen(struct typed *typed, const char *text, const struct gm_user_mesh *chosen)
 {
     struct gm_fault fault;
     if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
@@ -41,14 +41,19 @@ static void open_typed(struct typed *typed, const char *text, double half_length
     }
     assert_true(gm_user_wave_derive(&typed->wave, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
+    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, chosen));
+    free(values);
+    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+}
+
+static void open_typed(struct typed *typed, const char *text, double half_length, long points, double alpha)
+{
     const struct gm_user_mesh chosen = {.first = -half_length,
                                         .length = 2 * half_length,
                                         .points = points,
                                         .alpha = alpha,
                                         .density = "arclength"};
-    assert_true(gm_user_mesh_open(&typed->problem, &typed->wave, values, &chosen));
-    free(values);
-    gm_moving_mesh_of(&typed->problem)->describe(&typed->problem, &typed->mesh);
+    open_chosen(typed, text, &chosen);
 }
 
 static void close_typed(struct typed *typed)
@@ -281,23 +286,18 @@ static void typed_densities_are_derived(void **unused)
 {
     (void)unused;
     struct typed typed;
-    open_typed(
-        &typed,
-        "field: u\nV: u^2/2\nparameter: k = 0.25\nlet: half = sin(x)/2\nstart: u = exp(-x^2), u_t = 0\n", 6,
-        7, 1);
     static const struct gm_density_numbers of_all = {GM_OF_ALL, GM_SINE_GORDON, 1.3, 1, 1};
-    struct gm_mesh_names names = {.wave = &typed.wave, .alpha = 1.3, .steepest = 1, .bend = 1};
-    double *values = gm_equations_start(&typed.system, NULL);
-    names.values = values;
-    struct gm_user_density density;
-    char sentence[GM_FAULT_SENTENCE];
-    assert_true(gm_user_density_open(&density, &names,
-                                     "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)",
-                                     sentence, sizeof sentence));
-    densities_agree(&density.density, gm_closed_density(&of_all), 1e-13);
-    gm_tape_close(&density.tape);
-    gm_tape_close(&density.itself);
-    free(values);
+    const struct gm_user_mesh chosen = {.first = -6,
+                                        .length = 12,
+                                        .points = 7,
+                                        .alpha = 1.3,
+                                        .density =
+                                            "sqrt(1 + alpha^2*u_x^2*(1 + half) + k*u^2*cos(x) + u_x*V_u/8)"};
+    open_chosen(
+        &typed,
+        "field: u\nV: u^2/2\nparameter: k = 0.25\nlet: half = sin(x)/2\nstart: u = exp(-x^2), u_t = 0\n",
+        &chosen);
+    densities_agree(typed.mesh.density, gm_closed_density(&of_all), 1e-13);
     close_typed(&typed);
 }
 
@@ -356,12 +356,12 @@ static double order_of(const struct typed *typed, const struct gm_scheme *scheme
 {
     struct gm_mesh_subject subject;
     double before[GM_MESH_SUBJECT_STATE] = {0}, end[GM_MESH_SUBJECT_STATE], changes[4];
-    assert_true(gm_mesh_subject_open_on(&subject, scheme, &typed->problem));
     for (int i = 0; i < 4; i++) {
         const long steps = 20L << i;
-        assert_true(gm_mesh_subject_advance(&subject, scheme, 1. / (double)steps, steps, subject.start, end));
+        assert_true(gm_mesh_subject_open(&subject, scheme, &typed->problem, 1. / (double)steps));
+        assert_true(gm_mesh_subject_advance(&subject, steps, subject.start, end));
         changes[i] = 0;
-        for (size_t k = 0; k < subject.problem.n / 2; k++) {
+        for (size_t k = 0; k < typed->problem.n / 2; k++) {
             changes[i] = fmax(changes[i], fabs(end[k] - before[k]));
         }
         memcpy(before, end, sizeof before);
@@ -406,8 +406,8 @@ static void laws_hold_of_somebodys_potential(void **unused)
                                             "uniform-gauss4"};
         for (size_t i = 0; i < GM_COUNT(names); i++) {
             const struct gm_scheme *scheme = gm_scheme_find(names[i]);
-            assert_true(gm_mesh_subject_open_on(&subject, scheme, &typed.problem));
-            const double defect = gm_mesh_law_defect(&subject, scheme, 0.2);
+            assert_true(gm_mesh_subject_open(&subject, scheme, &typed.problem, 0.2));
+            const double defect = gm_mesh_law_defect(&subject);
             print_message("    %-24s multisymplectic law %.1e\n", names[i], defect);
             if (scheme->claims & GM_MULTISYMPLECTIC ? !(defect < 1e-9) : !(defect > 1e-6)) {
                 fail_msg("%s: law %.3g", names[i], defect);

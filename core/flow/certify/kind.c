@@ -9,6 +9,7 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "core/files/files.h"
 #include "core/flow/families/families.h"
 #include "core/flow/room.h"
 #include "core/quantity.h"
@@ -25,30 +26,14 @@ static struct gm_problem problem_of(const struct gm_flow *flow)
         .name = "flow", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
 }
 
-/* Swirls on an irregular torus; a room with its inlet top left and its outlet bottom right. */
-static const char torus_text[] =
-    "mesh: flat-torus; width 1; height 1; edges 6; strips 8; irregular 0.2\n"
-    "parameter: viscosity = 0\n"
-    "scalar: none\n"
-    "start: vorticity = 6*sin(2*pi*x + 2*pi*y + 0.3) + 5*sin(2*pi*x - 2*(2*pi*y) + 1.1)\n"
-    "  + 4*sin(2*(2*pi*x) + 2*pi*y + 0.2)\n";
-static const char room_text[] =
-    "mesh: rectangle; width 4; height 3; edges 9; strips 16; along y; irregular 0.2; keep 0, 2; keep 4, 1\n"
-    "parameter: viscosity = 0\n"
-    "diffusivity: 0.03\n"
-    "side: in; x = 0, y > 2\n"
-    "side: out; x = 4, y < 1\n"
-    "inlet: in  centre = 1  scalar = 1000\n"
-    "outlet: out\n"
-    "wall: all  scalar = 0\n";
-
-/* The flow of a room; NULL when out of memory. */
-static struct gm_flow *open_flow(const char *text, const char *viscosity)
+/* The flow of a file of share/subjects; NULL when out of memory. */
+static struct gm_flow *open_flow(const char *name, const char *viscosity)
 {
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, name);
     const struct gm_system_value given = {"viscosity", viscosity};
     struct gm_triangulation_fault wrong;
     struct gm_fault fault;
-    struct gm_room *room = gm_room_open(&(struct gm_room_input){text, strlen(text), &given, 1}, &fault);
+    struct gm_room *room = gm_room_open(&(struct gm_room_input){file->text, file->length, &given, 1}, &fault);
     struct gm_triangulation mesh = {.complex = room ? gm_rectangle_open(&room->rectangle, &wrong) : NULL};
     struct gm_flow *flow = mesh.complex ? gm_room_flow(room, &mesh, &fault) : NULL;
     if (!flow) {
@@ -65,8 +50,8 @@ static void close_flow(const struct gm_flow *flow)
 /* The flow on the torus with its start; NULL when out of memory. */
 static struct gm_flow *open_torus(const char *viscosity, double *start)
 {
-    struct gm_flow *flow = open_flow(torus_text, viscosity);
-    if (flow && !gm_flow_start(flow, start)) {
+    struct gm_flow *flow = open_flow("swirls", viscosity);
+    if (flow && !gm_flow_start(flow, flow->vorticity, start)) {
         close_flow(flow);
         return NULL;
     }
@@ -79,23 +64,16 @@ static int rates(double t, const double *omega, double *rate, void *data)
     (void)t;
     const struct gm_flow *flow = data;
     const struct gm_complex *complex = flow->complex;
-    double start[STATE], centre[2 * MOST];
-    if (!gm_flow_start_vorticity(flow, omega, start)) {
+    double start[STATE], centre[2 * MOST], flux[3 * MOST];
+    if (!gm_flow_start(flow, omega, start)) {
         return GSL_ENOMEM;
     }
-    const double *psi = gm_flow_block(flow, start, GM_FLOW_PSI);
-    for (size_t f = 0; f < complex->triangles; f++) {
-        centre[f] = 0;
-        for (size_t k = 3 * f; k < 3 * f + 3; k++) {
-            centre[f] += complex->weight[k] * psi[complex->triangle[k]];
-        }
-    }
+    gm_flow_fluxes(complex, gm_flow_block(flow, start, GM_FLOW_PSI), centre, flux);
     memset(rate, 0, complex->vertices * sizeof *rate);
     for (size_t e = 0; e < complex->edges; e++) {
         const int a = complex->edge[2 * e], b = complex->edge[2 * e + 1];
-        const double flux = centre[complex->edge_triangle[2 * e]] - centre[complex->edge_triangle[2 * e + 1]];
         const double carried =
-            flux * (omega[a] + omega[b]) / 2 - flow->viscosity * complex->star1[e] * (omega[b] - omega[a]);
+            flux[e] * (omega[a] + omega[b]) / 2 - flow->viscosity * complex->star1[e] * (omega[b] - omega[a]);
         rate[a] -= carried / complex->star0[a];
         rate[b] += carried / complex->star0[b];
     }
@@ -172,7 +150,7 @@ static double incidence_defect(const struct gm_complex *complex)
 static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     enum { STEPS = 20 };
-    struct gm_flow *flow = open_flow(room_text, "0.02");
+    struct gm_flow *flow = open_flow("ventilated", "0.02");
     double *start = flow ? malloc(gm_flow_size(flow) * sizeof *start) : NULL;
     if (!flow) {
         return;
@@ -183,8 +161,9 @@ static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *
         for (size_t v = 0; constant && v < n; v++) {
             flow->theta[v] = 1;
         }
-        struct gm_run *run =
-            gm_flow_start(flow, start) ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start) : NULL;
+        struct gm_run *run = gm_flow_start(flow, flow->vorticity, start)
+                                 ? gm_run_open(&problem, scheme, &no_settings, 0, 0.1, start)
+                                 : NULL;
         for (int i = 0; run && i < STEPS && gm_run_advance(run, 1) == GM_OK; i++) {
             const double *y = gm_run_state(run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
             gm_certificate_note(certificate, GM_DIVERGENCE_FREE,

@@ -30,17 +30,6 @@ static double *block(const struct gm_flow *flow, double *y, enum gm_flow_block w
     return y + (size_t)which * flow->complex->vertices;
 }
 
-static void *open_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
-    (void)scheme;
-    return gm_flow_solver_open(gm_flow_of(problem));
-}
-
-static void close_workspace(void *workspace)
-{
-    gm_flow_solver_close(workspace);
-}
-
 /* The memory of the steady scheme: its current Reynolds number, the corrections made for it, and 1 if the
    last one was round-off. */
 enum { LEVEL, CORRECTIONS, DONE, MEMORY };
@@ -512,6 +501,6 @@ const struct gm_family gm_family_exterior_calculus = {
     .loop = loop,
     .memory = memory,
     .start = start,
-    .workspace_open = open_workspace,
-    .workspace_close = close_workspace,
+    .workspace_open = gm_flow_solver_open,
+    .workspace_close = gm_flow_solver_close,
 };

@@ -13,25 +13,23 @@
 #include "core/run.h"
 #include "core/theory/certify.h"
 
-enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
+enum { MOST = GM_MESH_SUBJECT_STATE };
 /* Numbers of tangent directions, two for each node before and after a step, and of their values. */
-enum { DIRECTIONS = 2 * FINE_POINTS, OBSERVED = 8 * FINE_POINTS };
-
-static const struct gm_settings settings = {0};
+enum { DIRECTIONS = 2 * GM_MESH_SUBJECT_POINTS, OBSERVED = 8 * GM_MESH_SUBJECT_POINTS };
 
 /* Differences of the field and nodes between runs with halved steps, of which the longest is `dt`. Runs of
    an adaptive scheme end at times that differ in second order; the velocities correct for that difference. */
-static double measure_order(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                            struct gm_ladder *ladder)
+static double measure_order(const struct gm_mesh_subject *subject, double dt, struct gm_ladder *ladder)
 {
     enum { STEPS = 7 };
     const double until = 5 * dt, round_off = 1e-10;
-    const size_t half = subject->problem.n / 2;
+    const struct gm_trial *trial = &subject->trial;
+    const size_t half = trial->problem->n / 2;
     double before[MOST] = {0}, previous = 0, order = NAN, t_before = 0;
     for (int i = 0; i < STEPS; i++) {
         const int64_t steps = INT64_C(5) << i;
-        struct gm_run *run =
-            gm_run_open(&subject->problem, scheme, &settings, 0, until / (double)steps, subject->start);
+        struct gm_run *run = gm_run_open(trial->problem, trial->scheme, trial->settings, 0,
+                                         until / (double)steps, subject->start);
         if (!run || gm_run_advance(run, steps) != GM_OK) {
             gm_run_close(run);
             return NAN;
@@ -47,7 +45,7 @@ static double measure_order(const struct gm_mesh_subject *subject, const struct 
             ladder->error[ladder->count++] = change;
         }
         previous = change;
-        memcpy(before, state, subject->problem.n * sizeof *state);
+        memcpy(before, state, 2 * half * sizeof *state);
         t_before = run->t;
         gm_run_close(run);
     }
@@ -55,13 +53,11 @@ static double measure_order(const struct gm_mesh_subject *subject, const struct 
 }
 
 /* The distance from its start at which a reversed run ends. */
-static double return_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                            bool reflected)
+static double return_defect(const struct gm_mesh_subject *subject, bool reflected)
 {
-    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, 1};
     double state[MOST];
-    return gm_trial_turn(&trial, subject->start, reflected, 0, state)
-               ? gm_distance(state, subject->start, subject->problem.n)
+    return gm_trial_turn(&subject->trial, subject->start, reflected, 0, state)
+               ? gm_distance(state, subject->start, subject->trial.problem->n)
                : INFINITY;
 }
 
@@ -71,14 +67,10 @@ static void momenta(const struct gm_mesh_subject *subject, const double *state, 
     const size_t points = subject->mesh.points;
     const bool alone = subject->mesh.alone;
     struct gm_elements stage;
-    memset(phase, 0, points * sizeof *phase); /* nodes alone have a field that is 0 */
+    memset(phase, 0, 4 * points * sizeof *phase); /* nodes alone have a field that is 0 */
     memcpy(phase + alone * points, state, (2 - alone) * points * sizeof *phase);
-    if (!gm_elements_open(&stage, &subject->mesh)) {
-        return;
-    }
-    gm_elements_place(&stage, state);
-    gm_elements_evaluate(&stage, &subject->mesh);
-    for (size_t k = 1; k <= points; k++) {
+    const bool good = gm_elements_open_at(&stage, &subject->mesh, state);
+    for (size_t k = 1; good && k <= points; k++) {
         phase[2 * points + k - 1] = gm_momentum_u(&stage, k);
         phase[3 * points + k - 1] = gm_momentum_v(&stage, k);
     }
@@ -94,13 +86,12 @@ static double form(const double *a, const double *b, size_t points)
     return sum;
 }
 
-/* (q, p) before and after a step */
-static bool step_in_phase_space(const struct gm_mesh_subject *subject, const void *context,
-                                const double *state, double *values)
+/* (q, p) before and after a step from a shifted start */
+static bool step_in_phase_space(const void *context, const double *by, double *values)
 {
-    const struct gm_mesh_step *step = context;
-    double end[MOST];
-    if (!gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, state, end)) {
+    const struct gm_mesh_subject *subject = context;
+    double state[MOST], end[MOST];
+    if (!gm_mesh_subject_shift(subject, by, state) || !gm_mesh_subject_advance(subject, 1, state, end)) {
         return false;
     }
     momenta(subject, state, values);
@@ -109,16 +100,14 @@ static bool step_in_phase_space(const struct gm_mesh_subject *subject, const voi
 }
 
 /* The symplectic form of tangent vectors before and after a step. */
-static double symplecticity_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
-                                   double dt)
+static double symplecticity_defect(const struct gm_mesh_subject *subject)
 {
     const size_t points = subject->mesh.points, n = 4 * points;
-    const struct gm_mesh_step step = {scheme, dt};
+    const struct gm_map map = {step_in_phase_space, subject, 2 * points, 2 * n};
     double tangents[DIRECTIONS][OBSERVED];
     double defect = 0;
     for (size_t a = 0; a < 2 * points; a++) {
-        if (!gm_mesh_subject_derive(subject, gm_scheme_mesh(scheme), a, step_in_phase_space, &step, 2 * n,
-                                    tangents[a])) {
+        if (!gm_mesh_derive(&map, a, tangents[a])) {
             return INFINITY;
         }
         for (size_t b = 0; b < a; b++) {
@@ -129,12 +118,11 @@ static double symplecticity_defect(const struct gm_mesh_subject *subject, const 
     return defect;
 }
 
-static double energy_drift(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                           int64_t steps)
+static double energy_drift(const struct gm_mesh_subject *subject, int64_t steps)
 {
     const double initial = gm_mesh_energy(&subject->mesh, subject->start);
     double state[MOST];
-    if (!gm_mesh_subject_advance(subject, scheme, dt, steps, subject->start, state)) {
+    if (!gm_mesh_subject_advance(subject, steps, subject->start, state)) {
         return INFINITY;
     }
     return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
@@ -145,26 +133,24 @@ static double energy_drift(const struct gm_mesh_subject *subject, const struct g
    of the local law of the trapezoidal discrete Lagrangian, or on a uniform mesh of that of the midpoint
    rule if that is less, over all stretches of three nodes (not where the step varies). Defects are of
    numbers of a size, or of products of two. */
-static void measure(struct gm_certificate *certificate, const struct gm_mesh_subject *subject, double dt,
-                    double size, const char *name)
+static void measure(struct gm_certificate *certificate, const struct gm_mesh_subject *subject, double size)
 {
-    const struct gm_scheme *scheme = certificate->scheme;
     /* Equations on meshes are solved to 1e-11, no better: multipliers carry the round-off of the squared
        step; and two claims are derivatives. */
     const struct {
         enum gm_claim claim;
         double tolerance, defect;
     } list[] = {
-        {GM_SYMMETRIC, 1e-11, return_defect(subject, scheme, dt, false) / size},
-        {GM_REVERSIBLE, 1e-11, return_defect(subject, scheme, dt, true) / size},
-        {GM_SYMPLECTIC, 1e-9, symplecticity_defect(subject, scheme, dt) / (size * size)},
-        {GM_KEEPS_ENERGY, 1e-11, energy_drift(subject, scheme, dt, 20)},
-        {GM_MULTISYMPLECTIC, 1e-9, gm_mesh_law_defect(subject, scheme, dt) / (size * size)},
+        {GM_SYMMETRIC, 1e-11, return_defect(subject, false) / size},
+        {GM_REVERSIBLE, 1e-11, return_defect(subject, true) / size},
+        {GM_SYMPLECTIC, 1e-9, symplecticity_defect(subject) / (size * size)},
+        {GM_KEEPS_ENERGY, 1e-11, energy_drift(subject, 20)},
+        {GM_MULTISYMPLECTIC, 1e-9, gm_mesh_law_defect(subject) / (size * size)},
     };
     for (size_t i = 0; i < GM_COUNT(list); i++) {
         gm_certificate_claim(certificate, list[i].claim)->tolerance = list[i].tolerance;
         if (!isnan(list[i].defect)) {
-            gm_certificate_note(certificate, list[i].claim, list[i].defect, name);
+            gm_certificate_note(certificate, list[i].claim, list[i].defect, subject->trial.problem->name);
         }
     }
 }
@@ -173,15 +159,15 @@ static void measure(struct gm_certificate *certificate, const struct gm_mesh_sub
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     const double dt = 0.2;
-    static const char name[] = "soliton";
-    struct gm_mesh_subject fine, few;
-    if (gm_mesh_subject_open(&fine, scheme, FINE_POINTS)) {
-        certificate->order = measure_order(&fine, scheme, dt, &certificate->ladder);
+    const struct gm_problem fine = gm_mesh_soliton(GM_MESH_SUBJECT_POINTS), few = gm_mesh_soliton(3);
+    struct gm_mesh_subject subject;
+    if (gm_mesh_subject_open(&subject, scheme, &fine, dt)) {
+        certificate->order = measure_order(&subject, dt, &certificate->ladder);
     }
-    certificate->order_problem = name;
+    certificate->order_problem = fine.name;
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
-    if (gm_mesh_subject_open(&few, scheme, POINTS)) {
-        measure(certificate, &few, dt, 1, name);
+    if (gm_mesh_subject_open(&subject, scheme, &few, dt)) {
+        measure(certificate, &subject, 1);
     }
 }
 
@@ -189,17 +175,16 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
-    const char *const name = system->problem->name;
     struct gm_mesh_subject subject = {0};
-    if (gm_mesh_subject_open_on(&subject, scheme, system->problem)) {
-        certificate->order = measure_order(&subject, scheme, 2 * system->dt, &certificate->ladder);
+    if (gm_mesh_subject_open(&subject, scheme, system->problem, system->dt)) {
+        certificate->order = measure_order(&subject, 2 * system->dt, &certificate->ladder);
         double size = 1;
-        for (size_t i = 0; i < subject.problem.n; i++) {
+        for (size_t i = 0; i < system->problem->n; i++) {
             size = fmax(size, fabs(subject.start[i]));
         }
-        measure(certificate, &subject, system->dt, size, name);
+        measure(certificate, &subject, size);
     }
-    certificate->order_problem = name;
+    certificate->order_problem = system->problem->name;
     certificate->order_reason = isnan(certificate->order)
                                     ? "differences between runs with steps from 2 dt down "
                                       "are not clear of round-off, or a run fails"

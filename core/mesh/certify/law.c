@@ -35,44 +35,35 @@ struct motion {
     double lambda[POINTS + 2], ell[ELEMENTS];
 };
 
-/* The quadrature rule of an element's Lagrangian in a step. */
-enum rule { TRAPEZOIDAL, MIDPOINT };
-
-struct stages {
-    enum rule rule;
-    enum gm_mesh_kind kind;
-    double t; /* the middle of the step */
-    /* at the start and the end of a step, or both in its middle, with its mean velocity */
-    struct gm_elements at[2];
-};
-
+/* The law that is measured: for the trapezoidal rule or that of the midpoint, with the elements at the start and the end
+   of a step, or both in its middle, with its mean velocity. */
 struct law {
-    struct gm_mesh_step step;
-    enum gm_mesh_kind kind;
-    enum rule rule;
+    const struct gm_mesh_subject *subject;
+    bool midpoint;
+    struct gm_elements *at; /* 2 */
 };
 
-static bool place(const struct gm_mesh_subject *subject, struct stages *stages, const double *from,
-                  const double *to, double h)
+/* Evaluates the elements of the step from one state to another, whose middle is at the time t. */
+static bool place(const struct law *law, double t, const double *from, const double *to)
 {
-    const size_t half = 2 * subject->mesh.points;
+    const struct gm_mesh *mesh = &law->subject->mesh;
+    const size_t half = 2 * mesh->points;
     for (size_t side = 0; side < 2; side++) {
-        struct gm_elements *at = &stages->at[side];
         double mean[4 * POINTS];
         for (size_t i = 0; i < half; i++) {
             const double end = side ? to[i] : from[i];
-            mean[i] = stages->rule == MIDPOINT ? (from[i] + to[i]) / 2 : end;
-            mean[half + i] = (to[i] - from[i]) / h;
+            mean[i] = law->midpoint ? (from[i] + to[i]) / 2 : end;
+            mean[half + i] = (to[i] - from[i]) / law->subject->trial.dt;
         }
-        gm_elements_place(at, mean);
-        if (stages->kind == GM_MESH_GIVEN) {
-            gm_mesh_known(&subject->mesh, stages->kind, stages->t, at);
+        gm_elements_place(&law->at[side], mean);
+        if (law->subject->kind == GM_MESH_GIVEN) {
+            gm_mesh_known(mesh, GM_MESH_GIVEN, t, &law->at[side]);
         }
-        if (!gm_elements_evaluate(at, &subject->mesh)) {
+        if (!gm_elements_evaluate(&law->at[side], mesh)) {
             return false;
         }
     }
-    gm_elements_constrain(&stages->at[0], &subject->mesh);
+    gm_elements_constrain(&law->at[0], mesh);
     return true;
 }
 
@@ -104,14 +95,14 @@ static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2
 
 /* dL_e/dq' and dL_e/dq at both ends of all elements: h/2 times the derivative of l by the place there, and the mean
    momentum. */
-static void differentiate(const struct stages *stages, double h, double push[ELEMENTS][2][2],
-                          double pull[ELEMENTS][2][2])
+static void differentiate(const struct law *law, double push[ELEMENTS][2][2], double pull[ELEMENTS][2][2])
 {
+    const double h = law->subject->trial.dt;
     for (size_t i = 0; i < 2 * ELEMENTS; i++) {
         const size_t e = i / 2, end = i % 2;
         double force[2][2], momentum[2] = {0};
         for (size_t side = 0; side < 2; side++) {
-            const struct gm_elements *at = &stages->at[side];
+            const struct gm_elements *at = &law->at[side];
             const double u = (end ? at->momentum_u1 : at->momentum_u0)[e];
             momentum[0] += u / 2;
             momentum[1] -= at->slope[e] * u / 2;
@@ -128,23 +119,27 @@ static void differentiate(const struct stages *stages, double h, double push[ELE
     }
 }
 
-static bool measure(const struct gm_mesh_subject *subject, const struct law *law, struct stages *stages,
-                    double states[3][4 * POINTS], struct motion *motion)
+/* Measures the motion from a shifted start; `data` is the law, and `values` the motion. */
+static bool measure(const void *data, const double *by, double *values)
 {
-    *motion = (struct motion){0};
-    const double h = law->step.dt;
-    const struct gm_elements *at = &stages->at[0];
-    double push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
-    stages->t = subject->mesh.t + h / 2;
-    if (!place(subject, stages, states[0], states[1], h)) {
+    const struct law *law = data;
+    const struct gm_mesh_subject *subject = law->subject;
+    const double h = subject->trial.dt, middle = subject->mesh.t + h / 2;
+    const struct gm_elements *at = &law->at[0];
+    struct motion *motion = (struct motion *)values;
+    double states[3][4 * POINTS], push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
+    memset(motion, 0, sizeof *motion);
+    if (!gm_mesh_subject_shift(subject, by, states[0]) ||
+        !gm_mesh_subject_advance(subject, 1, states[0], states[1]) ||
+        !gm_mesh_subject_advance(subject, 2, states[0], states[2]) ||
+        !place(law, middle, states[0], states[1])) {
         return false;
     }
-    differentiate(stages, h, push, motion->pull);
-    stages->t += h;
-    if (!place(subject, stages, states[1], states[2], h)) {
+    differentiate(law, push, motion->pull);
+    if (!place(law, middle + h, states[1], states[2])) {
         return false;
     }
-    differentiate(stages, h, motion->push, motion->pull);
+    differentiate(law, motion->push, motion->pull);
     memcpy(motion->ell, at->ell, sizeof motion->ell);
     for (size_t c = 0; c < 2; c++) {
         for (size_t i = 1; i <= POINTS; i++) {
@@ -157,7 +152,7 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
             rest[e + end][c] += push[e][end][c] + motion->pull[e][end][c];
         }
     }
-    if (law->kind != GM_MESH_MOVING) {
+    if (subject->kind != GM_MESH_MOVING) {
         return true;
     }
     if (!fit_multipliers(at, rest, motion->lambda)) {
@@ -170,28 +165,6 @@ static bool measure(const struct gm_mesh_subject *subject, const struct law *law
         }
     }
     return true;
-}
-
-static bool observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
-                    double *values)
-{
-    const struct law *law = context;
-    const struct gm_mesh_step *step = &law->step;
-    double states[3][4 * POINTS];
-    struct stages stages = {.rule = law->rule, .kind = law->kind};
-    struct motion motion;
-    memcpy(states[0], state, sizeof states[0]);
-    const bool good = gm_elements_open(&stages.at[0], &subject->mesh) &&
-                      gm_elements_open(&stages.at[1], &subject->mesh) &&
-                      gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, states[0], states[1]) &&
-                      gm_mesh_subject_advance(subject, step->scheme, step->dt, 2, states[0], states[2]) &&
-                      measure(subject, law, &stages, states, &motion);
-    if (good) {
-        memcpy(values, &motion, sizeof motion);
-    }
-    gm_elements_close(&stages.at[0]);
-    gm_elements_close(&stages.at[1]);
-    return good;
 }
 
 /* dfirst ^ dsecond, given by pointers into the derivatives along two motions */
@@ -228,13 +201,13 @@ static double law_of(const struct motion *v, const struct motion *w, size_t a, s
     return fabs(sum);
 }
 
-static double defect_of(const struct gm_mesh_subject *subject, const struct law *law)
+static double defect_of(const struct law *law)
 {
+    const struct gm_map map = {measure, law, 2 * POINTS, sizeof(struct motion) / sizeof(double)};
     struct motion tangents[DIRECTIONS];
     double defect = 0;
     for (size_t v = 0; v < DIRECTIONS; v++) {
-        if (!gm_mesh_subject_derive(subject, law->kind, v, observe, law, sizeof tangents[v] / sizeof(double),
-                                    (double *)&tangents[v])) {
+        if (!gm_mesh_derive(&map, v, (double *)&tangents[v])) {
             return INFINITY;
         }
         for (size_t w = 0; w < v; w++) {
@@ -248,16 +221,22 @@ static double defect_of(const struct gm_mesh_subject *subject, const struct law 
     return defect;
 }
 
-double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt)
+double gm_mesh_law_defect(const struct gm_mesh_subject *subject)
 {
-    if (scheme->family->adaptive || subject->mesh.points != POINTS || subject->mesh.alone) {
+    const struct gm_mesh *mesh = &subject->mesh;
+    if (subject->trial.scheme->family->adaptive || mesh->points != POINTS || mesh->alone) {
         return NAN;
     }
-    struct law law = {{scheme, dt}, gm_scheme_mesh(scheme), TRAPEZOIDAL};
-    const double trapezoidal = law.kind == GM_MESH_GIVEN ? INFINITY : defect_of(subject, &law);
-    if (law.kind == GM_MESH_MOVING) {
-        return trapezoidal;
+    struct gm_elements at[2] = {{0}};
+    double defect = INFINITY;
+    if (gm_elements_open(&at[0], mesh) && gm_elements_open(&at[1], mesh)) {
+        /* of a mesh that is known only the midpoint rule comes from a Lagrangian, of one that moves only the other */
+        for (int midpoint = subject->kind == GM_MESH_GIVEN; midpoint <= (subject->kind != GM_MESH_MOVING);
+             midpoint++) {
+            defect = fmin(defect, defect_of(&(struct law){subject, midpoint, at}));
+        }
     }
-    law.rule = MIDPOINT;
-    return fmin(trapezoidal, defect_of(subject, &law));
+    gm_elements_close(&at[0]);
+    gm_elements_close(&at[1]);
+    return defect;
 }

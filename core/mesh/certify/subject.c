@@ -93,52 +93,50 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
                              .potential = &gm_potential_sine_gordon};
 }
 
-bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points)
+struct gm_problem gm_mesh_soliton(size_t points)
 {
     static const struct gm_moving_mesh soliton = {.describe = describe, .start = profile};
-    const struct gm_problem problem = {
+    return (struct gm_problem){
         .name = "soliton", .n = 4 * points, .m = 1, .kind = &gm_kind_mesh, .facets = &soliton};
-    return gm_mesh_subject_open_on(subject, scheme, &problem);
 }
 
-bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
-                             const struct gm_problem *problem)
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                          const struct gm_problem *problem, double dt)
 {
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
-    subject->problem = *problem;
-    moving->describe(problem, &subject->mesh);
-    subject->mesh.cell = gm_scheme_mesh(scheme) == GM_MESH_FREE ? subject->mesh.cell : NULL;
-    return subject->mesh.points <= GM_MESH_SUBJECT_POINTS &&
-           (!subject->mesh.alone || gm_scheme_mesh(scheme) == GM_MESH_FREE) &&
-           gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters,
-                         subject->start);
+    struct gm_mesh *mesh = &subject->mesh;
+    subject->trial = (struct gm_trial){problem, scheme, &settings, dt, 1};
+    subject->kind = gm_scheme_mesh(scheme);
+    moving->describe(problem, mesh);
+    mesh->cell = subject->kind == GM_MESH_FREE ? mesh->cell : NULL;
+    return mesh->points <= GM_MESH_SUBJECT_POINTS && (!mesh->alone || subject->kind == GM_MESH_FREE) &&
+           gm_mesh_start(mesh, subject->kind, moving->start, problem->parameters, subject->start);
 }
 
-bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                             int64_t steps, const double *from, double *end)
+bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, int64_t steps, const double *from,
+                             double *end)
 {
-    const struct gm_trial trial = {&subject->problem, scheme, &settings, dt, steps};
+    struct gm_trial trial = subject->trial;
+    trial.steps = steps;
     return gm_trial_advance(&trial, from, end);
 }
 
-/* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow from the constraint. */
-static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, const double *by,
-                  double *state)
+bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *by, double *state)
 {
     const size_t points = subject->mesh.points;
-    memcpy(state, subject->start, subject->problem.n * sizeof *state);
+    memcpy(state, subject->start, subject->trial.problem->n * sizeof *state);
     for (size_t i = 0; i < 2 * points && subject->mesh.alone; i++) {
         state[i] += by[i];
     }
     for (size_t i = 0; i < points && !subject->mesh.alone; i++) {
         state[i] += by[i];
         state[2 * points + i] += by[points + i];
-        if (kind == GM_MESH_FREE) { /* nodes move by other shares of the same directions */
+        if (subject->kind == GM_MESH_FREE) { /* nodes move by other shares of the same directions */
             state[points + i] += by[points - 1 - i] / 4;
             state[3 * points + i] += by[2 * points - 1 - i] / 4 - by[i] / 8;
         }
     }
-    if (kind != GM_MESH_MOVING) {
+    if (subject->kind != GM_MESH_MOVING) {
         return true;
     }
     struct gm_elements stage = {0};
@@ -161,27 +159,10 @@ static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind,
     return good;
 }
 
-struct observation {
-    const struct gm_mesh_subject *subject;
-    enum gm_mesh_kind kind;
-    gm_mesh_observe *observe;
-    const void *context;
-};
-
-static bool observe_shifted(const void *data, const double *by, double *values)
-{
-    const struct observation *of = data;
-    double state[GM_MESH_SUBJECT_STATE];
-    return shift(of->subject, of->kind, by, state) && of->observe(of->subject, of->context, state, values);
-}
-
-bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
-                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative)
+bool gm_mesh_derive(const struct gm_map *map, size_t direction, double *derivative)
 {
     const double start[2 * GM_MESH_SUBJECT_POINTS] = {0};
     double along[2 * GM_MESH_SUBJECT_POINTS] = {0};
     along[direction] = 1;
-    const struct observation observation = {subject, kind, observe, context};
-    const struct gm_map map = {observe_shifted, &observation, 2 * subject->mesh.points, count};
-    return gm_differentiate(&map, start, along, derivative);
+    return gm_differentiate(map, start, along, derivative);
 }

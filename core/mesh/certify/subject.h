@@ -2,8 +2,9 @@
 #ifndef GM_CORE_MESH_CERTIFY_SUBJECT_H
 #define GM_CORE_MESH_CERTIFY_SUBJECT_H
 
+#include "core/linear/differences.h"
 #include "core/mesh/moving_mesh.h"
-#include "core/scheme.h"
+#include "core/theory/certify.h"
 
 /* Test problems of schemes on meshes: a field on a few nodes, usually one soliton, and derivatives along
    its motions. */
@@ -14,38 +15,32 @@ enum {
 };
 
 struct gm_mesh_subject {
-    struct gm_problem problem;
+    struct gm_trial trial; /* one step of a scheme on the problem */
+    enum gm_mesh_kind kind;
     struct gm_mesh mesh;
     double start[GM_MESH_SUBJECT_STATE];
 };
 
-struct gm_mesh_step {
-    const struct gm_scheme *scheme;
-    double dt;
-};
+/* A soliton on a mesh of `points` nodes. */
+struct gm_problem gm_mesh_soliton(size_t points);
 
-/* A soliton on a mesh of `points` nodes for a scheme, with its start. Returns false when out of memory. */
-bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, size_t points);
-
-/* Opens a subject on a problem of at most `points` nodes, with its own start. */
-bool gm_mesh_subject_open_on(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
-                             const struct gm_problem *problem);
+/* Opens a subject on a problem of at most GM_MESH_SUBJECT_POINTS nodes, with the problem's start for the scheme. False
+   if it has no start, or when out of memory. */
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                          const struct gm_problem *problem, double dt);
 
 /* Steps of a run that starts from the state `from`; false if it fails. */
-bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                             int64_t steps, const double *from, double *end);
+bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, int64_t steps, const double *from,
+                             double *end);
 
-/* Numbers that follow from a start; false if it fails. */
-typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
-                             double *values);
+/* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow from the constraint. */
+bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *by, double *state);
 
-/* The derivatives of `count` observed numbers by component `direction` of dy and then d(dy/dt), where X
-   and dX/dt follow from the constraint, by differences (core/linear/differences.h). Returns false if a run
-   fails. */
-bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
-                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
+/* The derivatives of the numbers that a map makes of such shifts, along component `direction` of them. Returns false if
+   the map fails. */
+bool gm_mesh_derive(const struct gm_map *map, size_t direction, double *derivative);
 
 /* The defect of the local law that core/mesh/certify/law.c states; NaN if it does not apply. */
-double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt);
+double gm_mesh_law_defect(const struct gm_mesh_subject *subject);
 
 #endif

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/mesh/families/families.h"
+#include "core/mesh_scheme_texts.h"
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -84,17 +85,7 @@ static struct gm_progress loop(const struct gm_task *task)
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "multiplier-adaptive4",
-        .title = "multiplier adaptive 4",
-        .formula = "Lobatto IIIA–IIIB with h = dt/ρ,  ρₙ₊½ = ρₙ₋½ + dt d/dt log σ(qₙ)\n"
-                   "σ⁸ = c⁻⁴ + Σ dₑ⁻⁴ of the cells",
-        .reference = "E. Hairer & G. Söderlind (2005); Tyranowski & Desbrun (2019), section 6.3",
-        .family = &gm_family_adaptive,
-        .coefficients = &gm_mesh_multiplier4,
-        .order = 4,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
-    },
+    {GM_TEXTS_multiplier_adaptive4, .family = &gm_family_adaptive, .coefficients = &gm_mesh_multiplier4},
 };
 
 const struct gm_family gm_family_adaptive = {

@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "core/mesh/families/families.h"
+#include "core/mesh_scheme_texts.h"
 
 /* Unknowns at a node, stage by stage: dy/dt, then X of a mesh that is held, then dX/dt unless it is known; and behind all
    stages, if the constraint has multipliers, the slack W and Lambda_1 ... Lambda_{s-1}. */
@@ -406,54 +407,18 @@ static const struct gm_mesh_strategy strategy_given = {
 static const struct gm_mesh_strategy strategy_uniform = {
     .kind = GM_MESH_UNIFORM, .unknowns = 1, .projected = 1, STRATEGY};
 
-#define FORMULA_control                                                                                      \
-    "∂L/∂ẏ(Yᵢ, Qᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
-    "g(Yᵢ, Qᵢ) = 0"
-#define FORMULA_uniform "∂L/∂ẏ(Yᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ,  X fixed"
-#define FORMULA_given                                                                                        \
-    "∂L/∂ẏ(Yᵢ, Xᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
-    "Xᵢ = F(x, tₙ + cᵢ h),  Ẋᵢ = ∂F/∂t"
-#define FORMULA_free                                                                                                       \
-    "Pᵢ = ∂L/∂q̇(Qᵢ, Q̇ᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂q,  Qᵢ = qₙ + h Σ aᵢⱼ Q̇ⱼ,  q = (y, X)\n" \
-    "L of the field and of the cells"
-#define PAIR (GM_SYMMETRIC | GM_REVERSIBLE)
-
-/* The strategy, its stages, its title, the order, what it claims, and the reference. */
-#define ROW(by, stages_of, words, degree, claimed, source)                                                   \
+/* The strategy, and its stages. */
+#define ROW(by, stages_of)                                                                                   \
+    GM_TEXTS_##by##_##stages_of, .family = &gm_family_control, .coefficients = &(const struct gm_mesh_row)   \
     {                                                                                                        \
-        .name = #by "-" #stages_of, .title = #by " " words, .formula = FORMULA_##by, .reference = source,    \
-        .family = &gm_family_control,                                                                        \
-        .coefficients =                                                                                      \
-            &(const struct gm_mesh_row){.strategy = &strategy_##by, .tableau = &gm_tableau_##stages_of},     \
-        .order = degree, .claims = claimed                                                                   \
+        .strategy = &strategy_##by, .tableau = &gm_tableau_##stages_of                                       \
     }
-#define UNIFORM(stages_of, words, degree, claimed)                                                           \
-    ROW(uniform, stages_of, words, degree, GM_SYMPLECTIC | PAIR | claimed,                                   \
-        "Tyranowski & Desbrun (2019), section 5.3")
-#define GIVEN(stages_of, words, degree, claimed)                                                             \
-    ROW(given, stages_of, words, degree, GM_SYMPLECTIC | GM_SYMMETRIC | claimed,                             \
-        "Tyranowski & Desbrun (2019), eq. 20, propositions 2 to 4")
-#define CONTROL(stages_of, words, degree, claimed)                                                           \
-    ROW(control, stages_of, words, degree, claimed, "Tyranowski & Desbrun (2019), eq. 21")
 
 static const struct gm_scheme schemes[] = {
-    UNIFORM(gauss2, "Gauss 2", 2, GM_MULTISYMPLECTIC),
-    UNIFORM(gauss4, "Gauss 4", 4, 0),
-    UNIFORM(lobatto2, "Lobatto 2", 2, GM_MULTISYMPLECTIC),
-    UNIFORM(lobatto4, "Lobatto 4", 4, 0),
-    GIVEN(gauss2, "Gauss 2", 2, GM_MULTISYMPLECTIC),
-    GIVEN(gauss4, "Gauss 4", 4, 0),
-    GIVEN(lobatto2, "Lobatto 2", 2, 0),
-    GIVEN(lobatto4, "Lobatto 4", 4, 0),
-    ROW(free, gauss2, "Gauss 2", 2, GM_SYMPLECTIC | PAIR | GM_MULTISYMPLECTIC,
-        "Tyranowski & Desbrun (2019), section 3.3"),
-    ROW(free, gauss4, "Gauss 4", 4, GM_SYMPLECTIC | PAIR, "Tyranowski & Desbrun (2019), section 3.3"),
-    CONTROL(gauss2, "Gauss 2", 2, PAIR),
-    CONTROL(gauss4, "Gauss 4", 4, PAIR),
-    CONTROL(lobatto2, "Lobatto 2", 2, PAIR),
-    CONTROL(lobatto4, "Lobatto 4", 4, PAIR),
-    ROW(control, radau3, "Radau 3", 3, 0, "Tyranowski & Desbrun (2019), eq. 21; B. L. Ehle (1969)"),
-    ROW(control, radau5, "Radau 5", 5, 0, "Tyranowski & Desbrun (2019), section 5.4; B. L. Ehle (1969)"),
+    {ROW(uniform, gauss2)},   {ROW(uniform, gauss4)},   {ROW(uniform, lobatto2)}, {ROW(uniform, lobatto4)},
+    {ROW(given, gauss2)},     {ROW(given, gauss4)},     {ROW(given, lobatto2)},   {ROW(given, lobatto4)},
+    {ROW(free, gauss2)},      {ROW(free, gauss4)},      {ROW(control, gauss2)},   {ROW(control, gauss4)},
+    {ROW(control, lobatto2)}, {ROW(control, lobatto4)}, {ROW(control, radau3)},   {ROW(control, radau5)},
 };
 
 const struct gm_family gm_family_control = {.title = "control-theoretic, free, known and uniform meshes",

@@ -15,35 +15,15 @@
    from the hidden constraint Dg qdot = 0 at the end of the step. Stages and steps are those of control.c. Tyranowski & Desbrun (2019), eqs. 95-98;
    L.O. Jay, SIAM J. Numer. Anal. 33 (1996) 368. */
 #include "core/mesh/families/families.h"
-
-#define EQUATIONS                                                                                                 \
-    "Pᵢ = ∂L/∂q̇(Qᵢ, Q̇ᵢ) + Dg(Qᵢ)ᵀ Ṙᵢ = pₙ + h Σ āᵢⱼ (Gⱼ − Dg(Qⱼ)ᵀ Λⱼ)\n" \
-    "Qᵢ = qₙ + h Σ aᵢⱼ Q̇ⱼ,  g(Qᵢ) = 0"
-#define COMMON .family = &gm_family_multiplier, .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE
+#include "core/mesh_scheme_texts.h"
 
 static const struct gm_mesh_row lobatto2 = {&gm_mesh_multiplied, &gm_tableau_lobatto2, {1, -1}, {1, -1}};
 const struct gm_mesh_row gm_mesh_multiplier4 = {
     &gm_mesh_multiplied, &gm_tableau_lobatto4, {1, -0.5, 1}, {1, -2, 1}};
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "multiplier-lobatto2",
-        .title = "multiplier 2",
-        .formula = EQUATIONS,
-        .reference = "Tyranowski & Desbrun (2019), eqs. 95–98; L. O. Jay (1996)",
-        .coefficients = &lobatto2,
-        .order = 2,
-        COMMON,
-    },
-    {
-        .name = "multiplier-lobatto4",
-        .title = "multiplier 4",
-        .formula = EQUATIONS,
-        .reference = "Tyranowski & Desbrun (2019), eqs. 95–98; L. O. Jay (1996)",
-        .coefficients = &gm_mesh_multiplier4,
-        .order = 4,
-        COMMON,
-    },
+    {GM_TEXTS_multiplier_lobatto2, .family = &gm_family_multiplier, .coefficients = &lobatto2},
+    {GM_TEXTS_multiplier_lobatto4, .family = &gm_family_multiplier, .coefficients = &gm_mesh_multiplier4},
 };
 
 const struct gm_family gm_family_multiplier = {.title = "meshes held by Lagrange multipliers",

@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "core/mesh/families/families.h"
+#include "core/mesh_scheme_texts.h"
 
 /* The elements are at q_j in solver->ends, and at q_{j+1} in solver->stage[0], both with the velocity v. A
    node has the unknowns y and X of q_{j+1} and lambda. */
@@ -112,17 +113,8 @@ static const struct gm_mesh_strategy strategy = {
 };
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "multiplier-trapezoidal",
-        .title = "multiplier trap.",
-        .formula = "pⱼ + D₁L(qⱼ, qⱼ₊₁) − Dg(qⱼ)ᵀ λⱼ = 0,  g(qⱼ₊₁) = 0\n"
-                   "L = h/2 [L(qⱼ, v) + L(qⱼ₊₁, v)],  v = (qⱼ₊₁ − qⱼ)/h",
-        .reference = "Tyranowski & Desbrun (2019), eqs. 154–155",
-        .family = &gm_family_trapezoidal,
-        .coefficients = &(const struct gm_mesh_row){.strategy = &strategy},
-        .order = 2,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_MULTISYMPLECTIC,
-    },
+    {GM_TEXTS_multiplier_trapezoidal, .family = &gm_family_trapezoidal,
+     .coefficients = &(const struct gm_mesh_row){.strategy = &strategy}},
 };
 
 const struct gm_family gm_family_trapezoidal = {.title = "multisymplectic moving meshes",

@@ -16,48 +16,52 @@ struct gm_mesh_names {
     double alpha, steepest, bend;
 };
 
-/* A density as a formula. */
-struct gm_user_density {
-    struct gm_density density; /* first */
-    struct gm_tape tape;       /* of s, u, x: P and its derivatives, in the order of enum gm_density_value */
-    struct gm_tape itself;     /* rho */
+/* The values of a mesh's keys. */
+struct gm_user_mesh {
+    double first, length; /* first <= x <= first + length */
+    long points;          /* nodes between the ends */
+    double alpha;         /* NaN: the file's, or else one that the start allows for */
+    const char *density;  /* a word of gm_user_densities, or a formula */
+    const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
+    const char *cell;     /* the Lagrangian of a cell; NULL or "0": none */
+    const char
+        *nodes; /* of nodes alone: their places at the start, instead of `points`; NULL or "density": by it */
+    const char *between; /* of nodes alone: the velocity between them */
+    double relax, until;
 };
+
 /* The words for densities, NULL-terminated. */
 extern const char *const gm_user_densities[];
 
-/* A known mesh as a formula. */
-struct gm_user_map {
-    struct gm_mesh_map map; /* first */
-    struct gm_tape tape;    /* of x and t: the place and its rate */
+enum gm_mesh_tape {
+    GM_TAPE_P,         /* of s, u, x: P and its derivatives, in the order of enum gm_density_value */
+    GM_TAPE_RHO,       /* of s, u, x */
+    GM_TAPE_PLACES,    /* of x and t: the place and its rate */
+    GM_TAPE_CELL,      /* of d, d_t, m_t, u_x: the Lagrangian and its derivatives */
+    GM_TAPE_BENT_CELL, /* the second ones */
+    GM_TAPE_BETWEEN,   /* of s from 0 to 1, the distance d of two nodes, their velocities v0 and v1 */
+    GM_TAPE_NODE,      /* scratch */
+    GM_MESH_TAPES
 };
-/* Opens the mesh of a text X = F; false as gm_user_density_open. */
-bool gm_user_map_open(struct gm_user_map *map, const struct gm_mesh_names *names, const char *text,
-                      char *sentence, size_t size);
-/* False with a sentence if it moves an end of the mesh at time t, or does not grow with x. */
-bool gm_user_map_suits(const struct gm_user_map *map, const struct gm_mesh *mesh, double t, char *sentence,
-                       size_t size);
+enum { GM_BETWEEN_INPUTS = 4, GM_MOST_LISTED = 128 };
 
-/* The Lagrangian of a cell as a formula. */
-struct gm_user_cell {
-    struct gm_mesh_cell cell;           /* first */
-    struct gm_tape by_first, by_second; /* of d, d_t, m_t, u_x */
+/* The formulas of a mesh equation. */
+struct gm_mesh_formulas {
+    struct gm_density density; /* first */
+    struct gm_mesh_map map;    /* without a function: nodes are at their labels */
+    struct gm_mesh_cell cell;  /* without functions: cells have no Lagrangian */
+    struct gm_tape tapes[GM_MESH_TAPES];
+    double listed[GM_MOST_LISTED];   /* places of nodes alone */
+    size_t listed_count;             /* 0: by the density */
+    char refused[GM_FAULT_SENTENCE]; /* why a formula is refused; "": all are good */
 };
-/* Opens the cells of a text; false as gm_user_density_open. */
-bool gm_user_cell_open(struct gm_user_cell *cell, const struct gm_mesh_names *names, const char *text,
-                       char *sentence, size_t size);
 
-/* The velocity between two nodes as a formula. */
-enum { GM_BETWEEN_INPUTS = 4 }; /* s from 0 to 1, the distance d of the nodes, their velocities v0 and v1 */
-bool gm_user_between_open(struct gm_tape *between, const struct gm_mesh_names *names, const char *text,
-                          char *sentence, size_t size);
+/* Reads the formulas, until one is refused. False when out of memory; the caller closes them in any case. */
+bool gm_mesh_formulas_open(struct gm_mesh_formulas *formulas, const struct gm_mesh_names *names,
+                           const struct gm_user_mesh *chosen);
+void gm_mesh_formulas_close(void *formulas);
 
-/* Places of nodes, formulas of parameters separated by commas: writes at most `most` of them, and their number. */
-bool gm_user_places_read(const struct gm_mesh_names *names, const char *text, double *places, size_t most,
-                         size_t *count, char *sentence, size_t size);
-
-/* Opens the density of a word or a formula; false with a sentence, which is empty when out of memory. The caller closes both tapes
-   in both cases. */
-bool gm_user_density_open(struct gm_user_density *density, const struct gm_mesh_names *names,
-                          const char *text, char *sentence, size_t size);
+/* False with a sentence if the mesh's map moves an end at time t, or does not grow with x. */
+bool gm_mesh_map_suits(const struct gm_mesh *mesh, double t, char *sentence, size_t size);
 
 #endif

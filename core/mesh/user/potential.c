@@ -19,22 +19,17 @@
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
 enum { U, RATE, SLOPE, DRIFT, OF_START };
-enum { MOST_LISTED = 128 };
 
 struct own {
     struct gm_user_line line; /* first; starts are u, u_t, u_x, and X_t if the file gives it */
     struct gm_potential functions;
     struct gm_mesh mesh;
     struct gm_mesh_names names;
-    struct gm_user_density density;
-    struct gm_user_map map;
-    struct gm_user_cell cell;
+    struct gm_mesh_formulas formulas;
     double until;
-    char refused[GM_FAULT_SENTENCE]; /* why a formula of the mesh equation is refused; "": all are good */
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
-    struct gm_tape means /* V, V' */, bend /* V'' */, between;
-    double listed[MOST_LISTED]; /* places of nodes alone */
+    struct gm_tape means /* V, V' */, bend /* V'' */;
     struct gm_tape
         known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
@@ -209,29 +204,6 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
     return true;
 }
 
-/* Reads the formulas of the mesh equation. A bad one is refused later (gm_user_mesh_rests). */
-static bool open_equation(struct own *self, const struct gm_user_mesh *chosen)
-{
-    const struct gm_mesh_names *names = &self->names;
-    enum { SIZE = sizeof self->refused };
-    size_t count = 0;
-    if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
-        const bool read =
-            gm_user_places_read(names, chosen->nodes, self->listed, MOST_LISTED, &count, self->refused, SIZE);
-        self->mesh.listed = self->listed;
-        self->mesh.points = read ? count : self->mesh.points;
-        if (!read) {
-            return self->refused[0];
-        }
-    }
-    return (gm_user_density_open(&self->density, names, chosen->density, self->refused, SIZE) &&
-            (!chosen->between || !chosen->between[0] ||
-             gm_user_between_open(&self->between, names, chosen->between, self->refused, SIZE)) &&
-            (!self->mesh.map || gm_user_map_open(&self->map, names, chosen->map, self->refused, SIZE)) &&
-            (!self->mesh.cell || gm_user_cell_open(&self->cell, names, chosen->cell, self->refused, SIZE))) ||
-           self->refused[0];
-}
-
 struct opening {
     struct gm_problem *problem;
     const struct gm_user_wave *wave;
@@ -267,11 +239,7 @@ static void open_problem(struct gm_arena *arena, void *data)
         gm_user_line_tape(line, &self->known, &wave->exact_while, 1, 2, values);
     }
     gm_user_line_open(&self->line, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START, &wave->exact, values);
-    struct gm_tape *const of_formulas[] = {&self->density.tape, &self->density.itself, &self->map.tape,
-                                           &self->between,      &self->cell.by_first,  &self->cell.by_second};
-    for (size_t i = 0; i < GM_COUNT(of_formulas); i++) {
-        gm_tape_keep(arena, of_formulas[i], true); /* they are opened below */
-    }
+    gm_arena_keep(arena, &self->formulas, gm_mesh_formulas_close); /* they are opened below */
     const double places[] = {chosen->first, chosen->first + chosen->length};
     double ends[2], slopes[2], rates[2];
     start(self, places, GM_COUNT(places), ends, slopes, rates);
@@ -279,16 +247,21 @@ static void open_problem(struct gm_arena *arena, void *data)
                   !held || gm_user_line_numbers(wave->system, held->nodes, GM_COUNT(ends), values, ends));
     self->mesh.left = ends[0];
     self->mesh.right = ends[1];
-    self->mesh.density = &self->density.density;
+    self->mesh.density = &self->formulas.density;
     self->mesh.alone = wave->system->alone;
     self->mesh.drift = wave->drift == GM_NO_NODE ? NULL : drift;
-    self->mesh.map = chosen->map && chosen->map[0] ? &self->map.map : NULL;
-    self->mesh.cell = chosen->cell && strcmp(chosen->cell, "0") != 0 ? &self->cell.cell : NULL;
     self->mesh.relax = chosen->relax;
     self->mesh.t = self->line.begin;
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    gm_arena_need(arena, weigh(self, chosen, values) && open_equation(self, chosen));
+    /* a formula that is refused is reported by gm_user_mesh_rests */
+    struct gm_mesh_formulas *formulas = &self->formulas;
+    gm_arena_need(arena,
+                  weigh(self, chosen, values) && gm_mesh_formulas_open(formulas, &self->names, chosen));
+    self->mesh.map = formulas->map.places ? &formulas->map : NULL;
+    self->mesh.cell = formulas->cell.first ? &formulas->cell : NULL;
+    self->mesh.listed = formulas->listed_count > 0 ? formulas->listed : NULL;
+    self->mesh.points = self->mesh.listed ? formulas->listed_count : self->mesh.points;
     opening->problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
 }
 
@@ -301,8 +274,8 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
 {
-    const struct gm_tape *tape = &((const struct own *)problem->parameters)->between;
-    gm_tape_values(tape, at, velocity, m);
+    const struct gm_mesh_formulas *formulas = &((const struct own *)problem->parameters)->formulas;
+    gm_tape_values(&formulas->tapes[GM_TAPE_BETWEEN], at, velocity, m);
 }
 
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
@@ -318,16 +291,16 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
     const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
     const char *name = self->line.system->variables[0].name;
     double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;
-    if (self->refused[0]) {
-        snprintf(sentence, size, "%s", self->refused);
+    if (self->formulas.refused[0]) {
+        snprintf(sentence, size, "%s", self->formulas.refused);
         return false;
     }
-    if (self->mesh.map && (!gm_user_map_suits(&self->map, &self->mesh, self->mesh.t, sentence, size) ||
-                           !gm_user_map_suits(&self->map, &self->mesh, self->until, sentence, size))) {
+    if (self->mesh.map && (!gm_mesh_map_suits(&self->mesh, self->mesh.t, sentence, size) ||
+                           !gm_mesh_map_suits(&self->mesh, self->until, sentence, size))) {
         return false;
     }
     for (size_t k = 0; self->mesh.listed && k < self->mesh.points; k++) {
-        const double x = self->listed[k], end = self->mesh.first + self->mesh.length;
+        const double x = self->formulas.listed[k], end = self->mesh.first + self->mesh.length;
         if (!(x > before && x < end)) {
             snprintf(sentence, size, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
                      before, self->mesh.first, end);
@@ -340,14 +313,12 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
         for (size_t i = 0; i < some; i++) {
             const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
                          drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
-            if (!isfinite(drift)) {
-                snprintf(sentence, size, "X_t at the start is not finite where x = %.6g",
-                         gm_grid1_node(&grid, from + i));
-                return false;
-            }
-            if (!isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name,
-                         !isfinite(u)       ? ""
+            const bool moves = isfinite(drift);
+            if (!moves || !isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g",
+                         moves ? name : "X",
+                         !moves             ? "_t"
+                         : !isfinite(u)     ? ""
                          : !isfinite(slope) ? "_x"
                                             : "_t",
                          gm_grid1_node(&grid, from + i));
@@ -355,7 +326,7 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
             }
             const double at[] = {slope, u, gm_grid1_node(&grid, from + i)};
             double rho;
-            gm_tape_values(&self->density.itself, at, &rho, 1);
+            gm_tape_values(&self->formulas.tapes[GM_TAPE_RHO], at, &rho, 1);
             if (!(rho >= 0 && isfinite(rho))) {
                 snprintf(sentence, size,
                          "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity", rho,

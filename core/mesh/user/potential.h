@@ -6,19 +6,6 @@
 
 #include "core/mesh/user/formulas.h"
 
-struct gm_user_mesh {
-    double first, length; /* first <= x <= first + length */
-    long points;          /* nodes between the ends */
-    double alpha;         /* NaN: the file's, or else one that the start allows for */
-    const char *density;  /* a word of gm_user_densities, or a formula */
-    const char *map;      /* X = F, of a known mesh; NULL: nodes are at their labels */
-    const char *cell;     /* the Lagrangian of a cell; NULL or "0": none */
-    const char
-        *nodes; /* of nodes alone: their places at the start, instead of `points`; NULL or "density": by it */
-    const char *between; /* of nodes alone: the velocity between them */
-    double relax, until;
-};
-
 /* The number of Gauss points for the mean of V over an element: exact if V is a polynomial of degree 19 or
    less in u, else 10. */
 size_t gm_user_mesh_order(const struct gm_user_wave *wave);
@@ -31,7 +18,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
 /* The numbers that formulas of its mesh may hold: alpha, steepest and bend, resolved. */
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem);
 
-/* Writes the velocities of nodes alone between them, at m places: `at` holds the inputs of gm_user_between_open,
+/* Writes the velocities of nodes alone between them, at m places: `at` holds the inputs of GM_TAPE_BETWEEN,
    [number * m + place]. */
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m);
 

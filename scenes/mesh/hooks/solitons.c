@@ -14,12 +14,7 @@
 /* Returns the line `let: continuum`; NULL: the file has none. */
 static const struct gm_system_item *continuum_of(const struct gm_user_system *system)
 {
-    const struct gm_system_item *item;
-    size_t number = 0;
-    do {
-        item = gm_system_item_of(system, GM_WORD_LET, number++);
-    } while (item && strcmp(item->name, "continuum") != 0);
-    return item;
+    return gm_system_item_named(system, GM_WORD_LET, "continuum");
 }
 
 static bool suits(const struct gm_user_system *system)
