@@ -17,7 +17,6 @@
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"
-#include "core/expression/tidied.h"
 #include "core/expression/writer.h"
 #include "tests/common/random_formula.h"
 #include "tests/common/reference.h"
