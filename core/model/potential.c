@@ -4,52 +4,35 @@
 #include "core/model/potential.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "core/basics.h"
 #include "core/model/equations.h"
 
-/* The degree of a formula as a polynomial in variable 0; INFINITY if it is not written as one, or when out of
-   memory. */
-static double degree_of(const struct gm_formula *graph, gm_node_id formula)
+/* The degree of a formula as a polynomial in variable 0; INFINITY if it is not written as one. */
+static double degree_of(const struct gm_user_system *system, gm_node_id formula)
 {
-    double *degrees = malloc((formula + (size_t)1) * sizeof *degrees), degree = INFINITY;
-    for (gm_node_id i = 0; degrees && i <= formula; i++) {
-        const struct gm_node *node = &graph->nodes[i];
-        if (node->operation == GM_CONSTANT || node->operation == GM_VARIABLE) {
-            degrees[i] = node->operation == GM_VARIABLE && node->a == 0;
+    const struct gm_node *nodes = system->graph.nodes;
+    double *degrees = gm_arena_take(system->arena, formula + (size_t)1, sizeof *degrees);
+    for (gm_node_id i = 0; i <= formula; i++) {
+        const struct gm_node *node = &nodes[i];
+        const enum gm_operation operation = node->operation;
+        if (operation <= GM_VARIABLE) {
+            degrees[i] = operation == GM_VARIABLE && node->a == 0;
             continue;
         }
-        const double a = degrees[node->a],
-                     b = gm_operation_rows[node->operation].arity == 2 ? degrees[node->b] : 0;
-        switch (node->operation) {
-        case GM_OPERATION_ADD:
-        case GM_OPERATION_SUBTRACT:
+        const double a = degrees[node->a], b = gm_operation_rows[operation].arity == 2 ? degrees[node->b] : 0;
+        degrees[i] = a + b == 0 ? 0 : INFINITY;
+        if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT) {
             degrees[i] = fmax(a, b);
-            break;
-        case GM_OPERATION_NEGATE:
-            degrees[i] = a;
-            break;
-        case GM_OPERATION_MULTIPLY:
+        } else if (operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_NEGATE) {
             degrees[i] = a + b;
-            break;
-        case GM_OPERATION_WHOLE_POWER:
-            degrees[i] = a == 0                            ? 0
-                         : graph->nodes[node->b].value > 0 ? a * graph->nodes[node->b].value
-                                                           : INFINITY;
-            break;
-        case GM_OPERATION_DIVIDE:
-            degrees[i] = b == 0 ? a : INFINITY;
-            break;
-        default:
-            degrees[i] = a + b == 0 ? 0 : INFINITY;
+        } else if (operation == GM_OPERATION_DIVIDE && b == 0) {
+            degrees[i] = a;
+        } else if (operation == GM_OPERATION_WHOLE_POWER && a > 0 && nodes[node->b].value > 0) {
+            degrees[i] = a * nodes[node->b].value;
         }
     }
-    if (degrees) {
-        degree = degrees[formula];
-    }
-    free(degrees);
-    return degree;
+    return degrees[formula];
 }
 
 static bool is_other_variable(struct gm_formula *graph, gm_node_id part, const void *unused)
@@ -68,9 +51,9 @@ static enum gm_known_potential recognise(struct gm_user_system *system)
         [GM_POTENTIAL_SINE_GORDON] = gm_difference(graph, one, gm_simplified(graph, GM_OPERATION_COS, u, u)),
         [GM_POTENTIAL_PHI4] =
             gm_product(graph, gm_formula_constant(graph, 0.25), gm_product(graph, well, well))};
-    for (size_t i = GM_POTENTIAL_OWN + 1; i < GM_COUNT(known) && !graph->failed; i++) {
-        const gm_node_id rest = gm_difference(graph, system->energy, known[i]);
-        const enum gm_identity identity = graph->failed ? GM_UNTESTED : gm_equations_vanishes(system, rest);
+    for (size_t i = GM_POTENTIAL_OWN + 1; i < GM_COUNT(known); i++) {
+        const enum gm_identity identity =
+            gm_equations_vanishes(system, gm_difference(graph, system->energy, known[i]));
         if (identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED) {
             return (enum gm_known_potential)i;
         }
@@ -90,11 +73,9 @@ static void derive_start(struct gm_user_wave *wave, struct gm_user_system *syste
                force[GM_TYPED_DERIVATIVES] = {wave->by_u[F], wave->by_u[F1], wave->by_u[F2]}, u[1];
     u[0] = at[0] = system->variables[U].start;
     at[1] = system->variables[U_T].start;
-    if (system->graph.failed || !gm_formula_substitute(&system->graph, force, GM_TYPED_DERIVATIVES, u, 1)) {
-        system->graph.failed = true;
-        return;
-    }
-    for (size_t k = 2; k < gm_wave_start_count(wave) && !system->graph.failed; k++) {
+    gm_system_need_graph(system);
+    gm_arena_need(system->arena, gm_formula_substitute(&system->graph, force, GM_TYPED_DERIVATIVES, u, 1));
+    for (size_t k = 2; k < gm_wave_start_count(wave); k++) {
         const gm_node_id bend = gm_system_derivative(system, gm_system_derivative(system, at[k - 2], x), x);
         gm_node_id rate = force[F];
         if (k > 2) {
@@ -104,31 +85,45 @@ static void derive_start(struct gm_user_wave *wave, struct gm_user_system *syste
             const gm_node_id square = gm_product(&system->graph, at[1], at[1]);
             rate = gm_sum(&system->graph, rate, gm_product(&system->graph, force[F2], square));
         }
-        at[k] = system->graph.failed ? GM_NO_NODE : gm_difference(&system->graph, bend, rate);
+        gm_system_need_graph(system);
+        at[k] = gm_difference(&system->graph, bend, rate);
+    }
+}
+
+struct opened {
+    struct gm_user_wave *wave;
+    struct gm_user_system *system;
+};
+
+static void derive_wave(struct gm_arena *arena, void *data)
+{
+    struct opened *opened = data;
+    struct gm_user_wave *wave = opened->wave;
+    struct gm_user_system *system = opened->system;
+    const struct gm_system_item *known = gm_system_item_of(system, GM_WORD_EXACT_WHILE, 0);
+    *wave = (struct gm_user_wave){.system = system,
+                                  .exact = system->variables[0].exact,
+                                  .drift = system->drift,
+                                  .exact_while = known ? known->nodes[0] : GM_NO_NODE};
+    gm_node_id last = system->energy;
+    for (size_t k = 0; k < GM_TYPED_DERIVATIVES; k++) {
+        last = wave->by_u[k] = gm_system_derivative(system, last, 0);
+    }
+    gm_system_need_graph(system);
+    wave->degree = degree_of(system, wave->by_u[0]);
+    if (gm_formula_first(&system->graph, system->energy, is_other_variable, NULL) == GM_NO_NODE) {
+        wave->known = recognise(system);
+    }
+    wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
+    derive_start(wave, system);
+    gm_node_id *const others[] = {&wave->start_slope, &wave->drift, &wave->exact, &wave->exact_while};
+    gm_arena_need(arena, gm_system_place(system, wave->start, GM_TYPED_START));
+    for (size_t i = 0; i < GM_COUNT(others); i++) {
+        gm_arena_need(arena, *others[i] == GM_NO_NODE || gm_system_place(system, others[i], 1));
     }
 }
 
 bool gm_user_wave_derive(struct gm_user_wave *wave, struct gm_user_system *system)
 {
-    *wave =
-        (struct gm_user_wave){.system = system, .exact = system->variables[0].exact, .drift = system->drift};
-    gm_node_id last = system->energy;
-    for (size_t k = 0; k < GM_TYPED_DERIVATIVES; k++) {
-        last = wave->by_u[k] = gm_system_derivative(system, last, 0);
-    }
-    wave->degree = system->graph.failed ? INFINITY : degree_of(&system->graph, wave->by_u[0]);
-    if (gm_formula_first(&system->graph, system->energy, is_other_variable, NULL) == GM_NO_NODE) {
-        wave->known = recognise(system);
-    }
-    const struct gm_system_item *known = gm_system_item_of(system, GM_WORD_EXACT_WHILE, 0);
-    wave->exact_while = known ? known->nodes[0] : GM_NO_NODE;
-    wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
-    if (!system->graph.failed) {
-        derive_start(wave, system);
-    }
-    return !system->graph.failed && gm_system_place(system, wave->start, GM_TYPED_START) &&
-           gm_system_place(system, &wave->start_slope, 1) &&
-           (wave->drift == GM_NO_NODE || gm_system_place(system, &wave->drift, 1)) &&
-           (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1)) &&
-           (wave->exact_while == GM_NO_NODE || gm_system_place(system, &wave->exact_while, 1));
+    return gm_arena_run(system->arena, derive_wave, &(struct opened){wave, system});
 }
