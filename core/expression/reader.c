@@ -229,7 +229,7 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
 
 static bool is_word(const char *word, const char *text, size_t length)
 {
-    return strlen(word) == length && memcmp(word, text, length) == 0;
+    return gm_text_same(word, strlen(word), text, length);
 }
 
 static enum gm_operation function_of(const char *text, size_t length)
@@ -353,8 +353,7 @@ static const struct gm_index *index_of(const struct reader *reader, const char *
 {
     for (size_t i = reader->scope.index_count; i-- > 0;) {
         const struct gm_index *index = &reader->scope.indices[i];
-        if (!(reader->hidden & 1U << i) && index->length == length &&
-            memcmp(index->text, text, length) == 0) {
+        if (!(reader->hidden & 1U << i) && gm_text_same(index->text, index->length, text, length)) {
             return index;
         }
     }
@@ -378,7 +377,7 @@ static size_t argument_of(const struct reader *reader, const char *text, size_t 
     const struct gm_definition *definition = reader->call ? reader->call->definition : NULL;
     for (size_t i = 0; definition && i < definition->count; i++) {
         const struct gm_span name = definition->arguments[i];
-        if (name.end - name.begin == length && memcmp(reader->text + name.begin, text, length) == 0) {
+        if (gm_text_same(reader->text + name.begin, name.end - name.begin, text, length)) {
             return i;
         }
     }

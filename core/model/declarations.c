@@ -565,10 +565,7 @@ static struct gm_form_declared form_of(struct gm_reading *reading, struct gm_spa
     const size_t end = piece.end, equals = gm_span_until(reading->text, piece, "=");
     *name = gm_reading_between(reading, piece.begin, equals);
     const char *text = gm_reading_text(reading, gm_reading_between(reading, equals + (equals < end), end));
-    size_t degree = 0;
-    while (degrees[degree] && strcmp(degrees[degree], text) != 0) {
-        degree++;
-    }
+    const size_t degree = gm_span_among(text, (struct gm_span){0, strlen(text)}, degrees);
     const int length = gm_brief_length(name->end - name->begin);
     gm_system_refuse_if(reading->system, !degrees[degree] && equals == end, name->begin,
                         "%.*s has no degree: write %s: %.*s = 0-form", length, reading->text + name->begin,
@@ -690,7 +687,7 @@ void gm_declared_relations(struct gm_reading *reading)
         const struct gm_entry *entry = &reading->entries[i];
         if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end) {
             const size_t number = system->parameters + entry->number;
-            const gm_node_id node = gm_reading_bound(reading, entry->value, &entry->bound, entry->element);
+            const gm_node_id node = gm_reading_formula(reading, entry->value);
             system->variables[number].start = node;
             /* half the length of the line is a key unless it follows from others */
             system->variables[number].derived |= number == system->velocities - 2 &&
@@ -733,8 +730,7 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
         bool twice = false;
         for (size_t i = 0; i < definition->count; i++) {
             const struct gm_span other = definition->arguments[i];
-            twice |=
-                other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0;
+            twice |= gm_text_same(reading->text + other.begin, other.end - other.begin, name, length);
         }
         gm_system_refuse_if(system,
                             length == 0 || argument.begin + length < argument.end ||

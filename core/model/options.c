@@ -32,8 +32,8 @@ static const char *row_word(size_t i, const void *lines)
 static size_t find_row(uint64_t lines, const char *word, size_t letters)
 {
     size_t row = 0;
-    while (row < GM_OPTIONS && (!(rows[row].lines & lines) || strlen(rows[row].word) != letters ||
-                                memcmp(rows[row].word, word, letters) != 0)) {
+    while (row < GM_OPTIONS && (!(rows[row].lines & lines) ||
+                                !gm_text_same(rows[row].word, strlen(rows[row].word), word, letters))) {
         row++;
     }
     return row;

@@ -112,7 +112,7 @@ static void read_assignments(struct gm_reading *reading, const struct gm_read_li
             assignment.range = gm_reading_range(reading, all);
         }
     }
-    reading->exact = ranged;
+    reading->context.exact = ranged;
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
         const struct gm_target target = gm_reading_assignment(reading, piece);
         if (line->word == GM_WORD_START && reading->system->kind == GM_FIELD &&
@@ -124,7 +124,7 @@ static void read_assignments(struct gm_reading *reading, const struct gm_read_li
         }
         gm_reading_elements(reading, &target, assign, &assignment);
     }
-    reading->exact = false;
+    reading->context.exact = false;
 }
 
 /* Takes a name, or an element of a list, off the front of `rest`. */
@@ -219,7 +219,7 @@ static void read_named(struct gm_reading *reading, const struct gm_read_line *li
     struct gm_span rest = line->value;
     const struct gm_target target = gm_reading_assignment(reading, take_piece(reading, &rest));
     const bool indexed = target.index.begin < target.index.end;
-    gm_system_refuse_if(system, indexed && reading->counter.begin == reading->counter.end, target.index.begin,
+    gm_system_refuse_if(system, indexed && reading->context.repeated.length == 0, target.index.begin,
                         "this name has no index");
     struct gm_system_item *item = gm_reading_item(reading, line, target.name);
     if (indexed) {
@@ -360,6 +360,17 @@ static void replace(struct gm_reading *reading, struct gm_entry *entry, const st
     item->nodes[1 + entry->number] = node;
 }
 
+/* The first event of that name, or NULL. */
+static const struct gm_system_item *event_named(const struct gm_user_system *system, const char *name)
+{
+    const struct gm_system_item *event;
+    size_t i = 0;
+    while ((event = gm_system_item_of(system, GM_WORD_EVENT, i)) && strcmp(event->name, name) != 0) {
+        i++;
+    }
+    return event;
+}
+
 /* event: [name;] g = h, conditions; x = F, y = G   or   ...; stop */
 static void read_event(struct gm_reading *reading, const struct gm_read_line *line)
 {
@@ -375,11 +386,8 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
         piece = take_piece(reading, &rest);
     }
     struct gm_system_item *item = gm_reading_item(reading, line, name);
-    for (size_t i = 0; i + 1 < system->item_count && item->name[0]; i++) {
-        gm_system_refuse_if(
-            system, system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, item->name) == 0,
-            name.begin, "the event %.60s is given twice", item->name);
-    }
+    gm_system_refuse_if(system, item->name[0] && event_named(system, item->name) != item, name.begin,
+                        "the event %.60s is given twice", item->name);
     gm_span_take(text, &piece, ",", &surface);
     add_surface(reading, item, surface);
     rest = gm_span_trimmed(text, rest);
@@ -508,13 +516,10 @@ static void read_surface(struct gm_reading *reading, const struct gm_read_line *
 static void check_section(const struct gm_user_system *system)
 {
     const struct gm_system_item *section = gm_system_item_of(system, GM_WORD_SECTION, 0);
-    bool known = !section || !section->at_event;
-    for (size_t i = 0; i < system->item_count && !known; i++) {
-        known = system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, section->name) == 0;
+    if (section && section->at_event && !event_named(system, section->name)) {
+        gm_system_refuse(system, section->place, "there is no event %.60s: event: %.60s; q = 0; p = -p",
+                         section->name, section->name);
     }
-    gm_system_refuse_if(system, !known, section ? section->place : 0,
-                        "there is no event %.60s: event: %.60s; q = 0; p = -p", known ? "" : section->name,
-                        known ? "" : section->name);
 }
 
 /* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
@@ -667,16 +672,13 @@ static void read_choice(struct gm_reading *reading, const struct gm_read_line *l
         [GM_WORD_INTERIOR] = {"dual", "whitney", "upwind"}};
     const char *const *among = words[line->word];
     read_text(reading, line);
-    size_t k = 0;
-    while (among[k] && strcmp(among[k], reading->system->texts[line->word]) != 0) {
-        k++;
-    }
-    const bool wrong = !among[k];
+    const char *text = reading->system->texts[line->word];
+    const bool wrong = !among[gm_span_among(text, (struct gm_span){0, strlen(text)}, among)];
     gm_system_refuse_if(reading->system, wrong && among[2], line->value.begin, "%s: is %s", word_of(line),
                         line->word == GM_WORD_STAR ? "auto, circumcentric, barycentric, galerkin or incentric"
                                                    : "dual, whitney or upwind");
     gm_system_refuse_if(reading->system, wrong, line->value.begin, "%s is %s or %s, not %.60s", word_of(line),
-                        among[0], among[1], reading->system->texts[line->word]);
+                        among[0], among[1], text);
 }
 
 /* Reads a graph for compiled kernels: `yes`, the graph of the file; N = 3 .. 5, for a parameter in an index;
@@ -927,11 +929,12 @@ static void read_counted(struct gm_reading *reading, const struct gm_read_line *
                         reading->text + counter.begin);
     gm_reading_bounds(reading, bounds, "values of an index", &low, &high);
     const struct gm_read_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
-    reading->counter = counter;
-    for (reading->counted = low; reading->counted <= high; reading->counted++) {
+    struct gm_index *repeated = &reading->context.repeated;
+    *repeated = (struct gm_index){reading->text + counter.begin, name, low};
+    for (; repeated->value <= high; repeated->value++) {
         readers[line->word](reading, &one);
     }
-    reading->counter = nameless;
+    repeated->length = 0;
 }
 
 /* Gives the names of lets to nodes without a name. */

@@ -345,8 +345,8 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     const struct reading *reading = data;
     for (int i = 0; i < reading->scheme->let_count; i++) {
         const struct formula *let = &reading->lets[i];
-        if (let->name.end - let->name.begin == name->length &&
-            memcmp(reading->text + let->name.begin, name->text, name->length) == 0) {
+        if (gm_text_same(reading->text + let->name.begin, let->name.end - let->name.begin, name->text,
+                         name->length)) {
             *node = let->node;
             if (name->indexed) {
                 snprintf(sentence, GM_FAULT_SENTENCE, "%s is not a list", reading->let_names[i]);
