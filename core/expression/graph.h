@@ -88,13 +88,7 @@ gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
 /* The residue of what a constant stands for, as gm_residue_of. */
 bool gm_formula_residue(const struct gm_formula *graph, gm_node_id constant, uint64_t *residue);
 /* b of an operation of one operand is ignored. A power whose exponent is a constant whole number up to 16
-   becomes a chain. While `simplifies` is set also, for finite x and y:
-     0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0
-     -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
-     x x -> x^2    sqrt(x) sqrt(x) -> x    (x / y) / z -> x / (y z)
-     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, and above:
-     (c / x) (d y) -> ((c d) / x) y, d ((c / x) y) -> ((c d) / x) y, (c / x) (d / y) -> (c d) / (x y),
-     (c x) / (d y) -> (c / d) (x / y) if c / d is exact, else c (x / y) */
+   becomes a chain. While `simplifies` is set also core/expression/simplifications.def holds, for finite values. */
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
                             gm_node_id b);
 /* gm_formula_apply with `simplifies` set, for derived formulas. */
