@@ -61,9 +61,7 @@ struct writing {
     uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
     struct term *terms;
-    uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
-    size_t product_count; /* entries in products; its capacity is a power of two, above twice as many */
-    size_t product_capacity;
+    uint32_t **powers;    /* of nodes: numbers of the powers [GM_MOST_CHAINED + 1] that are known, else 0 */
     struct group *groups; /* groups in the order of the code */
     size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
@@ -85,22 +83,15 @@ static bool is_full(size_t count)
     return count == 0 || (count >= FIRST_CAPACITY && (count & (count - 1)) == 0);
 }
 
-/* An array of the tape with room for one more. */
-static void *grown(const struct writing *writing, void *array, size_t size, size_t count)
+/* An array of the tape's arena, or the compilation's, with room for one more. */
+static void *grown(const struct writing *writing, struct gm_arena *arena, void *array, size_t size,
+                   size_t count)
 {
     if (is_full(count)) {
-        array = realloc(array, (count > 0 ? 2 * count : FIRST_CAPACITY) * size);
+        array = gm_arena_resize(arena, array, count > 0 ? 2 * count : FIRST_CAPACITY, size);
         gm_arena_need(writing->arena, array != NULL);
     }
     return array;
-}
-
-/* An array of the compilation with room for one more. */
-static void *widened(const struct writing *writing, void *array, size_t size, size_t count)
-{
-    return is_full(count)
-               ? gm_arena_resize(writing->arena, array, count > 0 ? 2 * count : FIRST_CAPACITY, size)
-               : array;
 }
 
 /* ---- from nodes to values ---- */
@@ -137,7 +128,8 @@ static void fold(struct writing *writing)
 static uint32_t constant(struct writing *writing, double value)
 {
     struct gm_tape *tape = writing->tape;
-    tape->constants = grown(writing, tape->constants, sizeof *tape->constants, tape->constant_count);
+    tape->constants =
+        grown(writing, tape->arena, tape->constants, sizeof *tape->constants, tape->constant_count);
     tape->constants[tape->constant_count++] = value;
     return (uint32_t)(tape->inputs + tape->constant_count - 1);
 }
@@ -176,67 +168,37 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
 {
     const size_t first = writing->tape->inputs + writing->tape->constant_count;
     const uint32_t number = (uint32_t)(first + writing->value_count);
-    writing->values = widened(writing, writing->values, sizeof *writing->values, writing->value_count);
+    writing->values =
+        grown(writing, writing->arena, writing->values, sizeof *writing->values, writing->value_count);
     writing->values[writing->value_count++] =
         (struct value){.operation = operation, .number = number, .a = a, .b = b};
     return number;
 }
 
-/* The place in a table of products for that of a and b: its own, or a free one. */
-static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32_t b)
+/* x^n from x^(n/2), where `powers` are those of x. */
+static uint32_t chained(struct writing *writing, uint32_t *powers, unsigned n)
 {
-    const size_t first = writing->tape->inputs + writing->tape->constant_count,
-                 mask = writing->product_capacity - 1;
-    size_t at = ((size_t)a * 0x9e3779b1 ^ (size_t)b * 0x85ebca6b) & mask;
-    while (writing->products[at] > 0 && (writing->values[writing->products[at] - first].a != a ||
-                                         writing->values[writing->products[at] - first].b != b)) {
-        at = (at + 1) & mask;
+    if (n > 1 && powers[n] == 0) {
+        const uint32_t a = chained(writing, powers, n % 2 ? n - 1 : n / 2), b = n % 2 ? powers[1] : a;
+        powers[n] = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
     }
-    return &writing->products[at];
+    return powers[n];
 }
 
-/* A product within a power: powers of one number share theirs. */
-static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
+/* A power as gm_whole_power computes it, without its questions; powers of one node share their products. */
+static uint32_t power_of(struct writing *writing, const struct gm_node *power)
 {
-    if (2 * (writing->product_count + 1) > writing->product_capacity) {
-        const size_t capacity = writing->product_capacity;
-        const uint32_t *before = writing->products;
-        writing->product_capacity = capacity > 0 ? 2 * capacity : 64;
-        writing->products =
-            gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
-        for (size_t i = 0; i < capacity; i++) {
-            if (before[i] > 0) {
-                const struct value *value =
-                    &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
-                *product_place(writing, value->a, value->b) = before[i];
-            }
-        }
-    }
-    uint32_t *place = product_place(writing, a, b);
-    if (*place == 0) {
-        *place = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
-        writing->product_count++;
-    }
-    return *place;
-}
-
-/* x^n as gm_whole_power computes it, without its questions */
-static uint32_t power_of(struct writing *writing, uint32_t x, double n)
-{
-    const int whole = (int)fabs(n);
-    int bit = GM_MOST_CHAINED;
-    if (whole == 0) {
+    const double n = writing->graph->nodes[power->b].value;
+    uint32_t **powers = &writing->powers[power->a];
+    if (n == 0) {
         return compute_value(writing, GM_VARIABLE, writing->one, writing->one);
     }
-    while (bit > 1 && !(whole & bit)) {
-        bit /= 2;
+    if (!*powers) {
+        *powers = gm_arena_take(writing->arena, GM_MOST_CHAINED + 1, sizeof **powers);
+        (*powers)[1] = writing->numbers[power->a];
     }
-    uint32_t power = x;
-    for (bit /= 2; bit > 0; bit /= 2) {
-        power = product_of(writing, power, power);
-        power = whole & bit ? product_of(writing, power, x) : power;
-    }
-    return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, power) : power;
+    const uint32_t whole = chained(writing, *powers, (unsigned)fabs(n));
+    return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, whole) : whole;
 }
 
 static void find_values(struct writing *writing)
@@ -254,7 +216,7 @@ static void find_values(struct writing *writing)
             tape->first_used = node->a < tape->first_used ? node->a : tape->first_used;
             tape->last_used = node->a >= tape->last_used ? node->a + (size_t)1 : tape->last_used;
         } else if (node->operation == GM_OPERATION_WHOLE_POWER) {
-            writing->numbers[i] = power_of(writing, numbers[node->a], writing->graph->nodes[node->b].value);
+            writing->numbers[i] = power_of(writing, node);
         } else {
             writing->numbers[i] =
                 compute_value(writing, node->operation, numbers[node->a], numbers[second_operand(node)]);
@@ -271,7 +233,8 @@ static bool is_sum(const struct value *value)
 
 static void add_term(struct writing *writing, uint32_t number, bool subtracted)
 {
-    writing->terms = widened(writing, writing->terms, sizeof *writing->terms, writing->term_count);
+    writing->terms =
+        grown(writing, writing->arena, writing->terms, sizeof *writing->terms, writing->term_count);
     writing->terms[writing->term_count++] = (struct term){number, subtracted};
 }
 
@@ -284,6 +247,18 @@ static void turn_terms(struct term *terms, size_t count)
     }
 }
 
+/* The sum that only leads to the one at `at`; that one itself if there is none. */
+static size_t sum_below(const struct value *straight, size_t at, uint32_t fixed, const uint32_t *used)
+{
+    const uint32_t operands[] = {straight[at].a, straight[at].b};
+    for (int k = 0; k < (straight[at].operation == GM_OPERATION_ADD ? 2 : 1); k++) {
+        if (operands[k] >= fixed && used[operands[k]] == 1 && is_sum(&straight[operands[k] - fixed])) {
+            return operands[k] - fixed;
+        }
+    }
+    return at;
+}
+
 /* Merges sums that only lead to this one into one value, if they are many: its terms, in the order of the
    formula. used: number of uses of each number. Merged values have no level. */
 static void gather_sum(struct writing *writing, struct value *straight, size_t last, const uint32_t *used)
@@ -291,30 +266,20 @@ static void gather_sum(struct writing *writing, struct value *straight, size_t l
     const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
                    first = (uint32_t)writing->term_count;
     size_t at = last, length = 1;
-    for (;;) {
+    for (size_t next; (next = sum_below(straight, at, fixed, used)) != at; at = next, length++) {
         const struct value *value = &straight[at];
-        const bool left = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed]),
-                   right = !left && value->operation == GM_OPERATION_ADD && value->b >= fixed &&
-                           used[value->b] == 1 && is_sum(&straight[value->b - fixed]);
-        add_term(writing, right ? value->a : value->b, value->operation == GM_OPERATION_SUBTRACT);
-        if (!left && !right) {
-            add_term(writing, value->a, false);
-            break;
-        }
-        at = (left ? value->a : value->b) - fixed;
-        length++;
+        add_term(writing, value->a == next + fixed ? value->b : value->a,
+                 value->operation == GM_OPERATION_SUBTRACT);
     }
+    add_term(writing, straight[at].b, straight[at].operation == GM_OPERATION_SUBTRACT);
+    add_term(writing, straight[at].a, false);
     if (length < LEAST_SUM) {
         writing->term_count = first;
         return;
     }
     turn_terms(writing->terms + first, length + 1);
     for (size_t k = last; k != at;) {
-        const struct value *value = &straight[k];
-        const uint32_t next = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed])
-                                  ? value->a
-                                  : value->b;
-        k = next - fixed;
+        k = sum_below(straight, k, fixed, used);
         straight[k].level = NONE;
     }
     straight[last].operation = GM_SUMMED;
@@ -606,7 +571,7 @@ static void release(struct writing *writing, uint32_t number, uint32_t group)
 static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32_t a, uint32_t b)
 {
     struct gm_tape *tape = writing->tape;
-    tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length);
+    tape->code = grown(writing, tape->arena, tape->code, sizeof *tape->code, tape->length);
     const struct gm_instruction *before =
         tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
     const bool near = before && before->operation < GM_REPEATED;
@@ -623,7 +588,7 @@ static uint32_t register_of(const struct writing *writing, const struct value *v
 static void put_in_list(struct writing *writing, uint32_t entry)
 {
     struct gm_tape *tape = writing->tape;
-    tape->lists = grown(writing, tape->lists, sizeof *tape->lists, writing->list_count);
+    tape->lists = grown(writing, tape->arena, tape->lists, sizeof *tape->lists, writing->list_count);
     tape->lists[writing->list_count++] = entry;
 }
 
@@ -647,7 +612,7 @@ static struct gm_operands operands_of(struct writing *writing, const struct valu
 static void put_repeated(struct writing *writing, const struct gm_repeated *batch)
 {
     struct gm_tape *tape = writing->tape;
-    tape->batches = grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count);
+    tape->batches = grown(writing, tape->arena, tape->batches, sizeof *tape->batches, writing->batch_count);
     /* registers 0: they are read before anybody looks at the operation */
     put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
     tape->batches[writing->batch_count++] = *batch;
@@ -728,7 +693,7 @@ static void put_sums(struct writing *writing, const struct value *values, size_t
             done[takes ? k : 0] += takes;
         }
     }
-    tape->sums = grown(writing, tape->sums, sizeof *tape->sums, writing->sums_count);
+    tape->sums = grown(writing, tape->arena, tape->sums, sizeof *tape->sums, writing->sums_count);
     put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
     tape->sums[writing->sums_count++] = sums;
 }
@@ -825,6 +790,7 @@ static void compile(struct gm_arena *arena, void *data)
 {
     struct writing *writing = data;
     struct gm_tape *tape = writing->tape;
+    gm_arena_need(arena, tape->arena != NULL);
     writing->parts = gm_arena_keep(
         arena, gm_formula_parts_of(writing->graph, writing->nodes, tape->outputs, &writing->part_count),
         free);
@@ -832,6 +798,7 @@ static void compile(struct gm_arena *arena, void *data)
     writing->numbers = gm_arena_take(arena, capacity, sizeof *writing->numbers);
     writing->folded = gm_arena_take(arena, capacity, sizeof *writing->folded);
     writing->dependent = gm_arena_take(arena, capacity, sizeof *writing->dependent);
+    writing->powers = gm_arena_take(arena, capacity, sizeof *writing->powers);
     fold(writing);
     find_constants(writing);
     find_values(writing);
@@ -856,7 +823,8 @@ static void compile(struct gm_arena *arena, void *data)
 /* Opens code, in rows if it has writing.least_rolled values or more, most of which share a group. */
 static bool open_code(struct gm_tape *tape, struct writing writing, size_t outputs, size_t inputs)
 {
-    *tape = (struct gm_tape){.inputs = inputs, .outputs = outputs, .first_used = inputs};
+    *tape = (struct gm_tape){
+        .inputs = inputs, .outputs = outputs, .first_used = inputs, .arena = gm_arena_open()};
     writing.tape = tape;
     writing.arena = gm_arena_open();
     const bool good = gm_arena_run(writing.arena, compile, &writing);
@@ -872,11 +840,10 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     bool good = open_code(tape, writing, count, inputs);
     if (good && !tape->rolled && tape->length >= LEAST_ROWS) {
         writing.least_rolled = LEAST_ROWS;
-        tape->rows = calloc(1, sizeof *tape->rows);
+        tape->rows = gm_arena_take(tape->arena, 1, sizeof *tape->rows);
         good = tape->rows && open_code(tape->rows, writing, count, inputs);
         if (good && !tape->rows->rolled) {
             gm_tape_close(tape->rows);
-            free(tape->rows);
             tape->rows = NULL;
         }
     }
@@ -885,15 +852,10 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
 
 void gm_tape_close(struct gm_tape *tape)
 {
-    free(tape->code);
-    free(tape->batches);
-    free(tape->sums);
-    free(tape->lists);
-    free(tape->constants);
     if (tape->rows) {
         gm_tape_close(tape->rows);
-        free(tape->rows);
     }
+    gm_arena_close(tape->arena);
     *tape = (struct gm_tape){0};
 }
 

@@ -47,6 +47,7 @@ struct gm_tape {
     struct gm_sums *sums;
     uint32_t *lists;
     double *constants;
+    struct gm_arena *arena; /* that owns these */
     size_t inputs, constant_count, outputs, registers;
     size_t first_used, last_used; /* the inputs that occur are among [first, last) */
     bool rolled;                  /* it has batches and sums */

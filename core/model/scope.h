@@ -2,7 +2,6 @@
 #ifndef GM_CORE_MODEL_SCOPE_H
 #define GM_CORE_MODEL_SCOPE_H
 
-#include "core/expression/choices.h"
 #include "core/model/system.h"
 
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/expression/choices.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 
