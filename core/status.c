@@ -2,25 +2,19 @@
 /* The names of the statuses, as run --json prints them. */
 #include "core/status.h"
 
+#include <stddef.h>
+
+#include "core/basics.h"
+
 const char *gm_status_name(enum gm_status status)
 {
-    switch (status) {
-    case GM_OK:
-        return "ok";
-    case GM_BLOW_UP:
-        return "blow-up";
-    case GM_NO_CONVERGENCE:
-        return "no-convergence";
-    case GM_MESH_CROSSING:
-        return "mesh-crossing";
-    case GM_STEP_COLLAPSE:
-        return "step-collapse";
-    case GM_OUT_OF_MEMORY:
-        return "out-of-memory";
-    case GM_STEP_TOO_SMALL:
-        return "step-too-small";
-    case GM_EVENTS_ACCUMULATE:
-        return "events-accumulate";
-    }
-    return "unknown";
+    static const char *const names[] = {[GM_OK] = "ok",
+                                        [GM_BLOW_UP] = "blow-up",
+                                        [GM_NO_CONVERGENCE] = "no-convergence",
+                                        [GM_MESH_CROSSING] = "mesh-crossing",
+                                        [GM_STEP_COLLAPSE] = "step-collapse",
+                                        [GM_OUT_OF_MEMORY] = "out-of-memory",
+                                        [GM_STEP_TOO_SMALL] = "step-too-small",
+                                        [GM_EVENTS_ACCUMULATE] = "events-accumulate"};
+    return (size_t)status < GM_COUNT(names) ? names[status] : "unknown";
 }

@@ -529,10 +529,15 @@ static bool is_marked(struct gm_formula *graph, gm_node_id part, const void *dat
     return node->operation == GM_VARIABLE && node->a < set->variables && set->marked[node->a];
 }
 
+gm_node_id gm_formula_first_marked(struct gm_formula *graph, gm_node_id node, const bool *marked,
+                                   size_t variables)
+{
+    return gm_formula_first(graph, node, is_marked, &(struct marked_variables){marked, variables});
+}
+
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
 {
-    return gm_formula_first(graph, node, is_marked, &(struct marked_variables){marked, variables}) !=
-           GM_NO_NODE;
+    return gm_formula_first_marked(graph, node, marked, variables) != GM_NO_NODE;
 }
 
 static bool is_kink(struct gm_formula *graph, gm_node_id part, const void *data)

@@ -128,8 +128,11 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
 gm_node_id gm_formula_first(struct gm_formula *graph, gm_node_id node,
                             bool (*suits)(struct gm_formula *graph, gm_node_id part, const void *data),
                             const void *data);
-/* True if a node depends on a marked variable; `marked` has `variables` entries. Out of memory sets
+/* The first marked variable of a node, or GM_NO_NODE; `marked` has `variables` entries. Out of memory sets
    graph->failed. */
+gm_node_id gm_formula_first_marked(struct gm_formula *graph, gm_node_id node, const bool *marked,
+                                   size_t variables);
+/* True if it has one. */
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 /* The first operation of a formula that is not smooth and depends on a marked variable, or GM_NO_NODE. Out of
    memory sets graph->failed. */

@@ -43,17 +43,9 @@ static size_t variable_of(const struct gm_user_system *system, char factor)
     return order == 0 ? field : system->velocities + 1 + (order - 1) * system->n + field;
 }
 
-/* True for a variable that is not a parameter. */
-static bool varies(struct gm_formula *graph, gm_node_id part, const void *data)
-{
-    const struct gm_user_system *system = data;
-    const struct gm_node *node = &graph->nodes[part];
-    return node->operation == GM_VARIABLE && (node->a < system->parameters || node->a >= system->velocities);
-}
-
 /* The coefficient of a term with its sign, in parameters; GM_NO_NODE if it is 0 or depends on the place. */
 static gm_node_id coefficient_of(struct gm_user_system *system, const struct term *term,
-                                 const gm_node_id *zeros)
+                                 const gm_node_id *zeros, const bool *varying)
 {
     struct gm_formula *graph = &system->graph;
     gm_node_id node = system->rates[term->rate];
@@ -65,13 +57,13 @@ static gm_node_id coefficient_of(struct gm_user_system *system, const struct ter
     }
     gm_system_need_graph(system);
     gm_arena_need(system->arena, gm_formula_substitute(graph, &node, 1, zeros, system->variable_count));
-    return gm_is_constant(graph, node, 0) || gm_formula_first(graph, node, varies, system) != GM_NO_NODE
+    return gm_is_constant(graph, node, 0) || gm_formula_holds(graph, node, varying, system->variable_count)
                ? GM_NO_NODE
                : gm_simplified(graph, GM_OPERATION_DIVIDE, node, gm_formula_constant(graph, product));
 }
 
 static bool is_equation(struct gm_user_system *system, const struct known_equation *equation,
-                        const gm_node_id *zeros, gm_node_id values[ONE + 1])
+                        const gm_node_id *zeros, const bool *varying, gm_node_id values[ONE + 1])
 {
     struct gm_formula *graph = &system->graph;
     gm_node_id rests[GM_MOST_FIELDS];
@@ -81,7 +73,7 @@ static bool is_equation(struct gm_user_system *system, const struct known_equati
     for (const struct term *term = equation->terms; term < equation->terms + MOST_TERMS && term->factors;
          term++) {
         gm_node_id *value = &values[term->constant], *rest = &rests[term->rate];
-        *value = *value == GM_NO_NODE ? coefficient_of(system, term, zeros) : *value;
+        *value = *value == GM_NO_NODE ? coefficient_of(system, term, zeros, varying) : *value;
         if (*value == GM_NO_NODE) {
             return false;
         }
@@ -111,15 +103,17 @@ static void recognise_equation(struct gm_arena *arena, void *data)
     struct gm_user_system *system = ((struct recognition *)data)->system;
     struct gm_recognised *found = ((struct recognition *)data)->equation;
     gm_node_id *zeros = gm_arena_take(arena, system->variable_count, sizeof *zeros), values[ONE + 1];
+    bool *varying = gm_arena_take(arena, system->variable_count, sizeof *varying); /* all but parameters */
     *found = (struct gm_recognised){.name = NULL};
     for (size_t i = 0; i < system->variable_count; i++) {
         const bool is_field = i < system->n || (i > system->velocities && i < system->initial);
+        varying[i] = i < system->parameters || i >= system->velocities;
         zeros[i] = is_field ? gm_formula_constant(&system->graph, 0) : GM_NO_NODE;
     }
     for (size_t i = 0; i < GM_COUNT(known_equations) && !found->name; i++) {
         if (known_equations[i].fields == system->n && system->kind == GM_EVOLUTION &&
             !gm_system_item_of(system, GM_WORD_MASS, 0) &&
-            is_equation(system, &known_equations[i], zeros, values)) {
+            is_equation(system, &known_equations[i], zeros, varying, values)) {
             found->name = known_equations[i].name;
             memcpy(found->constants, known_equations[i].constants, sizeof found->constants);
             memcpy(found->values, values, sizeof found->values);
@@ -160,12 +154,6 @@ static double degree_of(const struct gm_user_system *system, gm_node_id formula)
         }
     }
     return degrees[formula];
-}
-
-static bool is_other_variable(struct gm_formula *graph, gm_node_id part, const void *unused)
-{
-    (void)unused;
-    return graph->nodes[part].operation == GM_VARIABLE && graph->nodes[part].a != 0;
 }
 
 /* Recognises a potential in u alone: another value of a parameter would make another one. */
@@ -232,15 +220,17 @@ static void derive_wave(struct gm_arena *arena, void *data)
     }
     gm_system_need_graph(system);
     wave->degree = degree_of(system, wave->by_u[0]);
-    if (gm_formula_first(&system->graph, system->energy, is_other_variable, NULL) == GM_NO_NODE) {
+    bool *others = gm_arena_take(arena, system->variable_count, sizeof *others);
+    memset(others + 1, true, system->variable_count - 1);
+    if (!gm_formula_holds(&system->graph, system->energy, others, system->variable_count)) {
         wave->known = recognise(system);
     }
     wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
     derive_start(wave, system);
-    gm_node_id *const others[] = {&wave->start_slope, &wave->drift, &wave->exact, &wave->exact_while};
+    gm_node_id *const placed[] = {&wave->start_slope, &wave->drift, &wave->exact, &wave->exact_while};
     gm_arena_need(arena, gm_system_place(system, wave->start, GM_TYPED_START));
-    for (size_t i = 0; i < GM_COUNT(others); i++) {
-        gm_arena_need(arena, *others[i] == GM_NO_NODE || gm_system_place(system, others[i], 1));
+    for (size_t i = 0; i < GM_COUNT(placed); i++) {
+        gm_arena_need(arena, *placed[i] == GM_NO_NODE || gm_system_place(system, placed[i], 1));
     }
 }
 
