@@ -870,24 +870,6 @@ void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened)
     gm_arena_need(arena, opened);
 }
 
-void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived)
-{
-    if (jacobian->entries) {
-        gm_arena_keep(arena, jacobian->entries, free);
-    }
-    gm_arena_need(arena, derived);
-}
-
-gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
-                            const struct gm_sparse *jacobian)
-{
-    gm_node_id *nodes = gm_arena_take(arena, count + jacobian->count + 1, sizeof *nodes);
-    for (size_t i = 0; i < count + jacobian->count; i++) {
-        nodes[i] = i < count ? before[i] : jacobian->entries[i - count].node;
-    }
-    return nodes;
-}
-
 /* ---- code to numbers ---- */
 
 static struct gm_instruction member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i)

@@ -68,12 +68,6 @@ void gm_tape_close(struct gm_tape *tape);
 /* Leaves the body of an arena if the tape was not opened, else lets the arena close it. */
 void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
-/* Leaves the body of an arena if a matrix was not derived, else lets the arena hold its entries. */
-void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
-/* Returns `count` nodes, followed by those of a matrix. */
-gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
-                            const struct gm_sparse *jacobian);
-
 /* Goes through the operations one by one, those that are repeated and the terms of sums as well: false at the
    end. `at` is {0} at first. */
 struct gm_tape_place {

@@ -171,8 +171,8 @@ static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *g
         system->momenta[i] = gradient[system->velocities + i];
         system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
     }
-    gm_sparse_jacobian(&system->graph, system->momenta, half, marks_of(system, system->velocities, half),
-                       system->variable_count, &system->mass);
+    system->mass = gm_sparse_jacobian(system->arena, &system->graph, system->momenta, half,
+                                      marks_of(system, system->velocities, half), system->variable_count);
     for (size_t i = 0; i < system->mass.count; i++) {
         system->mass.entries[i].column -= system->velocities;
     }
@@ -885,10 +885,8 @@ static void check_constraints(struct gm_user_system *system, const double *start
         gm_system_refuse_if(system, !is_of_components(system, item->nodes[0], half), item->place,
                             "a constraint holds coordinates and parameters alone");
     }
-    struct gm_sparse slopes = {0};
-    gm_sparse_keep(system->arena, &slopes,
-                   gm_sparse_jacobian(&system->graph, nodes, count, marks_of(system, 0, half),
-                                      system->variable_count, &slopes));
+    const struct gm_sparse slopes = gm_sparse_jacobian(system->arena, &system->graph, nodes, count,
+                                                       marks_of(system, 0, half), system->variable_count);
     double *matrix = gm_arena_take(system->arena, count * half + 1, sizeof *matrix),
            *rates = gm_arena_take(system->arena, count + 1, sizeof *rates);
     const double *values = gm_equations_values(system, start);
@@ -1204,11 +1202,9 @@ static void check_determined(struct gm_user_system *system)
 {
     enum { TRIALS = 4 };
     const size_t n = system->n;
-    struct gm_sparse hessian = {0};
     double *values = gm_arena_keep(system->arena, gm_equations_start(system, NULL), free);
-    gm_sparse_keep(system->arena, &hessian,
-                   gm_sparse_jacobian(&system->graph, system->rates, n, marks_of(system, 0, n),
-                                      system->variable_count, &hessian));
+    const struct gm_sparse hessian = gm_sparse_jacobian(system->arena, &system->graph, system->rates, n,
+                                                        marks_of(system, 0, n), system->variable_count);
     size_t free_one = 0;
     for (int trial = 0; trial < TRIALS && free_one < n; trial++) {
         double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];

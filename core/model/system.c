@@ -10,7 +10,6 @@
 void gm_system_close(struct gm_user_system *system)
 {
     gm_arena_close(system->arena);
-    free(system->mass.entries);
     gm_formula_close(&system->graph);
     *system = (struct gm_user_system){0};
 }
