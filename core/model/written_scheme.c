@@ -752,47 +752,24 @@ void gm_written_close(struct gm_written_scheme *scheme)
     *scheme = (struct gm_written_scheme){0};
 }
 
-static void put(FILE *stream, const char *word, const char *value)
-{
-    if (value) {
-        fprintf(stream, "%s: %s; ", word, value);
-    }
-}
-
-char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
+char *gm_written_word(struct gm_arena *arena, const struct gm_written_scheme *scheme, const char *title,
                       const char *const schemes[GM_SCHEME_WORDS])
 {
-    char *text = NULL;
-    size_t size = 0;
-    bool good = true;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    fprintf(stream, "%s(", kinds[scheme->kind].name);
-    put(stream, words[GM_SCHEME_WORD_TITLE].word, title);
+    char *text = gm_arena_print(arena, "%s(", kinds[scheme->kind].name);
+    text = title ? gm_arena_print(arena, "%stitle: %s; ", text, title) : text;
     for (int i = 0; i < scheme->let_count; i++) {
-        char *value = gm_span_words(scheme->text, scheme->lets[i]);
-        good = good && value;
-        put(stream, words[GM_SCHEME_WORD_LET].word, value);
-        free(value);
+        const char *let = gm_arena_keep(arena, gm_span_words(scheme->text, scheme->lets[i]), free);
+        text = gm_arena_print(arena, "%slet: %s; ", text, let);
     }
     for (enum gm_scheme_word word = GM_SCHEME_WORD_ORDER; word < GM_SCHEME_WORDS; word++) {
-        if (scheme->lines[word].said && holds[word] == SCHEME) {
-            put(stream, words[word].word, schemes[word]);
-        } else if (scheme->lines[word].said) {
-            char *value = gm_span_words(scheme->text, scheme->lines[word].value);
-            good = good && value;
-            put(stream, words[word].word, value);
-            free(value);
+        const struct gm_written_line *line = &scheme->lines[word];
+        if (line->said) {
+            const char *value = holds[word] == SCHEME
+                                    ? schemes[word]
+                                    : gm_arena_keep(arena, gm_span_words(scheme->text, line->value), free);
+            text = gm_arena_print(arena, "%s%s: %s; ", text, words[word].word, value);
         }
     }
-    good = fclose(stream) == 0 && good;
-    if (!good) {
-        free(text);
-        return NULL;
-    }
-    text[size - 2] = ')'; /* instead of the last semicolon */
-    text[size - 1] = '\0';
+    strcpy(text + strlen(text) - 2, ")"); /* instead of the last semicolon */
     return text;
 }

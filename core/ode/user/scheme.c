@@ -976,8 +976,7 @@ static void tell(const struct making *making, const struct gm_written_scheme *wr
     row->title = own_title->said ? words_of(making, own_title->value)
                  : title         ? gm_arena_print(making->arena, "%s", title)
                                  : title_of(making, written, schemes);
-    row->formula = row->word =
-        gm_arena_keep(making->arena, gm_written_word(written, row->title, words), free);
+    row->formula = row->word = gm_written_word(making->arena, written, row->title, words);
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
