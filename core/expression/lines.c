@@ -2,6 +2,7 @@
 /* Texts of words and values, split into lines, and their choices. */
 #include "core/expression/lines.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -229,54 +230,60 @@ static bool copy(const char *text, struct gm_span span, char word[GM_CHOICE_SIZE
     return length > 0 && length < GM_CHOICE_SIZE && strcspn(word, " \t\r\n#={}\"'") == length;
 }
 
-static const char *name_at(size_t i, const void *choices)
-{
-    return ((const struct gm_written_choices *)choices)->list[i].name;
-}
-
-static const char *choice_word(size_t i, const void *choice)
-{
-    return ((const struct gm_written_choice *)choice)->words[i];
-}
-
 /* The names of choices, or the words of one. */
 struct list {
-    const char *what, *(*at)(size_t i, const void *data);
-    const void *data;
-    size_t count;
+    const char *what, *first;
+    size_t count, apart; /* number of bytes from one to the next */
 };
+
+static const char *member(size_t i, const void *list)
+{
+    return ((const struct list *)list)->first + i * ((const struct list *)list)->apart;
+}
 
 static struct list names_of(const struct gm_written_choices *choices)
 {
-    return (struct list){"choice", name_at, choices, choices->count};
+    return (struct list){"choice", choices->list[0].name, choices->count, sizeof choices->list[0]};
 }
 
 static struct list words_of(const struct gm_written_choice *choice)
 {
-    return (struct list){"word", choice_word, choice, choice->count};
+    return (struct list){"word", choice->words[0], choice->count, sizeof choice->words[0]};
 }
 
 static size_t find(const char *word, struct list list)
 {
     size_t i = 0;
-    while (i < list.count && strcmp(list.at(i, list.data), word) != 0) {
+    while (i < list.count && strcmp(member(i, &list), word) != 0) {
         i++;
     }
     return i;
 }
 
-/* Finds a word among others; else false, with a fault that proposes the nearest. */
-static bool seek(const char *text, struct gm_span span, struct list list, size_t *found,
-                 struct gm_fault *fault)
+/* Leaves the body of the arena with a fault if something is wrong. */
+__attribute__((format(printf, 4, 5))) static void refuse_if(const struct gm_read_lines *lines, bool wrong,
+                                                            size_t place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
+        *lines->fault = (struct gm_fault){.offset = place};
+        vsnprintf(lines->fault->sentence, sizeof lines->fault->sentence, format, arguments);
+        gm_arena_leave(lines->arena);
+    }
+    va_end(arguments);
+}
+
+/* Finds a word among others, or proposes the nearest. */
+static size_t seek(const struct gm_read_lines *lines, struct gm_span span, struct list list)
 {
     char word[GM_CHOICE_SIZE];
-    if (span.begin == span.end) {
-        return gm_fail(fault, span.begin, "a %s was expected", list.what);
-    }
-    *found = copy(text, span, word) ? find(word, list) : list.count;
-    const char *near = *found < list.count ? NULL : gm_nearest(word, list.count, list.at, list.data);
-    return *found < list.count || gm_fail(fault, span.begin, "there is no %s \"%s\"%s%s", list.what, word,
-                                          near ? "; did you mean " : "", near ? near : "");
+    refuse_if(lines, span.begin == span.end, span.begin, "a %s was expected", list.what);
+    const size_t found = copy(lines->text, span, word) ? find(word, list) : list.count;
+    const char *near = found < list.count ? NULL : gm_nearest(word, list.count, member, &list);
+    refuse_if(lines, found == list.count, span.begin, "there is no %s \"%s\"%s%s", list.what, word,
+              near ? "; did you mean " : "", near ? near : "");
+    return found;
 }
 
 const struct gm_written_choice *gm_choice_named(const struct gm_written_choices *choices, const char *name)
@@ -296,132 +303,107 @@ bool gm_choices_take(struct gm_written_choices *choices, const char *name, const
 }
 
 /* Reads WORD, WORD. */
-static bool read_words(struct gm_written_choice *choice, const char *text, struct gm_span list,
-                       struct gm_fault *fault)
+static void read_words(const struct gm_read_lines *lines, struct gm_written_choice *choice,
+                       struct gm_span list)
 {
     struct gm_span word;
-    while (gm_span_take(text, &list, ",", &word)) {
-        if (choice->count == GM_MOST_CHOICE_WORDS) {
-            return gm_fail(fault, word.begin, "a choice has at most %d words", GM_MOST_CHOICE_WORDS);
-        }
+    while (gm_span_take(lines->text, &list, ",", &word)) {
+        refuse_if(lines, choice->count == GM_MOST_CHOICE_WORDS, word.begin, "a choice has at most %d words",
+                  GM_MOST_CHOICE_WORDS);
         char *copied = choice->words[choice->count];
-        if (!copy(text, word, copied)) {
-            return gm_fail(
-                fault, word.begin,
-                "a word of a choice has 1 to %d bytes without blanks, quotes, # and =", GM_CHOICE_SIZE - 1);
-        }
-        if (find(copied, words_of(choice)) < choice->count) {
-            return gm_fail(fault, word.begin, "%s is named twice", copied);
-        }
+        refuse_if(lines, !copy(lines->text, word, copied), word.begin,
+                  "a word of a choice has 1 to %d bytes without blanks, quotes, # and =", GM_CHOICE_SIZE - 1);
+        refuse_if(lines, find(copied, words_of(choice)) < choice->count, word.begin, "%s is named twice",
+                  copied);
         choice->count++;
     }
-    return choice->count > 1 || gm_fail(fault, choice->place, "a choice has at least two words");
+    refuse_if(lines, choice->count < 2, choice->place, "a choice has at least two words");
 }
 
 /* NAME = WORD of WORD, WORD; meaning */
-static bool read_choice(struct gm_written_choices *choices, const char *text, struct gm_span rest,
-                        struct gm_fault *fault)
+static void read_choice(const struct gm_read_lines *lines, struct gm_span rest)
 {
+    struct gm_written_choices *choices = lines->choices;
     struct gm_written_choice *choice = &choices->list[choices->count];
+    const char *text = lines->text;
     struct gm_span head;
-    if (choices->count == GM_MOST_CHOICES) {
-        return gm_fail(fault, rest.begin, "a file has at most %d choices", GM_MOST_CHOICES);
-    }
+    refuse_if(lines, choices->count == GM_MOST_CHOICES, rest.begin, "a file has at most %d choices",
+              GM_MOST_CHOICES);
     gm_span_take(text, &rest, ";", &head);
     const size_t equals = gm_span_until(text, head, "="), of = gm_span_until(text, head, " of ");
     const struct gm_span name = gm_span_trimmed(text, (struct gm_span){head.begin, equals}),
                          standard = gm_span_trimmed(text, (struct gm_span){equals + 1, of});
     *choice = (struct gm_written_choice){.meaning = gm_span_trimmed(text, rest), .place = name.begin};
-    if (of == head.end || equals > of) {
-        return gm_fail(fault, head.begin,
-                       "a choice has a name, a default and words: system = harmonic of harmonic, pendulum");
-    }
-    if (!copy(text, name, choice->name) ||
-        strlen(choice->name) != gm_name_length(choice->name, strlen(choice->name))) {
-        return gm_fail(fault, name.begin, "the name of a choice has 1 to %d letters, digits and _",
-                       GM_CHOICE_SIZE - 1);
-    }
-    if (gm_choice_named(choices, choice->name)) {
-        return gm_fail(fault, name.begin, "%s is defined twice", choice->name);
-    }
+    refuse_if(lines, of == head.end || equals > of, head.begin,
+              "a choice has a name, a default and words: system = harmonic of harmonic, pendulum");
+    refuse_if(lines,
+              !copy(text, name, choice->name) ||
+                  strlen(choice->name) != gm_name_length(choice->name, strlen(choice->name)),
+              name.begin, "the name of a choice has 1 to %d letters, digits and _", GM_CHOICE_SIZE - 1);
+    refuse_if(lines, gm_choice_named(choices, choice->name), name.begin, "%s is defined twice", choice->name);
     choices->count++;
-    return read_words(choice, text, (struct gm_span){of + 4, head.end}, fault) &&
-           seek(text, standard, words_of(choice), &choice->standard, fault) &&
-           gm_choices_take(choices, choice->name, choice->words[choice->standard]);
+    read_words(lines, choice, (struct gm_span){of + 4, head.end});
+    choice->chosen = choice->standard = seek(lines, standard, words_of(choice));
 }
 
-bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_t length,
-                     struct gm_fault *fault)
+void gm_choices_read(const struct gm_read_lines *lines)
 {
     struct gm_text_line line;
-    *choices = (struct gm_written_choices){0};
-    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
-        if (gm_span_among(text, line.word, own_words) == CHOICE &&
-            !read_choice(choices, text, line.value, fault)) {
-            return false;
+    *lines->choices = (struct gm_written_choices){0};
+    for (size_t at = 0; gm_lines_next(lines->text, lines->span.end, &at, &line, lines->fault);) {
+        if (gm_span_among(lines->text, line.word, own_words) == CHOICE) {
+            read_choice(lines, line.value);
         }
-    }
-    return true; /* the reader refuses a faulty line */
+    } /* gm_lines_read refuses a faulty line */
 }
 
-/* The blocks of a text, while its lines are read. */
-struct blocks {
-    const struct gm_written_choices *choices;
-    const char *text;
-    const struct gm_written_choice *open; /* the choice whose block is open; NULL: none is open */
+/* The block that is open while lines are read. */
+struct block {
+    const struct gm_written_choice *choice; /* NULL: none is open */
     bool holds, empty;
-    size_t place; /* byte offset where the block begins */
+    size_t place; /* byte offset where it begins */
 };
 
-static bool end_block(const struct blocks *blocks, struct gm_fault *fault)
+static void end_block(const struct gm_read_lines *lines, const struct block *block)
 {
-    return !(blocks->open && blocks->empty) ||
-           gm_fail(fault, blocks->place, "this block has no lines: write the lines for these words below it");
+    refuse_if(lines, block->choice && block->empty, block->place,
+              "this block has no lines: write the lines for these words below it");
 }
 
 /* NAME = WORD, WORD or always */
-static bool begin_block(struct blocks *blocks, struct gm_span rest, struct gm_fault *fault)
+static void begin_block(const struct gm_read_lines *lines, struct block *block, struct gm_span rest)
 {
-    static const char *const always[] = {"always", NULL};
-    const char *text = blocks->text;
     struct gm_span name, word;
-    size_t number = 0;
-    if (!end_block(blocks, fault)) {
-        return false;
+    end_block(lines, block);
+    if (gm_span_is(lines->text, rest, "always")) {
+        block->choice = NULL;
+        return;
     }
-    if (gm_span_among(text, rest, always) == 0) {
-        blocks->open = NULL;
-        return true;
-    }
-    gm_span_take(text, &rest, "=", &name);
-    if (!seek(text, name, names_of(blocks->choices), &number, fault)) {
-        return false;
-    }
-    const struct gm_written_choice *choice = &blocks->choices->list[number];
-    if (blocks->open && blocks->open != choice) {
-        return gm_fail(fault, name.begin, "a block of %s is inside one of %s: end that by \"when: always\"",
-                       choice->name, blocks->open->name);
-    }
-    *blocks = (struct blocks){blocks->choices, text, choice, false, true, name.begin};
+    gm_span_take(lines->text, &rest, "=", &name);
+    const struct gm_written_choice *choice =
+        &lines->choices->list[seek(lines, name, names_of(lines->choices))];
+    refuse_if(lines, block->choice && block->choice != choice, name.begin,
+              "a block of %s is inside one of %s: end that by \"when: always\"", choice->name,
+              block->choice ? block->choice->name : "");
+    *block = (struct block){choice, false, true, name.begin};
     do {
-        gm_span_take(text, &rest, ",", &word);
-        if (!seek(text, word, words_of(choice), &number, fault)) {
-            return false;
-        }
-        blocks->holds = blocks->holds || number == choice->chosen;
+        gm_span_take(lines->text, &rest, ",", &word);
+        block->holds |= seek(lines, word, words_of(choice)) == choice->chosen;
     } while (rest.begin < rest.end);
-    return true;
 }
 
-static bool pass(struct blocks *blocks, const struct gm_text_line *line, bool own, struct gm_fault *fault)
+/* Takes a line choice: or when: itself. Returns false for another one. */
+static bool take_own(const struct gm_read_lines *lines, struct block *block, const struct gm_text_line *line)
 {
-    if (own && gm_span_among(blocks->text, line->word, own_words) == WHEN) {
-        return begin_block(blocks, line->value, fault);
+    const size_t own = lines->choices ? gm_span_among(lines->text, line->word, own_words) : WHEN + 1;
+    if (own == WHEN) {
+        begin_block(lines, block, line->value);
+        return true;
     }
-    blocks->empty = false;
-    return !own || !blocks->open ||
-           gm_fail(fault, line->word.begin,
-                   "a choice belongs outside of blocks: write \"when: always\" above it");
+    block->empty = false;
+    refuse_if(lines, own == CHOICE && block->choice, line->word.begin,
+              "a choice belongs outside of blocks: write \"when: always\" above it");
+    return own == CHOICE;
 }
 
 /* The assignments of a line: the text before its first semicolon, or before the second if the line is
@@ -499,65 +481,49 @@ static void remove_replaced(struct gm_read_lines *lines, struct heading *list, s
     lines->count = kept;
 }
 
-/* Reads the lines and their headings, for which there is room. */
-static bool read_lines(struct gm_read_lines *lines, struct heading *headings, struct gm_fault *fault)
+void gm_lines_read(struct gm_read_lines *lines)
 {
     const struct gm_line_word *words = lines->words->list;
     const char *text = lines->text;
     const bool chosen = lines->choices && lines->choices->count > 0;
-    struct blocks blocks = {.choices = lines->choices, .text = text};
+    struct block block = {.choice = NULL};
     struct gm_text_line line;
-    size_t count = 0, word;
+    size_t most = 1, count = 0, word;
     bool given[GM_MOST_LINE_WORDS] = {false};
-    for (size_t at = lines->span.begin; gm_lines_next(text, lines->span.end, &at, &line, fault);) {
-        const bool own = lines->choices && gm_span_among(text, line.word, own_words) <= WHEN;
-        if (!pass(&blocks, &line, own, fault) ||
-            !(own || gm_line_find(lines->words, text, &line, &word, fault))) {
-            return false;
+    for (size_t i = lines->span.begin; i < lines->span.end; i++) {
+        most += text[i] == ':' || text[i] == '=';
+    }
+    lines->list = gm_arena_take(lines->arena, most, sizeof *lines->list);
+    const size_t mark = gm_arena_mark(lines->arena);
+    struct heading *headings = gm_arena_take(lines->arena, chosen ? most : 1, sizeof *headings);
+    for (size_t at = lines->span.begin; gm_lines_next(text, lines->span.end, &at, &line, lines->fault);) {
+        if (take_own(lines, &block, &line)) {
+            continue;
         }
-        if (!own && blocks.open && !(words[word].kinds & lines->inside)) {
-            return gm_fail(fault, line.word.begin,
-                           "this line cannot depend on a choice: write it outside of blocks");
+        if (!gm_line_find(lines->words, text, &line, &word, lines->fault)) {
+            gm_arena_leave(lines->arena);
         }
-        if (own || (blocks.open && !blocks.holds)) {
+        refuse_if(lines, block.choice && !(words[word].kinds & lines->inside), line.word.begin,
+                  "this line cannot depend on a choice: write it outside of blocks");
+        if (block.choice && !block.holds) {
             continue;
         }
         if (chosen && words[word].identity != GM_LINE_ADDED) {
-            const struct heading heading = {text, {0, 0}, word, lines->count, blocks.open};
+            const struct heading heading = {text, {0, 0}, word, lines->count, block.choice};
             count = add_headings(headings, count, heading, line.value, words[word].identity == GM_LINE_NAMED);
         }
         lines->list[lines->count++] = (struct gm_read_line){word, line.word.begin, line.value};
     }
-    if (fault->sentence[0] || !end_block(&blocks, fault)) {
-        return false;
+    if (lines->fault->sentence[0]) {
+        gm_arena_leave(lines->arena);
     }
+    end_block(lines, &block);
     remove_replaced(lines, headings, count);
+    gm_arena_release(lines->arena, mark);
     for (size_t i = 0; i < lines->count; i++) {
         word = lines->list[i].word;
-        if (given[word] && words[word].identity == GM_LINE_ONCE) {
-            return gm_fail(fault, lines->list[i].place, "%s: is given twice", words[word].word);
-        }
+        refuse_if(lines, given[word] && words[word].identity == GM_LINE_ONCE, lines->list[i].place,
+                  "%s: is given twice", words[word].word);
         given[word] = true;
     }
-    return true;
-}
-
-bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault)
-{
-    size_t most = 1;
-    for (size_t i = lines->span.begin; i < lines->span.end; i++) {
-        most += lines->text[i] == ':' || lines->text[i] == '=';
-    }
-    const bool chosen = lines->choices && lines->choices->count > 0;
-    struct heading *headings = malloc((chosen ? most : 1) * sizeof *headings);
-    lines->list = malloc(most * sizeof *lines->list);
-    *fault = (struct gm_fault){0};
-    const bool good = lines->list && headings && read_lines(lines, headings, fault);
-    free(headings);
-    if (!good) {
-        free(lines->list);
-        lines->list = NULL;
-        lines->count = 0;
-    }
-    return good;
 }

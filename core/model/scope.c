@@ -64,19 +64,19 @@ void gm_reading_lines(struct gm_reading *reading)
     struct gm_user_system *system = reading->system;
     const bool room = gm_system_is_room(system);
     reading->words = room ? &words_of_rooms : &words;
-    struct gm_read_lines lines = {.words = reading->words,
+    struct gm_read_lines lines = {.arena = system->arena,
+                                  .fault = system->fault,
+                                  .words = reading->words,
                                   .choices = &system->choices,
                                   .inside = room ? IN_BLOCKS : ~0u,
                                   .text = reading->text,
                                   .span = {0, reading->length}};
-    bool good = gm_choices_read(&system->choices, reading->text, reading->length, system->fault);
-    for (size_t i = 0; good && i < reading->value_count; i++) {
+    gm_choices_read(&lines);
+    for (size_t i = 0; i < reading->value_count; i++) {
         gm_choices_take(&system->choices, reading->values[i].name, reading->values[i].text);
     }
-    if (!good || !gm_lines_read(&lines, system->fault)) {
-        gm_arena_leave(system->arena);
-    }
-    reading->lines = gm_arena_keep(system->arena, lines.list, free);
+    gm_lines_read(&lines);
+    reading->lines = lines.list;
     reading->line_count = lines.count;
 }
 

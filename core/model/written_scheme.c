@@ -211,9 +211,12 @@ static void find_kind(struct reading *reading, struct gm_span name)
 
 static void read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_read_lines lines = {.words = &lines_of_schemes, .text = reading->text, .span = span};
-    gm_arena_need(reading->arena, gm_lines_read(&lines, reading->fault));
-    gm_arena_keep(reading->arena, lines.list, free);
+    struct gm_read_lines lines = {.arena = reading->arena,
+                                  .fault = reading->fault,
+                                  .words = &lines_of_schemes,
+                                  .text = reading->text,
+                                  .span = span};
+    gm_lines_read(&lines);
     for (size_t i = 0; i < lines.count; i++) {
         take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
     }
