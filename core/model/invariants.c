@@ -37,13 +37,13 @@ struct echelon {
     struct gm_arena *arena;
     size_t columns;
     gm_residue **rows;
+    gm_residue *rest; /* [columns], of the last row that was reduced */
 };
 
 static struct echelon echelon_open(struct gm_arena *arena, size_t columns)
 {
-    struct echelon echelon = {arena, columns, NULL};
-    echelon.rows = gm_arena_take(arena, columns + 1, sizeof(gm_residue *));
-    return echelon;
+    return (struct echelon){arena, columns, gm_arena_take(arena, columns + 1, sizeof(gm_residue *)),
+                            gm_arena_take(arena, columns + 1, sizeof(gm_residue))};
 }
 
 enum { TOGETHER = 8 }; /* products that are added with one reduction modulo the prime */
@@ -62,11 +62,12 @@ static inline gm_residue with_multiples(const struct multiples *multiples, gm_re
     return gm_residue_folded(sum);
 }
 
-/* Subtracts multiples of the rows. Returns the column in which the rest begins; `columns`: the row is a combination of
-   the others. */
-static size_t echelon_reduce(const struct echelon *echelon, gm_residue *row)
+/* Subtracts multiples of the rows from a copy. Returns the column in which the rest begins; `columns`: the row is a
+   combination of the others. */
+static size_t echelon_reduce(const struct echelon *echelon, const gm_residue *given)
 {
     struct multiples multiples;
+    gm_residue *row = memcpy(echelon->rest, given, echelon->columns * sizeof *row);
     size_t c = 0;
     for (bool stopped = false; !stopped;) { /* rows wait for others */
         size_t count = 0;
@@ -93,17 +94,17 @@ static size_t echelon_reduce(const struct echelon *echelon, gm_residue *row)
     return c;
 }
 
-/* Reduces a row, and adds a copy of the rest. Returns false if nothing is left. */
-static bool echelon_add(struct echelon *echelon, gm_residue *row)
+/* Reduces a row, and adds the rest. Returns false if nothing is left. */
+static bool echelon_add(struct echelon *echelon, const gm_residue *row)
 {
     const size_t c = echelon_reduce(echelon, row);
     if (c == echelon->columns) {
         return false;
     }
     gm_residue *rest = gm_arena_take(echelon->arena, echelon->columns, sizeof *rest);
-    const gm_residue factor = gm_residue_inverse(row[c]);
+    const gm_residue factor = gm_residue_inverse(echelon->rest[c]);
     for (size_t i = c; i < echelon->columns; i++) {
-        rest[i] = gm_residue_times(factor, row[i]);
+        rest[i] = gm_residue_times(factor, echelon->rest[i]);
     }
     echelon->rows[c] = rest;
     return true;
@@ -386,11 +387,14 @@ static gm_residue *values_of(const struct search *search, const struct null_vect
     return values;
 }
 
-/* Adds a copy of a row; `scratch` has room for one. */
-static bool add_copy(struct echelon *echelon, const gm_residue *row, gm_residue *scratch)
+/* The values of 1 at the samples. */
+static const gm_residue *ones_of(const struct search *search)
 {
-    memcpy(scratch, row, echelon->columns * sizeof *scratch);
-    return echelon_add(echelon, scratch);
+    gm_residue *ones = gm_arena_take(search->arena, search->samples, sizeof *ones);
+    for (size_t p = 0; p < search->samples; p++) {
+        ones[p] = 1;
+    }
+    return ones;
 }
 
 /* Takes out invariants that as functions are combinations of earlier ones. They come from candidates that are such
@@ -398,12 +402,8 @@ static bool add_copy(struct echelon *echelon, const gm_residue *row, gm_residue 
 static void keep_independent(struct search *search)
 {
     struct echelon functions = echelon_open(search->arena, search->samples);
-    gm_residue *scratch = gm_arena_take(search->arena, search->samples, sizeof *scratch);
     size_t kept = 0;
-    for (size_t p = 0; p < search->samples; p++) {
-        scratch[p] = 1;
-    }
-    echelon_add(&functions, scratch);
+    echelon_add(&functions, ones_of(search));
     for (size_t i = 0; i < search->basis_count; i++) {
         if (echelon_add(&functions, values_of(search, &search->basis[i]))) {
             search->basis[kept++] = search->basis[i];
@@ -447,33 +447,27 @@ static void find_generators(struct search *search)
 {
     struct gm_arena *arena = search->arena;
     struct echelon all = echelon_open(arena, search->samples), /* invariants up to a degree */
-        reached = all;                                         /* polynomials in generators */
-    reached.rows = gm_arena_take(arena, search->samples + 1, sizeof *reached.rows);
-    gm_residue *products[GM_LARGEST_DEGREE + 1],
-        *scratch = gm_arena_take(arena, search->samples, sizeof *scratch),
-        *ones = gm_arena_take(arena, search->samples, sizeof *ones);
+        reached = echelon_open(arena, search->samples);        /* polynomials in generators */
+    gm_residue *products[GM_LARGEST_DEGREE + 1];
+    const gm_residue *ones = ones_of(search);
     for (size_t d = 0; d <= search->degree; d++) {
         products[d] = gm_arena_take(arena, search->samples, sizeof *products[d]);
     }
-    for (size_t p = 0; p < search->samples; p++) {
-        ones[p] = 1;
-    }
-    add_copy(&all, ones, scratch);
-    add_copy(&reached, ones, scratch);
+    echelon_add(&all, ones);
+    echelon_add(&reached, ones);
     bool *used = gm_arena_take(arena, search->named_count + 1, sizeof *used);
     search->generators = gm_arena_take(arena, search->basis_count + 1, sizeof *search->generators);
     for (size_t degree = 1, first = 0, end = 0; degree <= search->degree; degree++, first = end) {
         for (; end < search->basis_count && degree_of(search, &search->basis[end]) == degree; end++) {
-            add_copy(&all, values_of(search, &search->basis[end]), scratch);
+            echelon_add(&all, values_of(search, &search->basis[end]));
         }
         memcpy(products[degree], ones, search->samples * sizeof *ones);
         add_products(search, &reached, 0, degree, products);
         for (size_t i = 0; i < search->named_count; i++) {
             const gm_residue *values = search->named[i].values;
-            memcpy(scratch, values, search->samples * sizeof *scratch);
-            if (!used[i] && echelon_reduce(&all, scratch) == search->samples) {
+            if (!used[i] && echelon_reduce(&all, values) == search->samples) {
                 used[i] = true;
-                if (add_copy(&reached, values, scratch)) {
+                if (echelon_add(&reached, values)) {
                     search->generators[search->generator_count++] =
                         (struct generator){.degree = degree, .values = values, .named = &search->named[i]};
                 }
@@ -482,7 +476,7 @@ static void find_generators(struct search *search)
         qsort(search->basis + first, end - first, sizeof *search->basis, by_terms);
         for (size_t i = first; i < end; i++) {
             const gm_residue *values = values_of(search, &search->basis[i]);
-            if (add_copy(&reached, values, scratch)) {
+            if (echelon_add(&reached, values)) {
                 search->generators[search->generator_count++] =
                     (struct generator){.degree = degree, .values = values, .combined = &search->basis[i]};
             }
