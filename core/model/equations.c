@@ -9,7 +9,6 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
-#include "core/expression/pfaffian.h"
 #include "core/linear/iteration.h"
 #include "core/tape.h"
 
