@@ -162,7 +162,7 @@ static void derive_poisson(struct gm_user_system *system, const gm_node_id *grad
     }
 }
 
-/* momenta, forces, and the mass matrix */
+/* momenta and forces */
 static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *gradient)
 {
     const size_t half = system->n / 2;
@@ -170,6 +170,11 @@ static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *g
         system->momenta[i] = gradient[system->velocities + i];
         system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
     }
+}
+
+static void derive_mass(struct gm_user_system *system)
+{
+    const size_t half = system->n / 2;
     system->mass = gm_sparse_jacobian(system->arena, &system->graph, system->momenta, half,
                                       marks_of(system, system->velocities, half), system->variable_count);
     for (size_t i = 0; i < system->mass.count; i++) {
@@ -244,6 +249,9 @@ static void derive(struct gm_user_system *system)
     }
     system->timed |= !rates && timed[system->energy];
     gm_arena_release(system->arena, mark);
+    if (system->kind == GM_LAGRANGIAN) {
+        derive_mass(system);
+    }
 }
 
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count)

@@ -1119,44 +1119,39 @@ static void read_system(struct gm_arena *arena, void *data)
     gm_reading_read(data);
 }
 
-/* Reads the text once; *degenerate is set if it has to be read again so. */
-static bool read_once(struct gm_user_system *system, const char *text, size_t length,
-                      const struct gm_system_value *values, size_t count, bool *degenerate)
+/* Reads the text once; reading->degenerate is set if it has to be read again so. */
+static bool read_once(struct gm_user_system *system, struct gm_reading *reading, struct gm_fault *fault)
 {
-    struct gm_fault *fault = system->fault;
-    struct gm_reading reading = {.system = system,
-                                 .text = text,
-                                 .length = length,
-                                 .values = values,
-                                 .value_count = count,
-                                 .degenerate = *degenerate,
-                                 .scratch = gm_arena_open()};
-    for (size_t i = 0; i < count; i++) {
-        reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
-    }
     *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault, .drift = GM_NO_NODE};
     gm_formula_open(&system->graph);
-    const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
-    gm_arena_close(reading.scratch);
-    if (!good) { /* all else is closed */
+    reading->system = system;
+    reading->scratch = gm_arena_open();
+    const bool whole = reading->scratch && gm_arena_run(system->arena, read_system, reading);
+    gm_arena_close(reading->scratch);
+    if (!whole) { /* all else is closed */
         *system = (struct gm_user_system){
             .arena = system->arena, .graph = system->graph, .choices = system->choices};
     }
-    *degenerate = reading.degenerate;
-    return good;
+    return whole;
 }
 
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
-    bool degenerate = false;
+    struct gm_reading first = {.text = text, .length = length, .values = values, .value_count = count},
+                      second;
+    for (size_t i = 0; i < count; i++) {
+        first.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
+    }
+    second = first;
+    second.degenerate = true;
     *fault = (struct gm_fault){0};
-    *system = (struct gm_user_system){.fault = fault};
-    const bool good = read_once(system, text, length, values, count, &degenerate);
-    if (good || !degenerate) {
-        return good;
+    if (read_once(system, &first, fault)) {
+        return true;
+    }
+    if (!first.degenerate) {
+        return false;
     }
     gm_system_close(system);
-    system->fault = fault;
-    return read_once(system, text, length, values, count, &degenerate);
+    return read_once(system, &second, fault);
 }
