@@ -559,35 +559,28 @@ gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, si
 bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
                            const gm_node_id *replacement, size_t variables)
 {
-    const gm_node_id before = graph->count;
-    gm_node_id *others = malloc((before + (size_t)1) * sizeof *others);
-    for (gm_node_id i = 0; others && i < before; i++) {
-        others[i] = GM_NO_NODE;
-    }
-    for (size_t k = 0; others && k < count && !graph->failed; k++) {
-        size_t size = 0;
-        gm_node_id *parts = gm_formula_parts(graph, nodes[k], &size);
-        graph->failed |= !parts;
-        for (size_t p = 0; p < size && !graph->failed; p++) {
-            const gm_node_id i = parts[p];
-            const struct gm_node node = graph->nodes[i];
-            if (others[i] != GM_NO_NODE) {
-                continue;
-            }
-            others[i] = i;
-            if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
-                others[i] = replacement[node.a];
-            } else if (node.operation > GM_VARIABLE) {
-                const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
-                graph->origin = gm_formula_origin(graph, i);
-                others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
-                graph->origin = GM_NO_PLACE;
-            }
+    size_t size = 0;
+    gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
+    gm_node_id *others =
+        malloc((graph->count + (size_t)1) * sizeof *others); /* [node], set for parts alone */
+    graph->failed |= !parts || !others;
+    for (size_t p = 0; p < size && !graph->failed; p++) {
+        const gm_node_id i = parts[p];
+        const struct gm_node node = graph->nodes[i];
+        others[i] = i;
+        if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
+            others[i] = replacement[node.a];
+        } else if (node.operation > GM_VARIABLE) {
+            const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
+            graph->origin = gm_formula_origin(graph, i);
+            others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
+            graph->origin = GM_NO_PLACE;
         }
-        nodes[k] = parts ? others[nodes[k]] : nodes[k];
-        free(parts);
     }
-    graph->failed |= !others;
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        nodes[k] = others[nodes[k]];
+    }
+    free(parts);
     free(others);
     return !graph->failed;
 }
