@@ -10,22 +10,18 @@
 
 static void store_double(const struct gm_parameter *row, void *owner, double value)
 {
-    char *place = (char *)owner + row->offset;
+    void *place = (char *)owner + row->offset;
     switch (row->type) {
     case GM_REAL:
-        memcpy(place, &value, sizeof value);
+        *(double *)place = value;
         break;
-    case GM_INTEGER: {
-        long whole = (long)value;
-        memcpy(place, &whole, sizeof whole);
+    case GM_INTEGER:
+        *(long *)place = (long)value;
         break;
-    }
     case GM_CHOICE:
-    case GM_BOOLEAN: {
-        int index = (int)value;
-        memcpy(place, &index, sizeof index);
+    case GM_BOOLEAN:
+        *(int *)place = (int)value;
         break;
-    }
     case GM_TEXT:
         break;
     }
@@ -101,30 +97,19 @@ enum gm_parse gm_parameter_put(const struct gm_parameter *row, void *owner, doub
 
 double gm_parameter_get(const struct gm_parameter *row, const void *owner)
 {
-    const char *place = (const char *)owner + row->offset;
-    double value = 0;
+    const void *place = (const char *)owner + row->offset;
     switch (row->type) {
     case GM_REAL:
-        memcpy(&value, place, sizeof value);
-        break;
-    case GM_INTEGER: {
-        long whole = 0;
-        memcpy(&whole, place, sizeof whole);
-        value = (double)whole;
-        break;
-    }
+        return *(const double *)place;
+    case GM_INTEGER:
+        return (double)*(const long *)place;
     case GM_CHOICE:
-    case GM_BOOLEAN: {
-        int index = 0;
-        memcpy(&index, place, sizeof index);
-        value = index;
-        break;
-    }
+    case GM_BOOLEAN:
+        return *(const int *)place;
     case GM_TEXT:
-        value = text_number(place);
-        break;
+        return text_number(place);
     }
-    return value;
+    return NAN;
 }
 
 char *gm_parameter_choices(const struct gm_parameter *row, char *text, size_t size)
