@@ -2,10 +2,8 @@
 /* The options of a line, and texts with values in them. */
 #include "core/model/scope.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/nearest.h"

@@ -3,8 +3,6 @@
 #include "core/model/scope.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"

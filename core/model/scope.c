@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 
