@@ -37,30 +37,25 @@ double gm_operation_value(enum gm_operation operation, double a, double b)
     return NAN;
 }
 
-bool gm_rational_residue(enum gm_operation operation, gm_residue a, gm_residue b, double exponent,
-                         gm_residue *value)
+gm_residue gm_rational_residue(enum gm_operation operation, gm_residue a, gm_residue b, double exponent,
+                               bool *exists)
 {
     const bool reciprocal = operation == GM_OPERATION_WHOLE_POWER && exponent < 0;
+    *exists &= operation == GM_OPERATION_DIVIDE ? b != 0 : !reciprocal || a != 0;
     switch (operation) {
     case GM_OPERATION_ADD:
-        *value = gm_residue_plus(a, b);
-        break;
+        return gm_residue_plus(a, b);
     case GM_OPERATION_SUBTRACT:
-        *value = gm_residue_plus(a, gm_residue_minus(b));
-        break;
+        return gm_residue_plus(a, gm_residue_minus(b));
     case GM_OPERATION_MULTIPLY:
-        *value = gm_residue_times(a, b);
-        break;
+        return gm_residue_times(a, b);
     case GM_OPERATION_DIVIDE:
-        *value = gm_residue_times(a, gm_residue_inverse(b));
-        return b != 0;
+        return gm_residue_times(a, gm_residue_inverse(b));
     case GM_OPERATION_NEGATE:
-        *value = gm_residue_minus(a);
-        break;
+        return gm_residue_minus(a);
     default:
-        *value = gm_residue_power(reciprocal ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
+        return gm_residue_power(reciprocal ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
     }
-    return !reciprocal || a != 0;
 }
 
 void gm_formula_open(struct gm_formula *graph)
@@ -244,8 +239,9 @@ static gm_node_id folded(struct gm_formula *graph, enum gm_operation operation, 
     }
     gm_residue of_x, of_y, natural;
     const bool known_x = gm_formula_residue(graph, a, &of_x), known_y = gm_formula_residue(graph, b, &of_y);
-    struct gm_exact_value exact = {.known = known_x && known_y};
-    const bool exists = gm_rational_residue(operation, of_x, of_y, y, &exact.residue);
+    bool exists = true;
+    const struct gm_exact_value exact = {.residue = gm_rational_residue(operation, of_x, of_y, y, &exists),
+                                         .known = known_x && known_y};
     return !exists || (gm_residue_of(value, &natural) == exact.known && natural == exact.residue)
                ? gm_formula_constant(graph, value)
                : exact_constant(graph, value, exact);

@@ -36,9 +36,9 @@ static inline bool gm_is_rational(enum gm_operation operation)
     return (operation > GM_VARIABLE && operation <= GM_OPERATION_NEGATE) ||
            operation == GM_OPERATION_WHOLE_POWER;
 }
-/* The value of such an operation on residues. `exponent` is the value of b. False: a division by 0. */
-bool gm_rational_residue(enum gm_operation operation, uint64_t a, uint64_t b, double exponent,
-                         uint64_t *value);
+/* The value of such an operation on residues. `exponent` is the value of b. A division by 0 sets *exists to false. */
+uint64_t gm_rational_residue(enum gm_operation operation, uint64_t a, uint64_t b, double exponent,
+                             bool *exists);
 
 /* A node's number. Operands have smaller numbers, so that a pass upwards evaluates, and one downwards gathers
    derivatives, without recursion. */
