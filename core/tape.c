@@ -45,7 +45,7 @@ struct group {
     size_t begin, end;
 };
 
-/* The state of a tape's compilation, inside a body of its arena. */
+/* The state of a tape's compilation, inside a body of the tape's arena. */
 struct writing {
     struct gm_arena *arena;
     struct gm_tape *tape;
@@ -74,25 +74,6 @@ struct writing {
     size_t stretch_count, free_count[2];
 };
 static const uint32_t NONE = UINT32_MAX;
-
-enum { FIRST_CAPACITY = 64 };
-
-/* True if an array of `count` elements is full; it begins with FIRST_CAPACITY and doubles. */
-static bool is_full(size_t count)
-{
-    return count == 0 || (count >= FIRST_CAPACITY && (count & (count - 1)) == 0);
-}
-
-/* An array of the tape's arena, or the compilation's, with room for one more. */
-static void *grown(const struct writing *writing, struct gm_arena *arena, void *array, size_t size,
-                   size_t count)
-{
-    if (is_full(count)) {
-        array = gm_arena_resize(arena, array, count > 0 ? 2 * count : FIRST_CAPACITY, size);
-        gm_arena_need(writing->arena, array != NULL);
-    }
-    return array;
-}
 
 /* ---- from nodes to values ---- */
 
@@ -129,7 +110,7 @@ static uint32_t constant(struct writing *writing, double value)
 {
     struct gm_tape *tape = writing->tape;
     tape->constants =
-        grown(writing, tape->arena, tape->constants, sizeof *tape->constants, tape->constant_count);
+        gm_arena_grown(writing->arena, tape->constants, tape->constant_count, sizeof *tape->constants);
     tape->constants[tape->constant_count++] = value;
     return (uint32_t)(tape->inputs + tape->constant_count - 1);
 }
@@ -169,7 +150,7 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
     const size_t first = writing->tape->inputs + writing->tape->constant_count;
     const uint32_t number = (uint32_t)(first + writing->value_count);
     writing->values =
-        grown(writing, writing->arena, writing->values, sizeof *writing->values, writing->value_count);
+        gm_arena_grown(writing->arena, writing->values, writing->value_count, sizeof *writing->values);
     writing->values[writing->value_count++] =
         (struct value){.operation = operation, .number = number, .a = a, .b = b};
     return number;
@@ -234,7 +215,7 @@ static bool is_sum(const struct value *value)
 static void add_term(struct writing *writing, uint32_t number, bool subtracted)
 {
     writing->terms =
-        grown(writing, writing->arena, writing->terms, sizeof *writing->terms, writing->term_count);
+        gm_arena_grown(writing->arena, writing->terms, writing->term_count, sizeof *writing->terms);
     writing->terms[writing->term_count++] = (struct term){number, subtracted};
 }
 
@@ -571,7 +552,7 @@ static void release(struct writing *writing, uint32_t number, uint32_t group)
 static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32_t a, uint32_t b)
 {
     struct gm_tape *tape = writing->tape;
-    tape->code = grown(writing, tape->arena, tape->code, sizeof *tape->code, tape->length);
+    tape->code = gm_arena_grown(writing->arena, tape->code, tape->length, sizeof *tape->code);
     const struct gm_instruction *before =
         tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
     const bool near = before && before->operation < GM_REPEATED;
@@ -588,7 +569,7 @@ static uint32_t register_of(const struct writing *writing, const struct value *v
 static void put_in_list(struct writing *writing, uint32_t entry)
 {
     struct gm_tape *tape = writing->tape;
-    tape->lists = grown(writing, tape->arena, tape->lists, sizeof *tape->lists, writing->list_count);
+    tape->lists = gm_arena_grown(writing->arena, tape->lists, writing->list_count, sizeof *tape->lists);
     tape->lists[writing->list_count++] = entry;
 }
 
@@ -612,7 +593,8 @@ static struct gm_operands operands_of(struct writing *writing, const struct valu
 static void put_repeated(struct writing *writing, const struct gm_repeated *batch)
 {
     struct gm_tape *tape = writing->tape;
-    tape->batches = grown(writing, tape->arena, tape->batches, sizeof *tape->batches, writing->batch_count);
+    tape->batches =
+        gm_arena_grown(writing->arena, tape->batches, writing->batch_count, sizeof *tape->batches);
     /* registers 0: they are read before anybody looks at the operation */
     put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
     tape->batches[writing->batch_count++] = *batch;
@@ -693,7 +675,7 @@ static void put_sums(struct writing *writing, const struct value *values, size_t
             done[takes ? k : 0] += takes;
         }
     }
-    tape->sums = grown(writing, tape->arena, tape->sums, sizeof *tape->sums, writing->sums_count);
+    tape->sums = gm_arena_grown(writing->arena, tape->sums, writing->sums_count, sizeof *tape->sums);
     put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
     tape->sums[writing->sums_count++] = sums;
 }
@@ -790,7 +772,12 @@ static void compile(struct gm_arena *arena, void *data)
 {
     struct writing *writing = data;
     struct gm_tape *tape = writing->tape;
-    gm_arena_need(arena, tape->arena != NULL);
+    tape->code = gm_arena_take(arena, 1, sizeof *tape->code);
+    tape->batches = gm_arena_take(arena, 1, sizeof *tape->batches);
+    tape->sums = gm_arena_take(arena, 1, sizeof *tape->sums);
+    tape->lists = gm_arena_take(arena, 1, sizeof *tape->lists);
+    tape->constants = gm_arena_take(arena, 1, sizeof *tape->constants);
+    const size_t mark = gm_arena_mark(arena); /* what follows is scratch */
     writing->parts = gm_arena_keep(
         arena, gm_formula_parts_of(writing->graph, writing->nodes, tape->outputs, &writing->part_count),
         free);
@@ -818,6 +805,7 @@ static void compile(struct gm_arena *arena, void *data)
     writing->stretches = gm_arena_take(arena, all, sizeof *writing->stretches);
     write_code(writing);
     tape->rolled = writing->rolled;
+    gm_arena_release(arena, mark);
 }
 
 /* Opens code, in rows if it has writing.least_rolled values or more, most of which share a group. */
@@ -826,10 +814,8 @@ static bool open_code(struct gm_tape *tape, struct writing writing, size_t outpu
     *tape = (struct gm_tape){
         .inputs = inputs, .outputs = outputs, .first_used = inputs, .arena = gm_arena_open()};
     writing.tape = tape;
-    writing.arena = gm_arena_open();
-    const bool good = gm_arena_run(writing.arena, compile, &writing);
-    gm_arena_close(writing.arena);
-    return good;
+    writing.arena = tape->arena;
+    return gm_arena_run(tape->arena, compile, &writing);
 }
 
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,

@@ -22,8 +22,8 @@ static const struct gm_system_variable unsaid = {.value = NAN,
 static struct gm_system_variable *add_variable(struct gm_reading *reading, const struct gm_entry *entry)
 {
     struct gm_user_system *system = reading->system;
-    gm_reading_reserve(reading, (void **)&system->variables, system->variable_count,
-                       sizeof *system->variables);
+    system->variables =
+        gm_arena_grown(system->arena, system->variables, system->variable_count, sizeof *system->variables);
     struct gm_system_variable *variable = &system->variables[system->variable_count++];
     *variable = unsaid;
     variable->name = entry->indexed ? gm_arena_print(system->arena, "%.*s[%ld]", (int)entry->length,
@@ -585,7 +585,8 @@ static void add_forms(struct gm_reading *reading, enum gm_system_word word)
     struct gm_user_system *system = reading->system;
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
         const struct gm_form_declared form = form_of(reading, piece, word, &name);
-        gm_reading_reserve(reading, (void **)&system->forms, reading->component_count, sizeof *system->forms);
+        system->forms =
+            gm_arena_grown(system->arena, system->forms, reading->component_count, sizeof *system->forms);
         system->forms[reading->component_count] = form;
         const struct gm_target target = gm_reading_target(reading, &name);
         add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
@@ -710,8 +711,8 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
 {
     const struct gm_user_system *system = reading->system;
     struct gm_span left, argument;
-    gm_reading_reserve(reading, (void **)&reading->definitions, reading->definition_count,
-                       sizeof *reading->definitions);
+    reading->definitions = gm_arena_grown(reading->system->arena, reading->definitions,
+                                          reading->definition_count, sizeof *reading->definitions);
     const struct gm_target target = gm_reading_target(reading, &rest);
     gm_span_take(reading->text, &rest, "=", &left);
     struct gm_definition *definition = &reading->definitions[reading->definition_count];

@@ -15,7 +15,7 @@ struct gm_system_item *gm_reading_item(struct gm_reading *reading, const struct 
                                        struct gm_span name)
 {
     struct gm_user_system *system = reading->system;
-    gm_reading_reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items);
+    system->items = gm_arena_grown(system->arena, system->items, system->item_count, sizeof *system->items);
     struct gm_system_item *item = &system->items[system->item_count++];
     *item = (struct gm_system_item){.word = (enum gm_system_word)line->word,
                                     .place = line->value.begin,

@@ -45,13 +45,6 @@ static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS
                                       "a room", gm_system_words, GM_WORDS,
                                       "; geomint list office --source prints a room with its lines", ROOM};
 
-void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
-{
-    if ((count & (count - 1)) == 0) {
-        *array = gm_arena_resize(reading->system->arena, *array, count ? 2 * count : 1, size);
-    }
-}
-
 void gm_reading_refuse_second(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
     reading->system->fault->earlier = first->place;
@@ -408,7 +401,7 @@ static bool is_part(void *data, const struct gm_name *called, const struct gm_na
     }
     if (i == system->boundary_count) {
         name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
-        gm_reading_reserve(data, (void **)&system->boundaries, i, sizeof *system->boundaries);
+        system->boundaries = gm_arena_grown(system->arena, system->boundaries, i, sizeof *system->boundaries);
         system->boundaries[system->boundary_count++] = name;
     }
     *node = gm_formula_constant(&system->graph, (double)i);
@@ -491,7 +484,7 @@ void gm_reading_define(struct gm_reading *reading, uint32_t number)
 {
     uint32_t *stack = NULL;
     size_t depth = 0;
-    gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
+    stack = gm_arena_grown(reading->system->arena, stack, depth, sizeof *stack);
     stack[depth++] = number;
     while (depth > 0) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
@@ -507,7 +500,7 @@ void gm_reading_define(struct gm_reading *reading, uint32_t number)
             depth--;
         } else {
             refuse_circle(reading, stack, depth);
-            gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
+            stack = gm_arena_grown(reading->system->arena, stack, depth, sizeof *stack);
             stack[depth++] = reading->wanted;
         }
     }

@@ -78,10 +78,6 @@ static inline bool gm_reading_has_solution(const struct gm_reading *reading)
     return reading->system->kind <= GM_POISSON;
 }
 
-/* Reserves room, in the system's memory, for one more element of an array of `count`, which doubles when
-   full. */
-void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
-
 /* Reads the lines that hold for the chosen words. */
 void gm_reading_lines(struct gm_reading *reading);
 /* The first line that has the word; NULL: none. */

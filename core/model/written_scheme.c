@@ -336,10 +336,7 @@ static gm_node_id decimal(void *data, const char *text, size_t length, double va
     fail_if(reading, whole && length > GM_BALL_DIGITS, (size_t)(text - reading->text),
             "a whole number has at most %d digits", GM_BALL_DIGITS);
     const size_t count = reading->decimal_count;
-    if ((count & (count - 1)) == 0) {
-        reading->decimals = gm_arena_resize(reading->arena, reading->decimals, count ? 2 * count : 1,
-                                            sizeof *reading->decimals);
-    }
+    reading->decimals = gm_arena_grown(reading->arena, reading->decimals, count, sizeof *reading->decimals);
     reading->decimals[count] = known_decimal(reading, text, length, value);
     reading->decimal_count++;
     return gm_formula_variable(&reading->graph, count);
