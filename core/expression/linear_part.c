@@ -122,13 +122,13 @@ struct pfaffians {
     struct gm_formula *graph;
     const gm_node_id *matrix;
     size_t n, count;
+    bool full; /* there are too many: values have no meaning */
     struct pfaffian {
         uint64_t set;
         gm_node_id value;
     } list[MOST];
 };
 
-/* GM_NO_NODE if there are too many. */
 static gm_node_id pfaffian_of(struct pfaffians *known, uint64_t set)
 {
     struct gm_formula *graph = known->graph;
@@ -141,22 +141,18 @@ static gm_node_id pfaffian_of(struct pfaffians *known, uint64_t set)
     const uint64_t others = set & (set - 1);
     gm_node_id sum = gm_formula_constant(graph, set == 0);
     bool negative = false;
-    for (uint64_t left = others; left; left &= left - 1, negative = !negative) {
+    for (uint64_t left = others; left && !known->full; left &= left - 1, negative = !negative) {
         const gm_node_id entry = known->matrix[first * known->n + (size_t)__builtin_ctzll(left)];
         if (gm_is_constant(graph, entry, 0)) {
             continue;
         }
-        const gm_node_id minor = pfaffian_of(known, others & ~(left & -left));
-        if (minor == GM_NO_NODE) {
-            return minor;
-        }
-        const gm_node_id term = gm_product(graph, entry, minor);
+        const gm_node_id term = gm_product(graph, entry, pfaffian_of(known, others & ~(left & -left)));
         sum = negative ? gm_difference(graph, sum, term) : gm_sum(graph, sum, term);
     }
-    if (known->count == MOST) {
-        return GM_NO_NODE;
+    known->full |= known->count == MOST;
+    if (!known->full) {
+        known->list[known->count++] = (struct pfaffian){set, sum};
     }
-    known->list[known->count++] = (struct pfaffian){set, sum};
     return sum;
 }
 
@@ -171,22 +167,19 @@ bool gm_skew_inverse(struct gm_formula *graph, const gm_node_id *matrix, size_t 
     }
     *known = (struct pfaffians){.graph = graph, .matrix = matrix, .n = n};
     *pfaffian = pfaffian_of(known, all);
-    bool good = *pfaffian != GM_NO_NODE;
     const gm_node_id one = gm_formula_constant(graph, 1),
-                     factor = good ? gm_simplified(graph, GM_OPERATION_DIVIDE, one, *pfaffian) : one;
+                     factor = gm_simplified(graph, GM_OPERATION_DIVIDE, one, *pfaffian);
     for (size_t i = 0; i < n; i++) {
         inverse[i * n + i] = gm_formula_constant(graph, 0);
-        for (size_t j = i + 1; j < n && good; j++) {
-            const gm_node_id minor = pfaffian_of(known, all & ~((uint64_t)1 << i | (uint64_t)1 << j));
-            good = minor != GM_NO_NODE;
-            if (good) {
-                const bool odd = (i + j) % 2 == 1;
-                const gm_node_id entry = gm_product(graph, minor, factor), minus = gm_negative(graph, entry);
-                inverse[i * n + j] = odd ? minus : entry;
-                inverse[j * n + i] = odd ? entry : minus;
-            }
+        for (size_t j = i + 1; j < n && !known->full; j++) {
+            const gm_node_id minor = pfaffian_of(known, all & ~((uint64_t)1 << i | (uint64_t)1 << j)),
+                             entry = gm_product(graph, minor, factor), minus = gm_negative(graph, entry);
+            const bool odd = (i + j) % 2 == 1;
+            inverse[i * n + j] = odd ? minus : entry;
+            inverse[j * n + i] = odd ? entry : minus;
         }
     }
+    const bool whole = !known->full && !graph->failed;
     free(known);
-    return good && !graph->failed;
+    return whole;
 }

@@ -611,16 +611,20 @@ static gm_node_id expanded(struct tidying *tidying, struct product *product)
     }
     struct sum sum = {.count = 0}, all = {.count = 0};
     tidying->visited = 0;
-    bool good = add(tidying, &sum, product->factors[at].base, false);
+    if (!add(tidying, &sum, product->factors[at].base, false)) {
+        return GM_NO_NODE;
+    }
     product->factors[at].halves = 0;
-    for (size_t i = 0; good && i < sum.count; i++) {
+    for (size_t i = 0; i < sum.count; i++) {
         struct product term = *product;
         tidying->visited = 0;
-        good = multiply(tidying, &term, sum.terms[i].node, 2);
-        const gm_node_id node = good ? written_product(tidying, &term) : GM_NO_NODE;
-        good = node != GM_NO_NODE && add(tidying, &all, node, sum.terms[i].minus);
+        const gm_node_id node =
+            multiply(tidying, &term, sum.terms[i].node, 2) ? written_product(tidying, &term) : GM_NO_NODE;
+        if (node == GM_NO_NODE || !add(tidying, &all, node, sum.terms[i].minus)) {
+            return GM_NO_NODE;
+        }
     }
-    return good ? written_sum(tidying, &all) : GM_NO_NODE;
+    return written_sum(tidying, &all);
 }
 
 /* Tidies a node whose operands are tidy. */
@@ -646,8 +650,8 @@ gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const st
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
     gm_node_id *tidied = malloc((node + (size_t)1) * sizeof *tidied); /* [node], set for parts alone */
-    const bool good = parts && tidied;
-    for (size_t k = 0; good && k < count && !graph->failed; k++) {
+    graph->failed |= !parts || !tidied;
+    for (size_t k = 0; k < count && !graph->failed; k++) {
         const gm_node_id part = parts[k];
         const struct gm_node here = graph->nodes[part];
         tidied[part] = part;
@@ -656,7 +660,7 @@ gm_node_id gm_formula_tidied(struct gm_formula *graph, gm_node_id node, const st
             tidied[part] = tidy(&tidying, apply(&tidying, here.operation, tidied[here.a], second));
         }
     }
-    node = good && !graph->failed ? tidied[node] : GM_NO_NODE;
+    node = graph->failed ? GM_NO_NODE : tidied[node];
     free(parts);
     free(tidied);
     return node;
