@@ -465,18 +465,14 @@ static void read_view(struct gm_reading *reading, const struct gm_read_line *lin
 {
     const struct gm_user_system *system = reading->system;
     struct gm_system_item *item = gm_reading_item(reading, line, nameless);
-    struct gm_span rest = line->value, piece;
-    const size_t wanted = line->word == GM_WORD_ROD ? 2 : 1;
-    size_t ends = 0, dimensions = 0;
-    bool equal = true;
-    while (ends < wanted && gm_span_take(reading->text, &rest, ";", &piece)) {
-        const size_t before = item->count;
-        gm_item_add_formulas(reading, item, piece);
-        equal = equal && (ends == 0 || item->count - before == dimensions);
-        dimensions = item->count - before;
-        ends++;
+    struct gm_span rest = line->value;
+    const size_t ends = line->word == GM_WORD_ROD ? 2 : 1;
+    gm_item_add_formulas(reading, item, take_piece(reading, &rest));
+    const size_t dimensions = item->count;
+    if (ends == 2) {
+        gm_item_add_formulas(reading, item, take_piece(reading, &rest));
     }
-    gm_system_refuse_if(system, !equal || dimensions < 2 || dimensions > 3 || ends < wanted,
+    gm_system_refuse_if(system, item->count != ends * dimensions || dimensions < 2 || dimensions > 3,
                         line->value.begin,
                         line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
                                                   : "a body has two or three coordinates: x, y");
