@@ -244,7 +244,45 @@ static void write_constant(const struct writer *writer, double value)
     }
 }
 
-static void write_name(FILE *out, const char *name);
+/* Writes a word of a name: a letter, a Greek one, one letter repeated as in derivatives, or upright. */
+static void write_word(FILE *out, const char *word, size_t length)
+{
+    static const char greek[] =
+        " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma "
+        "tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega ";
+    char wanted[16];
+    size_t same = 1;
+    while (same < length && word[same] == word[0]) {
+        same++;
+    }
+    if (length < 12) {
+        snprintf(wanted, sizeof wanted, " %.*s ", (int)length, word);
+    }
+    if (length > 1 && length < 12 && strstr(greek, wanted)) {
+        fprintf(out, "\\%.*s", (int)length, word);
+    } else {
+        fprintf(out, same < length && gm_is_letter(word[0]) ? "\\mathrm{%.*s}" : "%.*s", (int)length, word);
+    }
+}
+
+static void write_name(FILE *out, const char *name)
+{
+    size_t length = strcspn(name, "_[");
+    while (length > 1 && name[length - 1] >= '0' && name[length - 1] <= '9') {
+        length--;
+    }
+    write_word(out, name, length);
+    const char *rest = name + length;
+    fputs(*rest ? "_{" : "", out);
+    for (const char *comma = ""; *rest; comma = ",") {
+        rest += strspn(rest, "_[]");
+        const size_t word = strcspn(rest, "_[]");
+        fputs(word ? comma : "", out);
+        write_word(out, rest, word);
+        rest += word;
+    }
+    fputs(name[length] ? "}" : "", out);
+}
 
 static void write_node(const struct writer *writer, gm_node_id node)
 {
@@ -323,46 +361,6 @@ char *gm_formula_text(const struct gm_formula *graph, gm_node_id node, const str
 char *gm_formula_latex(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
 {
     return text_of(graph, node, naming, true);
-}
-
-/* Writes a word of a name: a letter, a Greek one, one letter repeated as in derivatives, or upright. */
-static void write_word(FILE *out, const char *word, size_t length)
-{
-    static const char greek[] =
-        " alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi rho sigma "
-        "tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega ";
-    char wanted[16];
-    size_t same = 1;
-    while (same < length && word[same] == word[0]) {
-        same++;
-    }
-    if (length < 12) {
-        snprintf(wanted, sizeof wanted, " %.*s ", (int)length, word);
-    }
-    if (length > 1 && length < 12 && strstr(greek, wanted)) {
-        fprintf(out, "\\%.*s", (int)length, word);
-    } else {
-        fprintf(out, same < length && gm_is_letter(word[0]) ? "\\mathrm{%.*s}" : "%.*s", (int)length, word);
-    }
-}
-
-static void write_name(FILE *out, const char *name)
-{
-    size_t length = strcspn(name, "_[");
-    while (length > 1 && name[length - 1] >= '0' && name[length - 1] <= '9') {
-        length--;
-    }
-    write_word(out, name, length);
-    const char *rest = name + length;
-    fputs(*rest ? "_{" : "", out);
-    for (const char *comma = ""; *rest; comma = ",") {
-        rest += strspn(rest, "_[]");
-        const size_t word = strcspn(rest, "_[]");
-        fputs(word ? comma : "", out);
-        write_word(out, rest, word);
-        rest += word;
-    }
-    fputs(name[length] ? "}" : "", out);
 }
 
 char *gm_name_latex(const char *name)

@@ -168,7 +168,24 @@ static bool is_of_room(const struct gm_entry *entry)
             (gm_reading_reserves(entry->name, entry->length) && !gm_span_is(entry->name, name, "show")));
 }
 
-static enum gm_form_operator operator_of(const char *name, size_t length);
+static const struct {
+    const char *name;
+    size_t least, most;
+} form_operators[] = {
+#define GM_FORM_OPERATOR(constant, ...) {__VA_ARGS__},
+#include "core/model/form_operators.def"
+#undef GM_FORM_OPERATOR
+};
+
+/* The operator of that name, or GM_FORM_OPERATORS. */
+static enum gm_form_operator operator_of(const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < GM_FORM_OPERATORS && !gm_span_is(name, (struct gm_span){0, length}, form_operators[i].name)) {
+        i++;
+    }
+    return (enum gm_form_operator)i;
+}
 
 /* Doubles the capacity of entries and of their table. */
 static void grow(struct gm_reading *reading)
@@ -323,25 +340,6 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     }
     const char *why = reading->withheld ? reading->withheld(reading, *node) : NULL;
     return why ? refuse(sentence, "%s", why) : GM_KNOWN;
-}
-
-static const struct {
-    const char *name;
-    size_t least, most;
-} form_operators[] = {
-#define GM_FORM_OPERATOR(constant, ...) {__VA_ARGS__},
-#include "core/model/form_operators.def"
-#undef GM_FORM_OPERATOR
-};
-
-/* The operator of that name, or GM_FORM_OPERATORS. */
-static enum gm_form_operator operator_of(const char *name, size_t length)
-{
-    size_t i = 0;
-    while (i < GM_FORM_OPERATORS && !gm_span_is(name, (struct gm_span){0, length}, form_operators[i].name)) {
-        i++;
-    }
-    return (enum gm_form_operator)i;
 }
 
 static bool is_operator(const void *data, const struct gm_name *name)
