@@ -212,22 +212,6 @@ static bool is_sum(const struct value *value)
     return value->operation == GM_OPERATION_ADD || value->operation == GM_OPERATION_SUBTRACT;
 }
 
-static void add_term(struct writing *writing, uint32_t number, bool subtracted)
-{
-    writing->terms =
-        gm_arena_grown(writing->arena, writing->terms, writing->term_count, sizeof *writing->terms);
-    writing->terms[writing->term_count++] = (struct term){number, subtracted};
-}
-
-static void turn_terms(struct term *terms, size_t count)
-{
-    for (size_t i = 0; i < count / 2; i++) {
-        const struct term other = terms[i];
-        terms[i] = terms[count - 1 - i];
-        terms[count - 1 - i] = other;
-    }
-}
-
 /* The sum that only leads to the one at `at`; that one itself if there is none. */
 static size_t sum_below(const struct value *straight, size_t at, uint32_t fixed, const uint32_t *used)
 {
@@ -244,28 +228,32 @@ static size_t sum_below(const struct value *straight, size_t at, uint32_t fixed,
    formula. used: number of uses of each number. Merged values have no level. */
 static void gather_sum(struct writing *writing, struct value *straight, size_t last, const uint32_t *used)
 {
-    const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
-                   first = (uint32_t)writing->term_count;
-    size_t at = last, length = 1;
-    for (size_t next; (next = sum_below(straight, at, fixed, used)) != at; at = next, length++) {
-        const struct value *value = &straight[at];
-        add_term(writing, value->a == next + fixed ? value->b : value->a,
-                 value->operation == GM_OPERATION_SUBTRACT);
+    const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count);
+    uint32_t length = 1;
+    size_t at, next;
+    for (at = last; (next = sum_below(straight, at, fixed, used)) != at; at = next) {
+        length++;
     }
-    add_term(writing, straight[at].b, straight[at].operation == GM_OPERATION_SUBTRACT);
-    add_term(writing, straight[at].a, false);
     if (length < LEAST_SUM) {
-        writing->term_count = first;
         return;
     }
-    turn_terms(writing->terms + first, length + 1);
-    for (size_t k = last; k != at;) {
-        k = sum_below(straight, k, fixed, used);
-        straight[k].level = NONE;
+    for (uint32_t k = 0; k <= length; k++) {
+        writing->terms =
+            gm_arena_grown(writing->arena, writing->terms, writing->term_count + k, sizeof *writing->terms);
     }
+    struct term *term = writing->terms + writing->term_count + length; /* the last one is met first */
+    for (at = last; (next = sum_below(straight, at, fixed, used)) != at; at = next) {
+        const struct value *value = &straight[at];
+        *term-- = (struct term){value->a == next + fixed ? value->b : value->a,
+                                value->operation == GM_OPERATION_SUBTRACT};
+        straight[next].level = NONE;
+    }
+    term[0] = (struct term){straight[at].b, straight[at].operation == GM_OPERATION_SUBTRACT};
+    term[-1] = (struct term){straight[at].a, false};
     straight[last].operation = GM_SUMMED;
-    straight[last].first_term = first;
-    straight[last].terms = (uint32_t)length + 1;
+    straight[last].first_term = (uint32_t)writing->term_count;
+    straight[last].terms = length + 1;
+    writing->term_count += length + 1;
 }
 
 static void find_sums(struct writing *writing, struct value *straight, uint32_t *used)
