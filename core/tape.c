@@ -61,7 +61,9 @@ struct writing {
     uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
     struct term *terms;
-    uint32_t **powers;    /* of nodes: numbers of the powers [GM_MOST_CHAINED + 1] that are known, else 0 */
+    uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
+    size_t product_count; /* entries in products; its capacity is a power of two, above twice as many */
+    size_t product_capacity;
     struct group *groups; /* groups in the order of the code */
     size_t number_count;  /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
@@ -156,30 +158,61 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
     return number;
 }
 
-/* x^n from x^(n/2), where `powers` are those of x. */
-static uint32_t chained(struct writing *writing, uint32_t *powers, unsigned n)
+/* The place in a table of products for that of a and b: its own, or a free one. */
+static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32_t b)
 {
-    if (n > 1 && powers[n] == 0) {
-        const uint32_t a = chained(writing, powers, n % 2 ? n - 1 : n / 2), b = n % 2 ? powers[1] : a;
-        powers[n] = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
+    const size_t first = writing->tape->inputs + writing->tape->constant_count,
+                 mask = writing->product_capacity - 1;
+    size_t at = ((size_t)a * 0x9e3779b1 ^ (size_t)b * 0x85ebca6b) & mask;
+    while (writing->products[at] > 0 && (writing->values[writing->products[at] - first].a != a ||
+                                         writing->values[writing->products[at] - first].b != b)) {
+        at = (at + 1) & mask;
     }
-    return powers[n];
+    return &writing->products[at];
 }
 
-/* A power as gm_whole_power computes it, without its questions; powers of one node share their products. */
-static uint32_t power_of(struct writing *writing, const struct gm_node *power)
+/* A product within a power: powers of one number share theirs. */
+static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
 {
-    const double n = writing->graph->nodes[power->b].value;
-    uint32_t **powers = &writing->powers[power->a];
-    if (n == 0) {
+    if (2 * (writing->product_count + 1) > writing->product_capacity) {
+        const size_t capacity = writing->product_capacity;
+        const uint32_t *before = writing->products;
+        writing->product_capacity = capacity > 0 ? 2 * capacity : 64;
+        writing->products =
+            gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
+        for (size_t i = 0; i < capacity; i++) {
+            if (before[i] > 0) {
+                const struct value *value =
+                    &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
+                *product_place(writing, value->a, value->b) = before[i];
+            }
+        }
+    }
+    uint32_t *place = product_place(writing, a, b);
+    if (*place == 0) {
+        *place = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
+        writing->product_count++;
+    }
+    return *place;
+}
+
+/* x^n as gm_whole_power computes it, without its questions */
+static uint32_t power_of(struct writing *writing, uint32_t x, double n)
+{
+    const int whole = (int)fabs(n);
+    int bit = GM_MOST_CHAINED;
+    if (whole == 0) {
         return compute_value(writing, GM_VARIABLE, writing->one, writing->one);
     }
-    if (!*powers) {
-        *powers = gm_arena_take(writing->arena, GM_MOST_CHAINED + 1, sizeof **powers);
-        (*powers)[1] = writing->numbers[power->a];
+    while (bit > 1 && !(whole & bit)) {
+        bit /= 2;
     }
-    const uint32_t whole = chained(writing, *powers, (unsigned)fabs(n));
-    return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, whole) : whole;
+    uint32_t power = x;
+    for (bit /= 2; bit > 0; bit /= 2) {
+        power = product_of(writing, power, power);
+        power = whole & bit ? product_of(writing, power, x) : power;
+    }
+    return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, power) : power;
 }
 
 static void find_values(struct writing *writing)
@@ -197,7 +230,7 @@ static void find_values(struct writing *writing)
             tape->first_used = node->a < tape->first_used ? node->a : tape->first_used;
             tape->last_used = node->a >= tape->last_used ? node->a + (size_t)1 : tape->last_used;
         } else if (node->operation == GM_OPERATION_WHOLE_POWER) {
-            writing->numbers[i] = power_of(writing, node);
+            writing->numbers[i] = power_of(writing, numbers[node->a], writing->graph->nodes[node->b].value);
         } else {
             writing->numbers[i] =
                 compute_value(writing, node->operation, numbers[node->a], numbers[second_operand(node)]);
@@ -773,7 +806,6 @@ static void compile(struct gm_arena *arena, void *data)
     writing->numbers = gm_arena_take(arena, capacity, sizeof *writing->numbers);
     writing->folded = gm_arena_take(arena, capacity, sizeof *writing->folded);
     writing->dependent = gm_arena_take(arena, capacity, sizeof *writing->dependent);
-    writing->powers = gm_arena_take(arena, capacity, sizeof *writing->powers);
     fold(writing);
     find_constants(writing);
     find_values(writing);
