@@ -61,11 +61,10 @@ struct writing {
     uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
     struct term *terms;
-    uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
-    size_t product_count; /* entries in products; its capacity is a power of two, above twice as many */
-    size_t product_capacity;
-    struct group *groups; /* groups in the order of the code */
-    size_t number_count;  /* number of values as found: numbers are below it */
+    uint32_t *products;      /* hash table of the numbers of products in powers; 0: a free place */
+    size_t product_capacity; /* a power of two, above twice as many */
+    struct group *groups;    /* groups in the order of the code */
+    size_t number_count;     /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t least_rolled; /* values; shorter code keeps the formula's order */
     bool rolled;
@@ -126,19 +125,28 @@ static void need(struct writing *writing, gm_node_id i)
 
 static void find_constants(struct writing *writing)
 {
+    enum { MOST_PRODUCTS = 8 }; /* of a power */
     bool inverts = false;
+    size_t powers = 0;
     for (size_t k = 0; k < writing->part_count; k++) {
         const struct gm_node *node = &writing->graph->nodes[writing->parts[k]];
         if (writing->dependent[writing->parts[k]] && node->operation > GM_VARIABLE) {
             need(writing, node->a);
             need(writing, second_operand(node));
-            inverts |=
-                node->operation == GM_OPERATION_WHOLE_POWER && writing->graph->nodes[node->b].value <= 0;
+            if (node->operation == GM_OPERATION_WHOLE_POWER) {
+                powers++;
+                inverts |= writing->graph->nodes[node->b].value <= 0;
+            }
         }
     }
     for (size_t k = 0; k < writing->tape->outputs; k++) {
         need(writing, writing->nodes[k]);
     }
+    writing->product_capacity = 1;
+    while (writing->product_capacity < 2 * MOST_PRODUCTS * powers) {
+        writing->product_capacity *= 2;
+    }
+    writing->products = gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
     writing->one = inverts ? constant(writing, 1) : NONE;
     writing->zero = NONE;
     if (writing->part_count >= writing->least_rolled) {
@@ -174,24 +182,9 @@ static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32
 /* A product within a power: powers of one number share theirs. */
 static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
 {
-    if (2 * (writing->product_count + 1) > writing->product_capacity) {
-        const size_t capacity = writing->product_capacity;
-        const uint32_t *before = writing->products;
-        writing->product_capacity = capacity > 0 ? 2 * capacity : 64;
-        writing->products =
-            gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
-        for (size_t i = 0; i < capacity; i++) {
-            if (before[i] > 0) {
-                const struct value *value =
-                    &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
-                *product_place(writing, value->a, value->b) = before[i];
-            }
-        }
-    }
     uint32_t *place = product_place(writing, a, b);
     if (*place == 0) {
         *place = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
-        writing->product_count++;
     }
     return *place;
 }
