@@ -68,6 +68,14 @@ void gm_tape_close(struct gm_tape *tape);
 /* Leaves the body of an arena if the tape was not opened, else lets the arena close it. */
 void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
+/* The Jacobian matrix d nodes[row] / d variable; of the components of a gradient, the Hessian. Inside a body of the
+   arena, which holds the entries. */
+struct gm_sparse gm_sparse_jacobian(struct gm_arena *arena, struct gm_formula *graph, const gm_node_id *nodes,
+                                    size_t rows, const bool *marked, size_t variables);
+/* Returns `count` nodes, followed by those of a matrix. */
+gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
+                            const struct gm_sparse *jacobian);
+
 /* Goes through the operations one by one, those that are repeated and the terms of sums as well: false at the
    end. `at` is {0} at first. */
 struct gm_tape_place {

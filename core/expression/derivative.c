@@ -148,38 +148,3 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
     free(adjoint);
     return !graph->failed;
 }
-
-struct gm_sparse gm_sparse_jacobian(struct gm_arena *arena, struct gm_formula *graph, const gm_node_id *nodes,
-                                    size_t rows, const bool *marked, size_t variables)
-{
-    size_t capacity = 64;
-    struct gm_sparse jacobian = {.entries = gm_arena_take(arena, capacity, sizeof *jacobian.entries)};
-    const size_t mark = gm_arena_mark(arena);
-    gm_node_id *gradient = gm_arena_take(arena, variables, sizeof *gradient);
-    for (size_t row = 0; row < rows; row++) {
-        gm_arena_need(arena, gm_gradient(graph, nodes[row], marked, variables, gradient));
-        for (size_t column = 0; column < variables; column++) {
-            if (gm_is_constant(graph, gradient[column], 0)) {
-                continue;
-            }
-            if (jacobian.count == capacity) {
-                capacity *= 2;
-                jacobian.entries =
-                    gm_arena_resize(arena, jacobian.entries, capacity, sizeof *jacobian.entries);
-            }
-            jacobian.entries[jacobian.count++] = (struct gm_sparse_entry){row, column, gradient[column]};
-        }
-    }
-    gm_arena_release(arena, mark);
-    return jacobian;
-}
-
-gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
-                            const struct gm_sparse *jacobian)
-{
-    gm_node_id *nodes = gm_arena_take(arena, count + jacobian->count + 1, sizeof *nodes);
-    for (size_t i = 0; i < count + jacobian->count; i++) {
-        nodes[i] = i < count ? before[i] : jacobian->entries[i - count].node;
-    }
-    return nodes;
-}

@@ -4,7 +4,6 @@
 #ifndef GM_CORE_EXPRESSION_DERIVATIVE_H
 #define GM_CORE_EXPRESSION_DERIVATIVE_H
 
-#include "core/arena.h"
 #include "core/expression/graph.h"
 
 /* All functions return false, or GM_NO_NODE, when out of memory (graph->failed is set, or an array is
@@ -27,12 +26,4 @@ struct gm_sparse {
     } * entries;
     size_t count;
 };
-/* The Jacobian matrix d nodes[row] / d variable; of the components of a gradient, the Hessian. Inside a body of the
-   arena, which holds the entries. */
-struct gm_sparse gm_sparse_jacobian(struct gm_arena *arena, struct gm_formula *graph, const gm_node_id *nodes,
-                                    size_t rows, const bool *marked, size_t variables);
-/* Returns `count` nodes, followed by those of a matrix. */
-gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
-                            const struct gm_sparse *jacobian);
-
 #endif

@@ -6,8 +6,8 @@
 #include "core/arena.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
-#include "core/expression/lines.h"
 #include "core/expression/writer.h"
+#include "core/model/choices.h"
 
 enum gm_system_kind {
     GM_CANONICAL,  /* coordinates, then their momenta; H */

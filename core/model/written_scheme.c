@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
+#include "core/model/choices.h"
 
 enum {
     ONE_TABLEAU = 1 << GM_WRITTEN_RUNGE_KUTTA | 1 << GM_WRITTEN_EXPLICIT,

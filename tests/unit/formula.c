@@ -18,6 +18,7 @@
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"
 #include "core/expression/writer.h"
+#include "core/tape.h"
 #include "tests/common/random_formula.h"
 #include "tests/common/reference.h"
 
