@@ -405,11 +405,14 @@ static bool pair_components(struct gm_reading *reading, size_t *order)
         struct gm_span rest = reading->lines[i].value, piece;
         while (reading->lines[i].word == GM_WORD_RATE && gm_span_take(reading->text, &rest, ",", &piece)) {
             const size_t equals = gm_span_until(reading->text, piece, "=");
+            if (equals == piece.end) { /* it is refused when it is read */
+                return false;
+            }
             const size_t x = component_named(reading, (struct gm_span){piece.begin, equals}),
                          v = component_named(reading, (struct gm_span){equals + 1, piece.end});
             const bool damped =
                 n == 2 && v == SIZE_MAX && names(reading, (struct gm_span){equals + 1, piece.end}, x);
-            if (equals == piece.end || x == SIZE_MAX || damped) {
+            if (x == SIZE_MAX || damped) {
                 return false;
             }
             if (v != SIZE_MAX) {
