@@ -238,7 +238,7 @@ static bool is_sum(const struct value *value)
     return value->operation == GM_OPERATION_ADD || value->operation == GM_OPERATION_SUBTRACT;
 }
 
-/* The sum that only leads to the one at `at`; that one itself if there is none. */
+/* The sum that only leads to the one at `at`; without such a sum `at` itself. */
 static size_t sum_below(const struct value *straight, size_t at, uint32_t fixed, const uint32_t *used)
 {
     const uint32_t operands[] = {straight[at].a, straight[at].b};

@@ -50,7 +50,7 @@ struct gm_reading {
         bool fixed;               /* parameters are constants in formulas */
         bool exact;               /* exact(NAME) has a meaning */
         struct gm_index repeated; /* the index of a repeated line; without letters: none */
-        struct gm_index element;  /* that of an assignment to all elements of a list; without letters: none */
+        struct gm_index element;  /* the index of all elements of an assigned list; without letters: none */
     } context;
     bool structural;       /* the graph depends on values of parameters */
     bool without_tangents; /* the motion alone is read */
